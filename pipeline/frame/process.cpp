@@ -1,0 +1,59 @@
+#include "pipeline/frame/process.h"
+
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <string_view>
+
+namespace mammotwin {
+namespace {
+
+namespace fs = std::filesystem;
+constexpr char kPrepared[] = "MAMMOTWIN_PREPARED";
+
+/// OpenBLAS 0.3.21 does not know recent Intel cores and then uses its slowest kernels, so the
+/// choice is made from the processor's features.
+const char* openblas_core() {
+#if defined(__x86_64__)
+  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+      __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512bw"))
+    return "SkylakeX";
+  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) return "Haswell";
+#endif
+  return nullptr;
+}
+
+bool names_a_path(std::string_view argument) {
+  return argument.find('/') != std::string_view::npos && argument.front() != '-';
+}
+
+}  // namespace
+
+void prepare_process(char** argv) {
+  if (std::getenv(kPrepared)) return;
+  setenv(kPrepared, "1", 1);
+  setenv("OPENBLAS_NUM_THREADS", "1", 1);
+  if (const char* core = openblas_core()) setenv("OPENBLAS_CORETYPE", core, 0);
+  execv("/proc/self/exe", argv);  // returns only on failure: then go on with slower kernels
+}
+
+double peak_memory_mb() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return usage.ru_maxrss / 1024.0;  // ru_maxrss is in KiB on Linux
+}
+
+std::string command_text(int argc, char** argv, const fs::path& folder) {
+  const fs::path base = fs::weakly_canonical(folder);
+  std::string text = fs::path(argv[0]).filename().string();
+  for (int i = 1; i < argc; ++i) {
+    const std::string argument = argv[i];
+    text += " " + (names_a_path(argument)
+                       ? fs::weakly_canonical(argument).lexically_relative(base).string()
+                       : argument);
+  }
+  return text;
+}
+
+}  // namespace mammotwin

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace mammotwin {
+
+/// Files that appear together or not at all: each is written under a temporary name in its own
+/// folder and renamed by `commit`. What is not committed is removed when this goes out of scope.
+class Products {
+ public:
+  /// Creates the folder of `main_product`. Throws std::runtime_error if it cannot be written.
+  explicit Products(std::filesystem::path main_product);
+  ~Products();
+  Products(const Products&) = delete;
+  Products& operator=(const Products&) = delete;
+
+  /// Temporary path for a file that will be called `name` beside the main product.
+  std::filesystem::path write(const std::string& name);
+  std::filesystem::path write_main() { return write(main_.filename().string()); }
+
+  std::filesystem::path folder() const;
+  std::vector<std::string> names() const;
+
+  /// Renames all, the main product last. Throws std::runtime_error on failure.
+  void commit();
+
+ private:
+  std::filesystem::path main_;
+  std::vector<std::pair<std::string, std::filesystem::path>> pending_;
+};
+
+/// Writes text under a temporary name, flushes it to disk and renames it to `path`.
+void write_text_atomically(const std::filesystem::path& path, const std::string& text);
+
+}  // namespace mammotwin

@@ -1,0 +1,134 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <filesystem>
+#include <functional>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace mammotwin {
+
+/// What a number may be, in which unit; `hint` ends the message when it is not.
+struct Range {
+  double low = -std::numeric_limits<double>::infinity();
+  double high = std::numeric_limits<double>::infinity();
+  std::string unit = "-";
+  std::string hint = {};
+};
+
+/// A setting's value does not fit its type or range.
+class BadSetting : public std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// One named setting, bound to a variable of an options struct.
+struct Setting {
+  std::string key;   ///< as in patient.toml, dotted: "views.cc.thickness_mm"
+  std::string type;  ///< "number", "integer", "true or false", "text", "path", "a | b", "[x, y, z]"
+  Range range;
+  std::string help;
+  std::function<void(const nlohmann::json&)> assign;  ///< throws BadSetting without the key's name
+  std::function<nlohmann::json()> value;              ///< null where an optional one is not set
+
+  bool starts_with(const std::string& prefix) const { return key.rfind(prefix, 0) == 0; }
+  std::string range_text() const;
+};
+
+/// The table of all settings: declared once, it reads patient.toml, the command line, writes the
+/// help and the parameters of a sidecar. Defaults are the bound variables' values when declared.
+class Settings {
+ public:
+  void number(std::string key, double& variable, Range range, std::string help);
+  void number(std::string key, std::optional<double>& variable, Range range, std::string help);
+  void integer(std::string key, int& variable, Range range, std::string help);
+  void integer(std::string key, std::optional<int>& variable, Range range, std::string help);
+  void flag(std::string key, bool& variable, std::string help);
+  void text(std::string key, std::optional<std::string>& variable, std::string help);
+  void path(std::string key, std::optional<std::filesystem::path>& variable, std::string help);
+  void point(std::string key, std::optional<Eigen::Vector3d>& variable, Range range,
+             std::string help);
+  void numbers(std::string key, std::optional<Eigen::Vector2d>& variable, Range range,
+               std::string help);
+  void integers(std::string key, Eigen::Vector3i& variable, Range range, std::string help);
+  void label_values(std::string key, std::vector<int>& variable, std::string help);
+
+  template <class E>
+  void choice(std::string key, E& variable, std::vector<std::pair<std::string, E>> names,
+              std::string help);
+  template <class E>
+  void choice(std::string key, std::optional<E>& variable,
+              std::vector<std::pair<std::string, E>> names, std::string help);
+
+  const std::vector<Setting>& all() const { return settings_; }
+  const Setting* find(const std::string& key) const;
+  std::vector<std::string> keys() const;
+
+  /// Throws BadSetting: "<where>: <key> is <found>; expected <type and range> (<hint>)".
+  void assign(const std::string& where, const std::string& key, const nlohmann::json& value) const;
+  /// The same from command-line text.
+  void assign_text(const std::string& where, const std::string& key, const std::string& text) const;
+
+  /// {"fit.smoothing": {"value": 1e-8, "unit": "-"}, ...} of the settings under these prefixes.
+  nlohmann::json parameters(const std::vector<std::string>& prefixes) const;
+
+ private:
+  void add(std::string key, std::string type, Range range, std::string help,
+           std::function<void(const nlohmann::json&)> assign,
+           std::function<nlohmann::json()> value);
+  std::vector<Setting> settings_;
+};
+
+namespace detail {
+std::string one_of(const std::vector<std::string>& names);
+std::string text_of(const nlohmann::json& value);
+
+template <class E>
+E chosen(const nlohmann::json& value, const std::vector<std::pair<std::string, E>>& names) {
+  for (const auto& [name, e] : names)
+    if (value == name) return e;
+  std::vector<std::string> known;
+  for (const auto& pair : names) known.push_back(pair.first);
+  throw BadSetting("is " + text_of(value) + "; expected " + one_of(known));
+}
+
+template <class E>
+std::string name_of(E e, const std::vector<std::pair<std::string, E>>& names) {
+  for (const auto& [name, value] : names)
+    if (value == e) return name;
+  throw std::logic_error("a choice has a value without a name");
+}
+
+template <class E>
+std::string type_of(const std::vector<std::pair<std::string, E>>& names) {
+  std::string type;
+  for (const auto& pair : names) type += (type.empty() ? "" : " | ") + pair.first;
+  return type;
+}
+}  // namespace detail
+
+template <class E>
+void Settings::choice(std::string key, E& variable, std::vector<std::pair<std::string, E>> names,
+                      std::string help) {
+  add(
+      std::move(key), detail::type_of(names), Range{}, std::move(help),
+      [&variable, names](const nlohmann::json& v) { variable = detail::chosen(v, names); },
+      [&variable, names] { return nlohmann::json(detail::name_of(variable, names)); });
+}
+
+template <class E>
+void Settings::choice(std::string key, std::optional<E>& variable,
+                      std::vector<std::pair<std::string, E>> names, std::string help) {
+  add(
+      std::move(key), detail::type_of(names), Range{}, std::move(help),
+      [&variable, names](const nlohmann::json& v) { variable = detail::chosen(v, names); },
+      [&variable, names] {
+        return variable ? nlohmann::json(detail::name_of(*variable, names)) : nlohmann::json();
+      });
+}
+
+}  // namespace mammotwin

@@ -1,0 +1,93 @@
+#include "pipeline/frame/sidecar.h"
+
+#include <fstream>
+#include <stdexcept>
+
+#include "pipeline/frame/checksum.h"
+
+namespace mammotwin {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+fs::path folder_of(const fs::path& product) {
+  return product.has_parent_path() ? product.parent_path() : fs::path(".");
+}
+
+std::string relative_to(const fs::path& folder, const fs::path& path) {
+  return fs::weakly_canonical(path)
+      .lexically_relative(fs::weakly_canonical(folder))
+      .generic_string();
+}
+
+json provenance_json(const Provenance& p) {
+  return {{"stage", p.stage},
+          {"version", p.version},
+          {"program_sha256", p.program_sha256},
+          {"parameters", p.parameters},
+          {"inputs", p.inputs}};
+}
+
+bool outputs_are_intact(const json& sidecar, const fs::path& folder) {
+  for (const json& output : sidecar.at("outputs")) {
+    const fs::path path = folder / output.at("path").get<std::string>();
+    if (!fs::exists(path) || sha256_of_path(path) != output.at("sha256")) return false;
+  }
+  return true;
+}
+
+json read_json(const fs::path& path) {
+  std::ifstream in(path);
+  return in ? json::parse(in, nullptr, false) : json();
+}
+
+}  // namespace
+
+Provenance make_provenance(const std::string& stage, const json& parameters,
+                           const std::vector<fs::path>& inputs, const fs::path& product) {
+  Provenance p{stage, MAMMOTWIN_VERSION, sha256_of_path("/proc/self/exe"), parameters,
+               json::array()};
+  for (const fs::path& input : inputs) {
+    if (!fs::exists(input)) throw std::runtime_error(input.string() + ": no such file or folder");
+    p.inputs.push_back(
+        {{"path", relative_to(folder_of(product), input)}, {"sha256", sha256_of_path(input)}});
+  }
+  return p;
+}
+
+fs::path sidecar_path(const fs::path& product) {
+  fs::path path = product;
+  return path += ".json";
+}
+
+std::optional<json> current_sidecar(const fs::path& product, const Provenance& provenance) {
+  const json sidecar = read_json(sidecar_path(product));
+  if (!sidecar.is_object()) return std::nullopt;
+  const std::string status = sidecar.value("status", "");
+  if (status != name_of(Status::ok) && status != name_of(Status::look)) return std::nullopt;
+  const json wanted = provenance_json(provenance);
+  for (const auto& [key, value] : wanted.items())
+    if (!sidecar.contains(key) || sidecar[key] != value) return std::nullopt;
+  if (!sidecar.contains("outputs") || !outputs_are_intact(sidecar, folder_of(product)))
+    return std::nullopt;
+  return sidecar;
+}
+
+json make_sidecar(const fs::path& product, const Provenance& provenance, const Outcome& outcome,
+                  const std::vector<std::string>& outputs, const Usage& usage) {
+  json sidecar = provenance_json(provenance);
+  sidecar["status"] = name_of(outcome.status);
+  sidecar["reasons"] = outcome.reasons;
+  sidecar["quality"] = outcome.quality;
+  sidecar["command"] = usage.command;
+  sidecar["seconds"] = usage.seconds;
+  sidecar["peak_memory_mb"] = usage.peak_memory_mb;
+  sidecar["outputs"] = json::array();
+  for (const std::string& name : outputs)
+    sidecar["outputs"].push_back(
+        {{"path", name}, {"sha256", sha256_of_path(folder_of(product) / name)}});
+  return sidecar;
+}
+
+}  // namespace mammotwin

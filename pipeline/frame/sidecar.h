@@ -1,0 +1,47 @@
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "pipeline/frame/outcome.h"
+
+namespace mammotwin {
+
+/// What decides whether a product is current: which program made it, from which inputs, with which
+/// parameters. Paths are relative to the product's folder.
+struct Provenance {
+  std::string stage;
+  std::string version;
+  std::string program_sha256;
+  nlohmann::json parameters;  ///< key -> {value, unit}
+  nlohmann::json inputs;      ///< list of {path, sha256}
+};
+
+/// Hashes the inputs; throws std::runtime_error naming an input that is missing.
+Provenance make_provenance(const std::string& stage, const nlohmann::json& parameters,
+                           const std::vector<std::filesystem::path>& inputs,
+                           const std::filesystem::path& product);
+
+/// results/P/prone.vtu -> results/P/prone.vtu.json.
+std::filesystem::path sidecar_path(const std::filesystem::path& product);
+
+/// The sidecar of a usable product that this provenance would make again: same program, inputs and
+/// parameters, and every file it wrote still has the checksum it had.
+std::optional<nlohmann::json> current_sidecar(const std::filesystem::path& product,
+                                              const Provenance& provenance);
+
+struct Usage {
+  std::string command;
+  double seconds = 0;
+  double peak_memory_mb = 0;
+};
+
+/// `outputs`: names, beside the product, of all files that were written, as already renamed.
+nlohmann::json make_sidecar(const std::filesystem::path& product, const Provenance& provenance,
+                            const Outcome& outcome, const std::vector<std::string>& outputs,
+                            const Usage& usage);
+
+}  // namespace mammotwin

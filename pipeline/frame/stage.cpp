@@ -1,0 +1,202 @@
+#include "pipeline/frame/stage.h"
+
+#include <algorithm>
+#include <chrono>
+#include <iostream>
+
+#include "pipeline/frame/process.h"
+#include "pipeline/frame/sidecar.h"
+
+namespace mammotwin {
+namespace {
+
+namespace fs = std::filesystem;
+constexpr int kBadData = 1;
+constexpr int kBadUsage = 2;
+
+struct CommandLine {
+  std::optional<fs::path> patient_file;
+  bool force = false;
+};
+
+std::string flag_of(std::string key) {
+  std::replace_if(
+      key.begin(), key.end(), [](char c) { return c == '.' || c == '_'; }, '-');
+  return "--" + key;
+}
+
+void declare_common(CLI::App& app, CommandLine& line) {
+  app.add_option("--patient", line.patient_file, "patient.toml with this patient's settings");
+  app.add_flag("--force", line.force, "run even if the product is current");
+  app.set_version_flag("--version", std::string(MAMMOTWIN_VERSION));
+  app.get_formatter()->column_width(44);
+}
+
+void require_reasons(const Outcome& outcome) {
+  if (outcome.status != Status::ok && outcome.reasons.empty())
+    throw std::logic_error("a stage ended without success and without a reason");
+}
+
+void say_outcome(const Stage& stage, const fs::path& product, const Outcome& outcome,
+                 double seconds) {
+  for (const std::string& reason : outcome.reasons)
+    std::cerr << stage.name << ": " << name_of(outcome.status) << ": " << reason << "\n";
+  if (outcome.usable())
+    std::cerr << stage.name << ": wrote " << product.string() << " in "
+              << minutes_and_seconds(seconds) << "\n";
+}
+
+/// A product never lies beside a sidecar that speaks of another run.
+void remove_stale_product(const fs::path& product) {
+  std::error_code ignored;
+  fs::remove(product, ignored);
+}
+
+struct Attempt {
+  Outcome outcome;
+  Usage usage;
+};
+
+Attempt attempt(const Stage& stage, const Patient& patient, Products& products, int argc,
+                char** argv) {
+  const auto start = std::chrono::steady_clock::now();
+  Attempt a;
+  Progress progress(stage.name);
+  try {
+    StageRun run{patient, products, progress.callback()};
+    a.outcome = stage.run(run);
+    require_reasons(a.outcome);
+  } catch (const std::bad_alloc&) {
+    a.outcome = {Status::refused, {"there is not enough memory for this input"}, {}};
+  } catch (const std::exception& e) {
+    a.outcome = {Status::refused, {e.what()}, nlohmann::json::object()};
+  }
+  progress.finish();
+  a.usage.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  a.usage.peak_memory_mb = peak_memory_mb();
+  a.usage.command = command_text(argc, argv, products.folder());
+  return a;
+}
+
+int run_parsed(const Stage& stage, const fs::path& product, const Patient& patient,
+               const Provenance& provenance, int argc, char** argv) {
+  Products products(product);
+  const Attempt a = attempt(stage, patient, products, argc, argv);
+  std::vector<std::string> written;
+  if (a.outcome.usable()) {
+    written = products.names();
+    products.commit();
+  }
+  const auto sidecar = make_sidecar(product, provenance, a.outcome, written, a.usage);
+  write_text_atomically(sidecar_path(product), sidecar.dump(1) + "\n");
+  if (!a.outcome.usable()) remove_stale_product(product);
+  say_outcome(stage, product, a.outcome, a.usage.seconds);
+  return exit_code(a.outcome.status);
+}
+
+/// A typing error must not cost a finished product: where there is one, only the message is given.
+int refuse_before_running(const Stage& stage, const fs::path& product, const std::string& reason) {
+  std::cerr << stage.name << ": refused: " << reason << "\n";
+  if (fs::exists(product)) return kBadData;
+  try {
+    Products products(product);
+    const Outcome outcome{Status::refused, {reason}, nlohmann::json::object()};
+    const auto provenance = make_provenance(stage.name, nlohmann::json::object(), {}, product);
+    write_text_atomically(sidecar_path(product),
+                          make_sidecar(product, provenance, outcome, {}, {}).dump(1) + "\n");
+  } catch (const std::exception& e) {
+    std::cerr << stage.name << ": " << e.what() << "\n";
+  }
+  return kBadData;
+}
+
+Provenance plan_provenance(const Stage& stage, const StageDeclaration& declaration,
+                           const Patient& patient, const Settings& settings) {
+  const StagePlan plan = stage.plan(patient);
+  std::vector<fs::path> inputs;
+  for (const fs::path* input : declaration.inputs()) inputs.push_back(*input);
+  inputs.insert(inputs.end(), plan.inputs.begin(), plan.inputs.end());
+  nlohmann::json parameters = settings.parameters(plan.setting_prefixes);
+  parameters.update(patient.list_parameters(plan.setting_prefixes));
+  return make_provenance(stage.name, parameters, inputs, declaration.product_path());
+}
+
+}  // namespace
+
+void StageDeclaration::input(const std::string& name, fs::path& variable, const std::string& help) {
+  app_.add_option(name, variable, help)->required();
+  inputs_.push_back(&variable);
+}
+
+void StageDeclaration::product(const std::string& name, fs::path& variable,
+                               const std::string& help) {
+  app_.add_option(name, variable, help)->required();
+  product_ = &variable;
+}
+
+void StageDeclaration::options_from(const std::string& prefix, bool cut_prefix) {
+  for (const Setting& setting : settings_.all()) {
+    if (!setting.starts_with(prefix)) continue;
+    auto given = std::make_shared<Given>();
+    given->key = setting.key;
+    given->flag = flag_of(cut_prefix ? setting.key.substr(prefix.size()) : setting.key);
+    const nlohmann::json value = setting.value();
+    app_.add_option(given->flag, given->text,
+                    setting.help + " [" + setting.range.unit + "; " + setting.range_text() + "]")
+        ->type_name(setting.type)
+        ->default_str(value.is_null()     ? ""
+                      : value.is_string() ? value.get<std::string>()
+                                          : value.dump());
+    options_.push_back(given);
+  }
+}
+
+std::vector<StageDeclaration::Given> StageDeclaration::given() const {
+  std::vector<Given> given;
+  for (const auto& option : options_)
+    if (app_.count(option->flag) > 0) given.push_back(*option);
+  return given;
+}
+
+int run_stage(int argc, char** argv, const Stage& stage) {
+  prepare_process(argv);
+  Patient patient;
+  Settings settings;
+  patient.declare(settings);
+
+  CLI::App app("mammotwin-" + stage.name + ": " + stage.summary);
+  CommandLine line;
+  StageDeclaration declaration(app, settings);
+  stage.declare(declaration);
+  declare_common(app, line);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& e) {
+    return app.exit(e) == 0 ? 0 : kBadUsage;
+  }
+  const fs::path product = declaration.product_path();
+  try {
+    if (line.patient_file) patient.read(*line.patient_file, settings);
+  } catch (const std::exception& e) {
+    return refuse_before_running(stage, product, e.what());
+  }
+  try {
+    for (const auto& given : declaration.given())
+      settings.assign_text(given.flag, given.key, given.text);
+  } catch (const BadSetting& e) {
+    std::cerr << stage.name << ": " << e.what() << "\n";
+    return kBadUsage;
+  }
+  try {
+    const Provenance provenance = plan_provenance(stage, declaration, patient, settings);
+    if (!line.force && current_sidecar(product, provenance)) {
+      std::cerr << stage.name << ": " << product.string() << " is up to date\n";
+      return 0;
+    }
+    return run_parsed(stage, product, patient, provenance, argc, argv);
+  } catch (const std::exception& e) {
+    return refuse_before_running(stage, product, e.what());
+  }
+}
+
+}  // namespace mammotwin

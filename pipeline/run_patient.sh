@@ -1,0 +1,46 @@
+#!/bin/sh
+# run_patient.sh STAGE: takes patient $P through the stages up to STAGE (all of them for "patient").
+# Environment: P (name of the patient's folder), DATA, RESULTS (folders), FORCE (1: run anyway),
+# BIN (folder of the programs).
+set -u
+last=$1
+
+fail() { echo "$*" >&2; exit 2; }
+
+case "${P:-}" in
+  '') fail "name a patient: make $last P=042 (a folder of $DATA)" ;;
+  *[!A-Za-z0-9._-]* | [!A-Za-z0-9]*)
+    fail "P is not a plain name: use letters, digits, '.', '_' and '-', beginning with a letter or digit" ;;
+  evaluation | gel_*) fail "P=$P: that name is kept for the program's own results" ;;
+esac
+toml=$DATA/$P/patient.toml
+[ -f "$toml" ] || fail "$toml: no such file (DATA=$DATA is the folder of patients, P=$P one of them)"
+
+out=$RESULTS/$P
+set -- --patient "$toml"
+[ -z "${FORCE:-}" ] || set -- "$@" --force
+
+segment() { "$BIN/mammotwin-segment" "$out/segmentation.seg.nrrd" "$@"; }
+fit() { "$BIN/mammotwin-fit" "$out/segmentation.seg.nrrd" "$out/fractions.nrrd" "$out/prone.vtu" "$@"; }
+compress() {
+  for view in cc mlo; do
+    "$BIN/mammotwin-compress" "$view" "$out/prone.vtu" "$out/fractions.nrrd" "$out/$view.vtu" "$@" || return
+  done
+}
+register() { "$BIN/mammotwin-register" "$out/segmentation.seg.nrrd" "$out/cc.vtu" "$out/mlo.vtu" "$out/lesions.csv" "$@"; }
+report() { "$BIN/mammotwin-report" "$out" "$out/report.html" "$@"; }
+
+status=0
+for stage in segment fit compress register report; do
+  if [ "$status" -eq 0 ]; then "$stage" "$@" || status=$?; fi
+  [ "$stage" != "$last" ] || exit "$status"
+  if [ "$status" -ne 0 ] && [ "$stage" != report ]; then break; fi
+done
+
+if [ "$status" -ne 0 ]; then
+  report "$@"
+  echo "$P stopped at $stage; what is known is in $out/report.html" >&2
+  exit "$status"
+fi
+echo "Results of $P: $out (open $out/report.html)"
+"$BIN/mammotwin-register" --show "$out/lesions.csv"

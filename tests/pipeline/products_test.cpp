@@ -1,0 +1,57 @@
+#include "pipeline/frame/products.h"
+
+#include "tests/pipeline/scratch_folder.h"
+
+namespace mammotwin {
+namespace {
+
+using ProductsTest = ScratchFolder;
+
+void fill(const std::filesystem::path& path, const std::string& text) {
+  std::ofstream(path) << text;
+}
+
+TEST_F(ProductsTest, AppearOnlyWhenCommitted) {
+  Products products(folder_ / "new" / "prone.vtu");
+  fill(products.write_main(), "mesh");
+  fill(products.write("prone.exf"), "exf");
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "new" / "prone.vtu"));
+  products.commit();
+  EXPECT_EQ(text_of(folder_ / "new" / "prone.vtu"), "mesh");
+  EXPECT_EQ(text_of(folder_ / "new" / "prone.exf"), "exf");
+}
+
+TEST_F(ProductsTest, LeaveNothingBehindWhenAbandoned) {
+  {
+    Products products(folder_ / "prone.vtu");
+    fill(products.write_main(), "half");
+  }
+  EXPECT_TRUE(std::filesystem::is_empty(folder_));
+}
+
+TEST_F(ProductsTest, AbandonedKeepTheProductThatWasThere) {
+  write("prone.vtu", "old");
+  {
+    Products products(folder_ / "prone.vtu");
+    fill(products.write_main(), "half");
+  }
+  EXPECT_EQ(text_of(folder_ / "prone.vtu"), "old");
+}
+
+TEST_F(ProductsTest, RemoveWhatAKilledRunLeft) {
+  // Process numbers end at 4194304 (Linux, PID_MAX_LIMIT), so none can be alive with this one.
+  write(".partial-99999999-prone.vtu", "half");
+  Products products(folder_ / "prone.vtu");
+  products.write_main();
+  EXPECT_FALSE(std::filesystem::exists(folder_ / ".partial-99999999-prone.vtu"));
+}
+
+TEST_F(ProductsTest, AFolderThatCannotBeMadeIsNamed) {
+  write("file", "");
+  const std::string message = message_of([&] { Products(folder_ / "file" / "042" / "a.vtu"); });
+  EXPECT_NE(message.find("file/042: the results folder cannot be written"), std::string::npos)
+      << message;
+}
+
+}  // namespace
+}  // namespace mammotwin

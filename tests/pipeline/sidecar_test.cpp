@@ -1,0 +1,80 @@
+#include "pipeline/frame/sidecar.h"
+
+#include "pipeline/frame/checksum.h"
+#include "pipeline/frame/products.h"
+#include "tests/pipeline/scratch_folder.h"
+
+namespace mammotwin {
+namespace {
+
+TEST(Checksum, IsSha256) {
+  // FIPS 180-2, appendix B.1.
+  EXPECT_EQ(sha256_of_text("abc"),
+            "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+}
+
+class SidecarTest : public ScratchFolder {
+ protected:
+  SidecarTest() : input_(write("in", "data")), product_(write("out", "product")) {}
+
+  Provenance provenance(double smoothing = 1) const {
+    return make_provenance("fit", {{"fit.smoothing", {{"value", smoothing}, {"unit", "-"}}}},
+                           {input_}, product_);
+  }
+  void write_sidecar(Status status) const {
+    const Outcome outcome{status, {"because"}, {{"rms_mm", 0.25}}};
+    write_text_atomically(sidecar_path(product_),
+                          make_sidecar(product_, provenance(), outcome, {"out"}, {}).dump());
+  }
+
+  std::filesystem::path input_, product_;
+};
+
+TEST_F(SidecarTest, AProductIsCurrentWhileNothingChanged) {
+  write_sidecar(Status::ok);
+  EXPECT_TRUE(current_sidecar(product_, provenance()));
+}
+
+TEST_F(SidecarTest, AProductIsNotCurrentAfterAnyChange) {
+  EXPECT_FALSE(current_sidecar(product_, provenance())) << "no sidecar";
+  write_sidecar(Status::ok);
+  EXPECT_FALSE(current_sidecar(product_, provenance(2))) << "another parameter";
+  write("out", "damaged");
+  EXPECT_FALSE(current_sidecar(product_, provenance())) << "another product";
+  write("out", "product");
+  EXPECT_TRUE(current_sidecar(product_, provenance()));
+  write("in", "other data");
+  EXPECT_FALSE(current_sidecar(product_, provenance())) << "another input";
+}
+
+TEST_F(SidecarTest, AFailedStageIsNeverCurrent) {
+  write_sidecar(Status::not_converged);
+  EXPECT_FALSE(current_sidecar(product_, provenance()));
+}
+
+TEST_F(SidecarTest, PathsAreRelative) {
+  const auto p = provenance();
+  EXPECT_EQ(p.inputs[0]["path"], "in");
+}
+
+TEST_F(SidecarTest, AFoldersChecksumSeesNamesAndBytes) {
+  std::filesystem::create_directory(folder_ / "mri");
+  write("mri/a", "1");
+  const std::string before = sha256_of_path(folder_ / "mri");
+  std::filesystem::rename(folder_ / "mri/a", folder_ / "mri/b");
+  EXPECT_NE(sha256_of_path(folder_ / "mri"), before);
+  std::filesystem::rename(folder_ / "mri/b", folder_ / "mri/a");
+  EXPECT_EQ(sha256_of_path(folder_ / "mri"), before);
+  write("mri/a", "2");
+  EXPECT_NE(sha256_of_path(folder_ / "mri"), before);
+}
+
+TEST(Status, HasTheExitCodesOfTheHouse) {
+  EXPECT_EQ(exit_code(Status::ok), 0);
+  EXPECT_EQ(exit_code(Status::look), 0);
+  EXPECT_EQ(exit_code(Status::refused), 1);
+  EXPECT_EQ(exit_code(Status::not_converged), 3);
+}
+
+}  // namespace
+}  // namespace mammotwin
