@@ -1,9 +1,12 @@
 # Mammotwin's front door: `make help`.
 
-override P := $(value P)
 DATA ?= sample_data
 RESULTS ?= results
 BIN := build/release/bin
+# Taken as they stand: nothing in them is expanded by make, and recipes see them only as "$$P".
+override P := $(value P)
+override DATA := $(value DATA)
+override RESULTS := $(value RESULTS)
 export P DATA RESULTS FORCE BIN SEED
 unexport MAKEFLAGS MAKEOVERRIDES
 

@@ -24,23 +24,29 @@ segment() { "$BIN/mammotwin-segment" "$out/segmentation.seg.nrrd" "$@"; }
 fit() { "$BIN/mammotwin-fit" "$out/segmentation.seg.nrrd" "$out/fractions.nrrd" "$out/prone.vtu" "$@"; }
 compress() {
   for view in cc mlo; do
-    "$BIN/mammotwin-compress" "$view" "$out/prone.vtu" "$out/fractions.nrrd" "$out/$view.vtu" "$@" || return
+    "$BIN/mammotwin-compress" "$view" "$out/segmentation.seg.nrrd" "$out/fractions.nrrd" "$out/prone.vtu" "$out/$view.vtu" "$@" || return
   done
 }
 register() { "$BIN/mammotwin-register" "$out/segmentation.seg.nrrd" "$out/cc.vtu" "$out/mlo.vtu" "$out/lesions.csv" "$@"; }
 report() { "$BIN/mammotwin-report" "$out" "$out/report.html" "$@"; }
 
-status=0
 for stage in segment fit compress register report; do
-  if [ "$status" -eq 0 ]; then "$stage" "$@" || status=$?; fi
-  [ "$stage" != "$last" ] || exit "$status"
-  if [ "$status" -ne 0 ] && [ "$stage" != report ]; then break; fi
+  "$stage" "$@" || {
+    status=$?
+    [ "$stage" = report ] || report "$@"
+    echo "$P stopped at $stage; what is known is in $out/report.html" >&2
+    exit "$status"
+  }
+  [ "$stage" != "$last" ] || exit 0
 done
 
-if [ "$status" -ne 0 ]; then
-  report "$@"
-  echo "$P stopped at $stage; what is known is in $out/report.html" >&2
-  exit "$status"
-fi
+echo
 echo "Results of $P: $out (open $out/report.html)"
-"$BIN/mammotwin-register" --show "$out/lesions.csv"
+awk -F, '
+  NR == 1 { for (i = 1; i <= NF; i++) column[$i] = i; next }
+  NR == 2 { print "Predicted lesion positions [mm]: from the detector'"'"'s chest-wall edge, its middle, the support" }
+  $column["view"] != "mri" {
+    printf "  %-8s %-4s depth %6.1f  lateral %6.1f  height %5.1f  on the detector (%.1f, %.1f)\n",
+      $column["lesion"], toupper($column["view"]), $column["depth_mm"], $column["lateral_mm"],
+      $column["height_mm"], $column["detector_u_mm"], $column["detector_v_mm"]
+  }' "$out/lesions.csv"
