@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace mammotwin {
+
+struct CommandResult {
+  int exit_code;
+  std::string text;  ///< stdout and stderr, as they came
+};
+
+/// Runs a program without a shell in between; `environment` entries are "NAME=value".
+CommandResult run_command(const std::vector<std::string>& arguments,
+                          const std::vector<std::string>& environment = {});
+
+}  // namespace mammotwin

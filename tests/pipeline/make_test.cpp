@@ -1,0 +1,56 @@
+#include "tests/pipeline/command.h"
+#include "tests/pipeline/scratch_folder.h"
+
+namespace mammotwin {
+namespace {
+
+/// The part of `make patient` that reads P, DATA and RESULTS, without building first.
+class RunPatientTest : public ScratchFolder {
+ protected:
+  CommandResult run(const std::string& patient) {
+    return run_command({MAMMOTWIN_SOURCE_DIR "/pipeline/run_patient.sh", "patient"},
+                       {"P=" + patient, "DATA=" + folder_.string(),
+                        "RESULTS=" + (folder_ / "results").string(), "BIN=" MAMMOTWIN_BIN});
+  }
+};
+
+TEST_F(RunPatientTest, RefusesWhatIsNotAPlainName) {
+  const std::string mark = (folder_ / "mark").string();
+  for (const std::string& name :
+       {std::string("../042"), std::string("a/b"), std::string(".hidden"), std::string("-x"),
+        "a;touch " + mark, "$(touch " + mark + ")", "`touch " + mark + "`", std::string("a b"),
+        std::string("a\nb")}) {
+    const CommandResult result = run(name);
+    EXPECT_EQ(result.exit_code, 2) << name;
+    EXPECT_NE(result.text.find("not a plain name"), std::string::npos) << name << result.text;
+  }
+  EXPECT_FALSE(std::filesystem::exists(mark));
+}
+
+TEST_F(RunPatientTest, AsksForANameWhereThereIsNone) {
+  const CommandResult result = run("");
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_NE(result.text.find("name a patient"), std::string::npos) << result.text;
+}
+
+TEST_F(RunPatientTest, KeepsNamesOfItsOwnResults) {
+  for (const char* name : {"evaluation", "gel_cylinder"}) EXPECT_EQ(run(name).exit_code, 2) << name;
+}
+
+TEST_F(RunPatientTest, NamesThePatientFileThatIsMissing) {
+  const CommandResult result = run("nobody");
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_NE(result.text.find("nobody/patient.toml: no such file"), std::string::npos);
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "results"));
+}
+
+TEST_F(RunPatientTest, MakeExpandsNothingInItsVariables) {
+  const std::string mark = (folder_ / "mark").string();
+  for (const char* variable : {"P", "DATA", "RESULTS"})
+    run_command({"make", "-C", MAMMOTWIN_SOURCE_DIR, "--dry-run", "patient",
+                 std::string(variable) + "=$(shell touch " + mark + ")"});
+  EXPECT_FALSE(std::filesystem::exists(mark));
+}
+
+}  // namespace
+}  // namespace mammotwin
