@@ -1,12 +1,11 @@
 #pragma once
 
-#include "segmentation/volume.h"
-
 #include <Eigen/Core>
-
 #include <cstdint>
 #include <string>
 #include <vector>
+
+#include "segmentation/volume.h"
 
 namespace mammotwin {
 

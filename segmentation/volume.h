@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-
 #include <array>
 #include <cstddef>
 #include <vector>
@@ -19,14 +18,18 @@ struct Volume {
   std::vector<T> values;
 
   Volume() = default;
-  Volume(const Eigen::Vector3i& size, const Eigen::Vector3d& spacing,
-         const Eigen::Vector3d& origin, T value = T())
-      : size(size), spacing(spacing), origin(origin),
+  Volume(const Eigen::Vector3i& size, const Eigen::Vector3d& spacing, const Eigen::Vector3d& origin,
+         T value = T())
+      : size(size),
+        spacing(spacing),
+        origin(origin),
         values(static_cast<std::size_t>(size.x()) * size.y() * size.z(), value) {}
 
   /// The same grid with other values.
   template <class U>
-  Volume<U> like(U value = U()) const { return Volume<U>(size, spacing, origin, value); }
+  Volume<U> like(U value = U()) const {
+    return Volume<U>(size, spacing, origin, value);
+  }
 
   std::size_t offset(int i, int j, int k) const {
     return (static_cast<std::size_t>(k) * size.y() + j) * size.x() + i;

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+namespace mammotwin {
+
+/// The two most anterior places of a front profile, and the valley between them, as indices.
+struct Apices {
+  int right = 0, left = 0;  ///< the patient's: x grows to the left
+  int valley = 0;           ///< middle of the plateau between them
+};
+
+/// `front[i]` is how far forward [mm] the skin reaches at the i-th column of x (-infinity: no
+/// skin). Of all second apices the one that stands highest over its valley is taken. Empty if it
+/// stands less than 10 mm over it, or the two are less than 60 mm apart (`step` is the column
+/// width, mm).
+std::optional<Apices> find_apices(const std::vector<double>& front, double step);
+
+}  // namespace mammotwin

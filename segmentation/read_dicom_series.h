@@ -1,0 +1,29 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "segmentation/grid_image.h"
+
+namespace mammotwin {
+
+struct DicomVolume {
+  GridImage image;
+  std::vector<std::filesystem::path> files;  ///< those that the volume was made from
+  std::vector<std::string> notes;            ///< what was left aside and chosen, in sentences
+  bool geometry_known = true;                ///< false: sizes and places were assumed
+};
+
+/// Reads one MR series from a folder or a multi-frame file.
+///
+/// `series` names it by series number or SeriesInstanceUID, `NUMBER:PHASE` also the phase where
+/// the series holds several. Without it the only MR series of at least 16 slices is taken;
+/// several are an error that lists them. Of several phases the second is taken (in a dynamic
+/// series the first after the contrast agent), and a note says so.
+/// Throws std::runtime_error with the path in front; patient identifiers and UIDs are never shown.
+DicomVolume read_dicom_series(const std::filesystem::path& path,
+                              const std::optional<std::string>& series);
+
+}  // namespace mammotwin

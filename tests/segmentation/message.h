@@ -1,0 +1,39 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <exception>
+#include <filesystem>
+#include <string>
+
+namespace mammotwin {
+
+/// The message of what `call` throws; "" (and a failure) if it throws nothing.
+template <class Call>
+std::string message_of(const Call& call) {
+  try {
+    call();
+  } catch (const std::exception& error) {
+    return error.what();
+  }
+  ADD_FAILURE() << "nothing was thrown";
+  return {};
+}
+
+inline void expect_mentions(const std::string& message, std::initializer_list<std::string> words) {
+  for (const std::string& word : words)
+    EXPECT_NE(message.find(word), std::string::npos) << "\"" << word << "\" not in: " << message;
+}
+
+/// A folder that vanishes with the test.
+struct ScratchFolder {
+  std::filesystem::path path;
+  explicit ScratchFolder(const std::string& name)
+      : path(std::filesystem::temp_directory_path() / ("mammotwin_" + name)) {
+    std::filesystem::remove_all(path);
+    std::filesystem::create_directories(path);
+  }
+  ~ScratchFolder() { std::filesystem::remove_all(path); }
+};
+
+}  // namespace mammotwin
