@@ -1,0 +1,117 @@
+#include "solver/element/face.h"
+
+#include "fitting/mesh/hermite_basis.h"
+#include "solver/element/gauss.h"
+
+#include <Eigen/Geometry>
+
+namespace mammotwin {
+
+namespace {
+
+constexpr int kStride[3] = {1, 4, 16};  // of the one-dimensional index along each ξ
+
+std::array<int, Face::kFunctions> face_functions(int face) {
+  const auto [d1, d2] = face_directions(face);
+  const int fixed = 2 * (face % 2) * kStride[face / 2];
+  std::array<int, Face::kFunctions> functions;
+  for (int a = 0; a < Face::kFunctions; ++a)
+    functions[a] = fixed + (a & 3) * kStride[d1] + (a >> 2) * kStride[d2];
+  return functions;
+}
+
+/// +1 where a₁ x a₂ points out of the element.
+double orientation(int face) {
+  const double upper = face / 2 == 1 ? -1 : 1;  // ξ₁ x ξ₃ points against ξ₂
+  return face % 2 ? upper : -upper;
+}
+
+}  // namespace
+
+const std::array<Face::Table, 3>& Face::tables() {
+  static const std::array<Table, 3> tables = [] {
+    std::array<Table, 3> t;
+    const auto rule = gauss_rule<kPoints1d>();
+    for (int q = 0; q < kPoints; ++q) {
+      const double s = rule.points[q % kPoints1d], r = rule.points[q / kPoints1d];
+      const auto h1 = hermite_values(s), h2 = hermite_values(r);
+      const auto s1 = hermite_first_derivatives(s), s2 = hermite_first_derivatives(r);
+      for (int a = 0; a < kFunctions; ++a) {
+        t[0](q, a) = h1[a & 3] * h2[a >> 2];
+        t[1](q, a) = s1[a & 3] * h2[a >> 2];
+        t[2](q, a) = h1[a & 3] * s2[a >> 2];
+      }
+    }
+    return t;
+  }();
+  return tables;
+}
+
+Face::Face(int element, int face, const SolidElement::Coefficients& X)
+    : element_(element), face_(face), functions_(face_functions(face)) {
+  const auto rule = gauss_rule<kPoints1d>();
+  for (int q = 0; q < kPoints; ++q) {
+    const auto Y = deformed(X, q);
+    const Eigen::Vector3d A1 = Y.segment<3>(3), A2 = Y.segment<3>(6);
+    const Eigen::Vector3d area_vector = orientation(face) * A1.cross(A2);
+    const double weight = rule.weights[q % kPoints1d] * rule.weights[q / kPoints1d];
+    points_[q] = {Y.head<3>(), A1, A2, area_vector.normalized(), weight * area_vector.norm()};
+  }
+}
+
+double Face::area() const {
+  double area = 0;
+  for (const auto& point : points_) area += point.area;
+  return area;
+}
+
+Eigen::Matrix<double, 9, 1> Face::deformed(const SolidElement::Coefficients& x, int q) const {
+  Eigen::Matrix<double, 9, 1> y = Eigen::Matrix<double, 9, 1>::Zero();
+  for (int slot = 0; slot < 3; ++slot)
+    for (int a = 0; a < kFunctions; ++a)
+      y.segment<3>(3 * slot) += tables()[slot](q, a) * x.row(functions_[a]).transpose();
+  return y;
+}
+
+void Face::add(const SurfacePotential& potential, const SolidElement::Coefficients& x,
+               bool with_tangent, ElementSystem& system) const {
+  const auto [first, end] = potential.slots();
+  const auto& N = tables();
+  SurfaceResponse response;
+  Eigen::Matrix<double, kFunctions, 3> residual = Eigen::Matrix<double, kFunctions, 3>::Zero();
+  Eigen::Matrix<double, 3 * kFunctions, 3 * kFunctions> tangent;
+  tangent.setZero();
+  bool touched = false;
+  for (int q = 0; q < kPoints; ++q) {
+    if (!potential.respond(deformed(x, q), points_[q], with_tangent ? 2 : 1, response)) continue;
+    touched = true;
+    const double area = points_[q].area;
+    system.energy += area * response.energy;
+    for (int s = first; s < end; ++s) {
+      const auto Ns = (area * N[s].row(q)).eval();
+      residual += Ns.transpose() * response.gradient.segment<3>(3 * s).transpose();
+      if (!with_tangent) continue;
+      for (int r = first; r < end; ++r) {
+        const Eigen::Matrix<double, kFunctions, kFunctions> NN = Ns.transpose() * N[r].row(q);
+        for (int k = 0; k < 3; ++k)
+          for (int i = k; i < 3; ++i)
+            tangent.block<kFunctions, kFunctions>(kFunctions * i, kFunctions * k) +=
+                response.hessian(3 * s + i, 3 * r + k) * NN;
+      }
+    }
+  }
+  if (!touched) return;
+  for (int i = 0; i < 3; ++i)
+    for (int a = 0; a < kFunctions; ++a)
+      system.residual[mammotwin::kFunctions * i + functions_[a]] += residual(a, i);
+  if (!with_tangent) return;
+  for (int k = 0; k < 3; ++k)
+    for (int i = k; i < 3; ++i)
+      for (int b = 0; b < kFunctions; ++b)
+        for (int a = i == k ? b : 0; a < kFunctions; ++a)
+          system.tangent(mammotwin::kFunctions * i + functions_[a],
+                         mammotwin::kFunctions * k + functions_[b]) +=
+              tangent(kFunctions * i + a, kFunctions * k + b);
+}
+
+}  // namespace mammotwin

@@ -1,0 +1,53 @@
+#pragma once
+
+#include "solver/element/solid_element.h"
+#include "solver/element/surface_potential.h"
+
+#include <array>
+#include <vector>
+
+namespace mammotwin {
+
+/// One face of an element with a 5 x 5 Gauss rule: 16 functions carry its shape.
+///
+/// Faces are numbered ξ₁ = 0, ξ₁ = 1, ξ₂ = 0, ξ₂ = 1, ξ₃ = 0, ξ₃ = 1.
+class Face {
+ public:
+  static constexpr int kPoints1d = 5;  // 4 to 6 serve; 8 bring contact chatter (solver/README.md)
+  static constexpr int kPoints = kPoints1d * kPoints1d;
+  static constexpr int kFunctions = 16;
+
+  /// X: the reference shape of the element.
+  Face(int element, int face, const SolidElement::Coefficients& X);
+
+  int element() const { return element_; }
+  int face() const { return face_; }
+  const SurfacePoint& point(int q) const { return points_[q]; }
+  double area() const;  ///< reference [mm²]
+
+  /// (x, a₁, a₂) at point q of the deformed shape x.
+  Eigen::Matrix<double, 9, 1> deformed(const SolidElement::Coefficients& x, int q) const;
+
+  /// Adds the potential's energy, residual and (if asked) tangent to the element's.
+  void add(const SurfacePotential& potential, const SolidElement::Coefficients& x,
+           bool with_tangent, ElementSystem& system) const;
+
+  /// The element's function behind face function a.
+  int function(int a) const { return functions_[a]; }
+
+ private:
+  using Table = Eigen::Matrix<double, kPoints, kFunctions>;
+  static const std::array<Table, 3>& tables();  ///< value and the two derivatives
+
+  int element_, face_;
+  std::array<int, kFunctions> functions_;
+  std::array<SurfacePoint, kPoints> points_;
+};
+
+/// The two element directions of a face in ascending order.
+constexpr std::array<int, 2> face_directions(int face) {
+  return face < 2 ? std::array<int, 2>{1, 2}
+                  : face < 4 ? std::array<int, 2>{0, 2} : std::array<int, 2>{0, 1};
+}
+
+}  // namespace mammotwin

@@ -1,0 +1,61 @@
+#include "solver/element/skin_membrane.h"
+
+#include "solver/material/positive_modulus.h"
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+
+#include <limits>
+
+namespace mammotwin {
+
+namespace {
+
+using Tangents = Eigen::Matrix<double, 3, 2>;
+
+/// ∂bᵅ/∂a_β for the contravariant base bᵅ = a^αβ a_β: −bᵝ (bᵅ)ᵀ + a^αβ n nᵀ.
+Eigen::Matrix3d dual_derivative(const Tangents& b, const Eigen::Matrix2d& inverse_metric,
+                                const Eigen::Vector3d& n, int alpha, int beta) {
+  return -b.col(beta) * b.col(alpha).transpose() +
+         inverse_metric(alpha, beta) * n * n.transpose();
+}
+
+}  // namespace
+
+SkinMembrane::SkinMembrane(double c1, double thickness)
+    : stiffness_(positive_modulus("c1 (skin)", c1) * positive_modulus("thickness (skin)", thickness)) {}
+
+bool SkinMembrane::respond(const Eigen::Matrix<double, 9, 1>& y, const SurfacePoint& point,
+                           int order, SurfaceResponse& response) const {
+  Tangents a, A;
+  a << y.segment<3>(3), y.segment<3>(6);
+  A << point.A1, point.A2;
+  const Eigen::Matrix2d metric = a.transpose() * a, reference = A.transpose() * A;
+  const Eigen::Matrix2d G = reference.inverse();
+  const double squared_area = metric.determinant();
+  if (!(squared_area > 0)) {
+    response.energy = std::numeric_limits<double>::infinity();
+    response.gradient.setZero();
+    response.hessian.setZero();
+    return true;
+  }
+  const double squared_thinning = reference.determinant() / squared_area;
+  response.energy = stiffness_ * (G.cwiseProduct(metric).sum() + squared_thinning - 3);
+  if (order == 0) return true;
+  const Eigen::Matrix2d inverse_metric = metric.inverse();
+  const Tangents b = a * inverse_metric;
+  const Tangents force = 2 * stiffness_ * (a * G - squared_thinning * b);
+  response.gradient.tail<6>() = force.reshaped();
+  if (order == 1) return true;
+  const Eigen::Vector3d n = a.col(0).cross(a.col(1)).normalized();
+  for (int alpha = 0; alpha < 2; ++alpha)
+    for (int beta = 0; beta < 2; ++beta)
+      response.hessian.block<3, 3>(3 + 3 * alpha, 3 + 3 * beta) =
+          2 * stiffness_ *
+          (G(alpha, beta) * Eigen::Matrix3d::Identity() +
+           squared_thinning * (2 * b.col(alpha) * b.col(beta).transpose() -
+                               dual_derivative(b, inverse_metric, n, alpha, beta)));
+  return true;
+}
+
+}  // namespace mammotwin

@@ -1,0 +1,27 @@
+#pragma once
+
+#include "solver/element/surface_potential.h"
+
+namespace mammotwin {
+
+/// Skin as an incompressible neo-Hookean membrane on the skin faces, in plane stress:
+///
+///     energy = h c₁ (A^αβ a_αβ + det A/det a − 3),   a_αβ = a_α·a_β, A_αβ = A_α·A_β
+///
+/// the three-dimensional law with the thickness stretch eliminated by J = 1 (design, section 3;
+/// derivation in Holzapfel, Nonlinear Solid Mechanics, section 6.5, for sheets in plane stress).
+/// Limits: no bending stiffness; thickness is uniform.
+class SkinMembrane : public SurfacePotential {
+ public:
+  /// c1 [kPa] and thickness h [mm], both > 0; else std::invalid_argument.
+  SkinMembrane(double c1, double thickness);
+
+  Slots slots() const override { return kTangents; }
+  bool respond(const Eigen::Matrix<double, 9, 1>& y, const SurfacePoint& point, int order,
+               SurfaceResponse& response) const override;
+
+ private:
+  double stiffness_;  ///< h c₁ [kPa mm]
+};
+
+}  // namespace mammotwin

@@ -1,0 +1,155 @@
+#include "solver/load/wall_surface.h"
+
+#include "fitting/mesh/hermite_basis.h"
+#include "solver/element/face.h"
+
+#include <Eigen/Dense>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace mammotwin {
+
+namespace {
+
+constexpr int kSamples1d = 5;        // 25 a patch find the right neighbourhood of a smooth wall
+constexpr int kCandidates = 4;       // patches that meet at a node
+constexpr int kProjectionSteps = 30; // Newton converges in 3 to 6
+constexpr double kRimTolerance = 1e-9;
+
+/// Hermite functions continued by their tangents outside [0, 1], so that the surface is.
+HermiteValues extended(double t, int order) {
+  const double end = std::clamp(t, 0.0, 1.0);
+  if (t == end) return hermite_derivatives(t, order);
+  const HermiteValues slope = hermite_derivatives(end, 1);
+  if (order == 1) return slope;
+  if (order == 2) return {0, 0, 0, 0};
+  HermiteValues value = hermite_derivatives(end, 0);
+  for (int i = 0; i < 4; ++i) value[i] += slope[i] * (t - end);
+  return value;
+}
+
+struct SurfaceJet {
+  Eigen::Vector3d s, s1, s2, s11, s12, s22;
+};
+
+Eigen::Vector3d combine(const Eigen::Matrix<double, 3, 16>& c, const HermiteValues& h,
+                        const HermiteValues& g) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (int a = 0; a < 16; ++a) sum += h[a & 3] * g[a >> 2] * c.col(a);
+  return sum;
+}
+
+SurfaceJet jet(const Eigen::Matrix<double, 3, 16>& c, const Eigen::Vector2d& xi) {
+  HermiteValues h[3], g[3];
+  for (int order = 0; order < 3; ++order) {
+    h[order] = extended(xi[0], order);
+    g[order] = extended(xi[1], order);
+  }
+  return {combine(c, h[0], g[0]), combine(c, h[1], g[0]), combine(c, h[0], g[1]),
+          combine(c, h[2], g[0]), combine(c, h[1], g[1]), combine(c, h[0], g[2])};
+}
+
+/// Newton step towards the foot of x; falls back on Gauss-Newton where the distance is not convex.
+Eigen::Vector2d foot_step(const SurfaceJet& j, const Eigen::Vector3d& x) {
+  const Eigen::Vector3d r = x - j.s;
+  const Eigen::Vector2d gradient(r.dot(j.s1), r.dot(j.s2));
+  Eigen::Matrix2d metric, curvature;
+  metric << j.s1.dot(j.s1), j.s1.dot(j.s2), j.s1.dot(j.s2), j.s2.dot(j.s2);
+  curvature << r.dot(j.s11), r.dot(j.s12), r.dot(j.s12), r.dot(j.s22);
+  const Eigen::Matrix2d hessian = metric - curvature;
+  const bool convex = hessian(0, 0) > 0 && hessian.determinant() > 0.01 * metric.determinant();
+  const Eigen::Vector2d step = (convex ? hessian : metric).inverse() * gradient;
+  return step * std::min(1.0, 0.5 / std::max(step.cwiseAbs().maxCoeff(), 1e-300));
+}
+
+int stride(int direction) { return direction == 0 ? 1 : direction == 1 ? 4 : 16; }
+
+}  // namespace
+
+WallSurface::WallSurface(const HermiteMesh& mesh, const std::vector<std::pair<int, int>>& faces) {
+  if (faces.empty()) throw std::invalid_argument("the chest wall has no faces");
+  for (const auto& [element, face] : faces) {
+    const auto [d1, d2] = face_directions(face);
+    Patch patch;
+    for (int a = 0; a < 16; ++a) {
+      const int f = 2 * (face % 2) * stride(face / 2) + (a & 3) * stride(d1) + (a >> 2) * stride(d2);
+      patch.coefficients.col(a) = mesh.node(mesh.corners(element)[corner_of_function(f)])
+                                      .col(parameter_of_function(f));
+    }
+    for (int k = 0; k < kSamples1d * kSamples1d; ++k) {
+      const Eigen::Vector2d xi(k % kSamples1d, k / kSamples1d);
+      patch.samples.col(k) = jet(patch.coefficients, xi / (kSamples1d - 1.0)).s;
+    }
+    const double outward = (face / 2 == 1 ? -1 : 1) * (face % 2 ? 1 : -1);
+    patch.orientation = -outward;
+    patches_.push_back(patch);
+  }
+}
+
+WallSurface::Foot WallSurface::project(const Patch& patch, const Eigen::Vector3d& x) const {
+  int nearest = 0;
+  (patch.samples.colwise() - x).colwise().squaredNorm().minCoeff(&nearest);
+  Eigen::Vector2d xi(nearest % kSamples1d, nearest / kSamples1d);
+  xi /= kSamples1d - 1.0;
+  for (int step = 0; step < kProjectionSteps; ++step) {
+    const Eigen::Vector2d delta = foot_step(jet(patch.coefficients, xi), x);
+    xi += delta;
+    if (delta.cwiseAbs().maxCoeff() < 1e-14) break;
+  }
+  const Eigen::Vector2d clamped = xi.cwiseMax(0).cwiseMin(1);
+  return {&patch, xi, (x - jet(patch.coefficients, clamped).s).norm(),
+          (xi - clamped).cwiseAbs().maxCoeff() <= kRimTolerance};
+}
+
+std::vector<const WallSurface::Patch*> WallSurface::nearest_patches(const Eigen::Vector3d& x) const {
+  std::vector<std::pair<double, int>> order;
+  for (std::size_t i = 0; i < patches_.size(); ++i)
+    order.push_back({(patches_[i].samples.colwise() - x).colwise().squaredNorm().minCoeff(),
+                     static_cast<int>(i)});
+  const std::size_t count = std::min<std::size_t>(kCandidates, order.size());
+  std::partial_sort(order.begin(), order.begin() + count, order.end());
+  std::vector<const Patch*> nearest;
+  for (std::size_t i = 0; i < count; ++i) nearest.push_back(&patches_[order[i].second]);
+  return nearest;
+}
+
+WallSurface::Foot WallSurface::nearest_foot(const Eigen::Vector3d& x) const {
+  Foot best{nullptr, {}, 0, false};
+  for (const Patch* patch : nearest_patches(x)) {
+    const Foot foot = project(*patch, x);
+    const bool better = !best.patch || (foot.inside && !best.inside) ||
+                        (foot.inside == best.inside && foot.distance < best.distance);
+    if (better) best = foot;
+  }
+  return best;
+}
+
+Gap WallSurface::gap(const Eigen::Vector3d& x) const {
+  const Foot foot = nearest_foot(x);
+  const SurfaceJet j = jet(foot.patch->coefficients, foot.xi);
+  const Eigen::Vector3d n = foot.patch->orientation * j.s1.cross(j.s2).normalized();
+  const double g = n.dot(x - j.s);
+  // Weingarten: ∂n/∂ξ = −T (TᵀT)⁻¹ B with B_αβ = n·s_αβ; then ∂x/∂ξ = T + g ∂n/∂ξ at fixed gap.
+  Eigen::Matrix<double, 3, 2> T;
+  T << j.s1, j.s2;
+  Eigen::Matrix2d B;
+  B << n.dot(j.s11), n.dot(j.s12), n.dot(j.s12), n.dot(j.s22);
+  const Eigen::Matrix<double, 3, 2> dn = -T * (T.transpose() * T).inverse() * B;
+  const Eigen::Matrix<double, 3, 2> dx = T + g * dn;
+  return {g, n, dn * (dx.transpose() * dx).inverse() * dx.transpose()};
+}
+
+bool WallHold::respond(const Eigen::Matrix<double, 9, 1>& y, const SurfacePoint&, int order,
+                       SurfaceResponse& response) const {
+  const Gap gap = surface_.gap(y.head<3>());
+  response.energy = penalty_ / 2 * gap.gap * gap.gap;
+  response.gradient.head<3>() = penalty_ * gap.gap * gap.normal;
+  if (order == 2)
+    response.hessian.topLeftCorner<3, 3>() =
+        penalty_ * (gap.normal * gap.normal.transpose() + gap.gap * gap.hessian);
+  return true;
+}
+
+}  // namespace mammotwin

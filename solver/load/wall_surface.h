@@ -1,0 +1,57 @@
+#pragma once
+
+#include "fitting/mesh/hermite_mesh.h"
+#include "solver/contact/plate.h"
+#include "solver/element/surface_potential.h"
+
+#include <utility>
+#include <vector>
+
+namespace mammotwin {
+
+/// The undeformed chest wall: bicubic Hermite patches, continued straight on beyond their rim, and
+/// the signed distance to them.
+class WallSurface {
+ public:
+  /// faces: (element, face) of the mesh. Throws std::invalid_argument if there are none.
+  WallSurface(const HermiteMesh& mesh, const std::vector<std::pair<int, int>>& faces);
+
+  /// gap > 0 on the tissue's side; exact derivatives of the distance to the nearest patch.
+  Gap gap(const Eigen::Vector3d& x) const;
+
+ private:
+  struct Patch {
+    Eigen::Matrix<double, 3, 16> coefficients;
+    double orientation;  ///< +1 where s₁ x s₂ points into the tissue
+    Eigen::Matrix<double, 3, 25> samples;
+  };
+  struct Foot {
+    const Patch* patch;
+    Eigen::Vector2d xi;
+    double distance;  ///< to the foot clamped to the patch [mm]
+    bool inside;
+  };
+  Foot project(const Patch& patch, const Eigen::Vector3d& x) const;
+  std::vector<const Patch*> nearest_patches(const Eigen::Vector3d& x) const;
+  Foot nearest_foot(const Eigen::Vector3d& x) const;
+
+  std::vector<Patch> patches_;
+};
+
+/// Holds points on a wall: energy = ε/2 gap², both ways (the breast neither lifts off the pectoral
+/// fascia nor enters it), free to slide along it.
+class WallHold : public SurfacePotential {
+ public:
+  /// penalty ε [kPa/mm] > 0. The surface must outlive this.
+  WallHold(const WallSurface& surface, double penalty) : surface_(surface), penalty_(penalty) {}
+
+  Slots slots() const override { return kPosition; }
+  bool respond(const Eigen::Matrix<double, 9, 1>& y, const SurfacePoint& point, int order,
+               SurfaceResponse& response) const override;
+
+ private:
+  const WallSurface& surface_;
+  double penalty_;
+};
+
+}  // namespace mammotwin

@@ -1,0 +1,40 @@
+#pragma once
+
+#include "solver/material/material.h"
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+
+#include <cmath>
+#include <limits>
+
+namespace mammotwin {
+
+/// The terms in J that every law shares.
+
+/// −ln J, or infinity where J ≤ 0.
+inline double minus_log_jacobian(const Eigen::Matrix3d& F) {
+  const double J = F.determinant();
+  return J > 0 ? -std::log(J) : std::numeric_limits<double>::infinity();
+}
+
+/// Cofactor matrix ∂J/∂F = J F⁻ᵀ; its columns are cross products, so it exists for J = 0 too.
+inline Eigen::Matrix3d cofactor(const Eigen::Matrix3d& F) {
+  Eigen::Matrix3d c;
+  c.col(0) = F.col(1).cross(F.col(2));
+  c.col(1) = F.col(2).cross(F.col(0));
+  c.col(2) = F.col(0).cross(F.col(1));
+  return c;
+}
+
+/// Adds s ∂(−F⁻ᵀ)/∂F, that is s F⁻¹_jk F⁻¹_li at row i+3j, column k+3l.
+inline void add_inverse_tangent(double s, const Eigen::Matrix3d& F, Material::Tangent& A) {
+  const Eigen::Matrix3d G = s * F.inverse();
+  const Eigen::Matrix3d H = F.inverse();
+  for (int l = 0; l < 3; ++l)
+    for (int k = 0; k < 3; ++k)
+      for (int j = 0; j < 3; ++j)
+        for (int i = 0; i < 3; ++i) A(i + 3 * j, k + 3 * l) += G(j, k) * H(l, i);
+}
+
+}  // namespace mammotwin

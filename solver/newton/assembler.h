@@ -1,0 +1,72 @@
+#pragma once
+
+#include "solver/newton/dof_map.h"
+#include "solver/newton/model.h"
+#include "solver/newton/sparse_pattern.h"
+
+#include <Eigen/Core>
+
+#include <vector>
+
+namespace mammotwin {
+
+/// How far a state is from equilibrium.
+struct Balance {
+  double energy = 0;           ///< total potential [mN mm]; infinite where an element is inverted
+  double min_J = 1, max_J = 1;
+  double deformed_volume = 0;  ///< [mm³]
+  double flow = 0;             ///< √Σ|element residual|² [mN]: what the residual is small beside
+  double constraint = 0;       ///< largest |∫ψ (J − 1 − p/κ)| / element volume [-]
+  Eigen::VectorXd residual;    ///< ∂Π/∂x per equation [mN]
+};
+
+/// Sums the elements of a model into the equations of a DofMap: in parallel, in an order that does
+/// not depend on threads. Pressures are eliminated element by element in the linear algebra only.
+class Assembler {
+ public:
+  Assembler(const Model& model, const DofMap& dofs);
+
+  const SparsePattern& pattern() const { return pattern_; }
+  int num_equations() const { return pattern_.num_columns(); }
+
+  Balance balance(const State& state) const;
+
+  /// Fills matrix() and right_hand_side() with the condensed tangent and residual; `shift` times
+  /// the μ-weighted Laplacian is added to the tangent. `pending` are increments of prescribed
+  /// dofs that this linear step makes too (empty: none).
+  Balance linearise(const State& state, double shift, const std::vector<HermiteMesh::Node>& pending);
+  const std::vector<double>& matrix() const { return values_; }
+  const Eigen::VectorXd& right_hand_side() const { return right_hand_side_; }
+
+  /// Increment of every node for a solution of the linearised system, prescribed ones included.
+  std::vector<HermiteMesh::Node> nodal_step(const Eigen::VectorXd& solution,
+                                            const std::vector<HermiteMesh::Node>& pending) const;
+
+  /// p after the step whose nodal increments these are; `work` is δx·∂residual/∂p δp.
+  std::vector<double> pressures_after(const State& state,
+                                      const std::vector<HermiteMesh::Node>& step,
+                                      double& work) const;
+
+  /// Residual of every nodal parameter, prescribed ones included: reactions [mN].
+  std::vector<HermiteMesh::Node> nodal_residual(const State& state) const;
+
+ private:
+  struct Elimination {  ///< of one element's pressures
+    Eigen::Matrix<double, kUnknowns, 8> coupling;
+    Eigen::Matrix<double, 8, 1> residual;
+  };
+  void condense(int e, const Eigen::Matrix<double, kUnknowns, 1>& pending, ElementSystem& system);
+  void scatter(int e, const ElementSystem& system);
+  Eigen::Matrix<double, kUnknowns, 1> gather(int e, const std::vector<HermiteMesh::Node>& x) const;
+  Balance summarise(const std::vector<Balance>& parts) const;
+
+  const Model& model_;
+  SparsePattern pattern_;
+  std::vector<Eigen::MatrixXd> pressure_factors_;  ///< L⁻¹ of ∫ψψᵀ/κ = L Lᵀ, per element
+  std::vector<Elimination> eliminations_;
+  std::vector<Eigen::Matrix<double, kFunctions, kFunctions>> laplacians_;  ///< made when needed
+  std::vector<double> values_;
+  Eigen::VectorXd right_hand_side_;
+};
+
+}  // namespace mammotwin

@@ -1,0 +1,90 @@
+#include "solver/newton/model.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace mammotwin {
+
+namespace {
+
+SolidElement::Coefficients gather(const HermiteMesh& mesh, const std::vector<HermiteMesh::Node>& x,
+                                  int e) {
+  SolidElement::Coefficients c;
+  const auto& corners = mesh.corners(e);
+  for (int a = 0; a < kFunctions; ++a)
+    c.row(a) = x[corners[corner_of_function(a)]].col(parameter_of_function(a)).transpose();
+  return c;
+}
+
+SolidElement make_element(const HermiteMesh& mesh, int e) {
+  const auto X = gather(mesh, mesh.nodes(), e);
+  if (!X.allFinite())
+    throw std::invalid_argument("element " + std::to_string(e) +
+                                " has a nodal parameter that is not a finite number");
+  try {
+    return SolidElement(X);
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument("element " + std::to_string(e) + ": " + error.what());
+  }
+}
+
+}  // namespace
+
+Model::Model(const HermiteMesh& reference, const MaterialField& field, const SolidOptions& options)
+    : reference_(reference) {
+  if (num_elements() == 0) throw std::invalid_argument("the mesh has no elements");
+  faces_.resize(num_elements());
+  potentials_.resize(num_elements());
+  for (int e = 0; e < num_elements(); ++e) {
+    SolidElement element = make_element(reference_, e);
+    SolidElement::Materials materials;
+    for (int q = 0; q < kPoints; ++q)
+      materials[q] = field(element.point_position(q), element.point_weight(q));
+    element.set_materials(materials, options);
+    integrated_functions_.push_back(element.integrated_functions());
+    elements_.push_back(std::move(element));
+  }
+}
+
+void Model::add_surface_potential(int e, int face, std::shared_ptr<const SurfacePotential> p) {
+  auto& faces = faces_[e];
+  auto found = std::find_if(faces.begin(), faces.end(),
+                            [&](const Face& f) { return f.face() == face; });
+  if (found == faces.end()) {
+    faces.emplace_back(e, face, gather(reference_, reference_.nodes(), e));
+    found = faces.end() - 1;
+  }
+  potentials_[e].push_back({static_cast<int>(found - faces.begin()), std::move(p)});
+}
+
+State Model::rest() const {
+  return {reference_.nodes(), std::vector<double>(8 * num_elements(), 0.0)};
+}
+
+double Model::volume() const {
+  double volume = 0;
+  for (const auto& element : elements_) volume += element.volume();
+  return volume;
+}
+
+SolidElement::Coefficients Model::coefficients(const std::vector<HermiteMesh::Node>& x,
+                                               int e) const {
+  return gather(reference_, x, e);
+}
+
+void Model::evaluate(int e, const State& state, bool with_tangent, ElementSystem& system) const {
+  const auto x = gather(reference_, state.x, e);
+  elements_[e].evaluate(x, state.pressure.data() + 8 * e, with_tangent, system);
+  if (!std::isfinite(system.energy)) return;  // J <= 0: nothing else is defined
+  for (const auto& [face, potential] : potentials_[e])
+    faces_[e][face].add(*potential, x, with_tangent, system);
+  for (int i = 0; i < 3; ++i) {
+    if (body_force[i] == 0) continue;
+    system.energy -= body_force[i] * integrated_functions_[e].dot(x.col(i));
+    system.residual.segment<kFunctions>(kFunctions * i) -= body_force[i] * integrated_functions_[e];
+  }
+}
+
+}  // namespace mammotwin

@@ -1,0 +1,67 @@
+#pragma once
+
+#include "fitting/mesh/hermite_mesh.h"
+#include "solver/element/face.h"
+#include "solver/element/solid_element.h"
+#include "solver/element/surface_potential.h"
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+namespace mammotwin {
+
+/// Unknowns: nodal parameters of the deformed shape and the elements' pressures.
+struct State {
+  std::vector<HermiteMesh::Node> x;  ///< [mm]
+  std::vector<double> pressure;      ///< 8 an element, the first `num_pressures` in use [kPa]
+};
+
+/// Index of component i of nodal parameter d of a node.
+constexpr int dof_index(int node, int parameter, int component) {
+  return 24 * node + 3 * parameter + component;
+}
+
+/// A body: elements with tissue, and potentials on their faces. Everything that stores energy.
+class Model {
+ public:
+  /// Tissue as a function of reference position [mm] and the volume that the point stands for
+  /// [mm³].
+  using MaterialField =
+      std::function<std::shared_ptr<const Material>(const Eigen::Vector3d& X, double volume)>;
+
+  /// Throws std::invalid_argument that names the element where the mesh is folded or not finite.
+  Model(const HermiteMesh& reference, const MaterialField& materials, const SolidOptions& options);
+
+  const HermiteMesh& reference() const { return reference_; }
+  int num_elements() const { return reference_.num_elements(); }
+  const SolidElement& element(int e) const { return elements_[e]; }
+  const std::vector<Face>& faces(int e) const { return faces_[e]; }
+
+  /// Puts a potential on a face; several may share one. The model keeps it alive.
+  void add_surface_potential(int element, int face, std::shared_ptr<const SurfacePotential> p);
+
+  /// Force per reference volume [mN/mm³]: density times gravity.
+  Eigen::Vector3d body_force = Eigen::Vector3d::Zero();
+
+  State rest() const;  ///< reference shape, no pressure
+  double volume() const;
+
+  SolidElement::Coefficients coefficients(const std::vector<HermiteMesh::Node>& x, int e) const;
+
+  /// All terms of one element at a state.
+  void evaluate(int e, const State& state, bool with_tangent, ElementSystem& system) const;
+
+ private:
+  struct FacePotential {
+    int face_in_element;
+    std::shared_ptr<const SurfacePotential> potential;
+  };
+  HermiteMesh reference_;
+  std::vector<SolidElement> elements_;
+  std::vector<Eigen::Matrix<double, kFunctions, 1>> integrated_functions_;
+  std::vector<std::vector<Face>> faces_;
+  std::vector<std::vector<FacePotential>> potentials_;
+};
+
+}  // namespace mammotwin

@@ -1,0 +1,112 @@
+#include "solver/newton/newton.h"
+
+#include <cmath>
+#include <cstdio>
+
+namespace mammotwin {
+
+namespace {
+
+State moved(const State& from, const std::vector<HermiteMesh::Node>& step,
+            const std::vector<double>& pressure, double fraction) {
+  State to{from.x, pressure};
+  for (std::size_t i = 0; i < to.x.size(); ++i) to.x[i] += fraction * step[i];
+  return to;
+}
+
+bool balanced(const Balance& balance, const NewtonOptions& options) {
+  return balance.residual.norm() <= options.tolerance * balance.flow &&
+         balance.constraint <= options.constraint_tolerance;
+}
+
+bool is_zero(const std::vector<HermiteMesh::Node>& nodes) {
+  for (const auto& node : nodes)
+    if (!node.isZero(0)) return false;
+  return true;
+}
+
+NewtonReport& stopped(NewtonReport& report, const char* reason) {
+  report.reason = reason;
+  return report;
+}
+
+}  // namespace
+
+Newton::Newton(const Model& model, const DofMap& dofs)
+    : assembler_(model, dofs), cholesky_(assembler_.pattern()) {}
+
+bool Newton::factor_shifted(const State& state, const NewtonOptions& options,
+                            const std::vector<HermiteMesh::Node>& pending, Balance& balance,
+                            NewtonReport& report) {
+  constexpr double first_shift = 0.05, growth = 4, decay = 0.25;
+  shift_ = shift_ * decay < first_shift / 2 ? 0 : shift_ * decay;
+  for (;;) {
+    balance = assembler_.linearise(state, shift_, pending);
+    if (!std::isfinite(balance.energy)) return false;
+    if (cholesky_.factor(assembler_.matrix())) return true;
+    ++report.indefinite;
+    shift_ = shift_ == 0 ? first_shift : shift_ * growth;
+    if (shift_ > options.max_shift) return false;
+  }
+}
+
+Newton::Step Newton::solve_step(const State& state, const Balance& balance,
+                                const std::vector<HermiteMesh::Node>& pending) const {
+  Step step;
+  step.solution = cholesky_.solve(assembler_.right_hand_side());
+  step.nodes = assembler_.nodal_step(step.solution, pending);
+  double work;
+  step.pressure = assembler_.pressures_after(state, step.nodes, work);
+  step.slope = balance.residual.dot(step.solution) + work;
+  return step;
+}
+
+double Newton::search(State& state, const Step& step, const Balance& before) const {
+  constexpr int max_cuts = 12;
+  constexpr double overshoot = 0.9, least_cut = 0.6, most_cut = 0.1;
+  double fraction = 1;
+  for (int cut = 0; cut < max_cuts; ++cut) {
+    State trial = moved(state, step.nodes, step.pressure, fraction);
+    const Balance balance = assembler_.balance(trial);
+    const bool valid = std::isfinite(balance.energy);
+    const double slope = valid ? balance.residual.dot(step.solution) : 0;
+    // A positive slope at the trial means that the line's minimum lies behind it.
+    if (valid && (slope <= overshoot * std::abs(step.slope) ||
+                  balance.residual.norm() < before.residual.norm())) {
+      state = std::move(trial);
+      return fraction;
+    }
+    double cut_to = most_cut * 3;
+    if (valid && step.slope < 0)
+      cut_to = std::clamp(step.slope / (step.slope - slope), most_cut, least_cut);
+    fraction *= cut_to;
+  }
+  return 0;
+}
+
+NewtonReport Newton::solve(State& state, const NewtonOptions& options,
+                           std::vector<HermiteMesh::Node> pending) {
+  NewtonReport report;
+  shift_ = 0;
+  if (is_zero(pending)) pending.clear();
+  for (; report.iterations <= options.max_iterations; ++report.iterations) {
+    Balance balance;
+    const bool factored = factor_shifted(state, options, pending, balance, report);
+    report.residual = balance.flow > 0 ? balance.residual.norm() / balance.flow : 0;
+    if (!std::isfinite(balance.energy)) return stopped(report, "an element is inverted");
+    if (pending.empty() && balanced(balance, options)) {
+      report.converged = true;
+      return report;
+    }
+    if (!factored) return stopped(report, "the tangent stays indefinite under the largest shift");
+    if (report.iterations == options.max_iterations) break;
+    const Step step = solve_step(state, balance, pending);
+    const double fraction = search(state, step, balance);
+    if (fraction == 0) return stopped(report, "the line search found no valid step");
+    for (auto& node : pending) node *= 1 - fraction;
+    if (is_zero(pending)) pending.clear();
+  }
+  return stopped(report, "no equilibrium within the allowed iterations");
+}
+
+}  // namespace mammotwin

@@ -1,0 +1,61 @@
+#pragma once
+
+#include "solver/newton/assembler.h"
+#include "solver/newton/cholesky.h"
+
+#include <string>
+#include <vector>
+
+namespace mammotwin {
+
+struct NewtonOptions {
+  int max_iterations = 40;
+  double tolerance = 1e-8;             ///< |residual| <= tolerance * flow
+  double constraint_tolerance = 1e-6;  ///< largest relative volume error left by the pressures
+  double max_shift = 10;  ///< Laplacian shifts tried on an indefinite matrix before giving up [-]
+};
+
+struct NewtonReport {
+  bool converged = false;
+  int iterations = 0;      ///< linear systems solved
+  int indefinite = 0;      ///< matrices met that were not positive definite
+  double residual = 0;     ///< relative to flow [-]
+  std::string reason;      ///< why not, in a sentence
+  bool usable() const { return converged; }
+};
+
+/// Newton's method on the mixed system with a line search along δx at the new pressures; a matrix
+/// that is not positive definite is shifted by the μ-weighted Laplacian until it is.
+class Newton {
+ public:
+  Newton(const Model& model, const DofMap& dofs);
+
+  /// Brings `state` to equilibrium; `pending` are the increments of prescribed dofs (empty: none)
+  /// that the first steps make. On failure the state is the last iterate.
+  NewtonReport solve(State& state, const NewtonOptions& options,
+                     std::vector<HermiteMesh::Node> pending = {});
+
+  Balance balance(const State& state) const { return assembler_.balance(state); }
+  const Assembler& assembler() const { return assembler_; }
+  const Cholesky& cholesky() const { return cholesky_; }
+
+ private:
+  struct Step {
+    std::vector<HermiteMesh::Node> nodes;
+    std::vector<double> pressure;
+    double slope;  ///< δx · residual at the new pressures
+    Eigen::VectorXd solution;
+  };
+  bool factor_shifted(const State& state, const NewtonOptions& options,
+                      const std::vector<HermiteMesh::Node>& pending, Balance& balance,
+                      NewtonReport& report);
+  Step solve_step(const State& state, const Balance& balance,
+                  const std::vector<HermiteMesh::Node>& pending) const;
+  double search(State& state, const Step& step, const Balance& before) const;
+
+  Assembler assembler_;
+  Cholesky cholesky_;
+  double shift_ = 0;
+};
+
+}  // namespace mammotwin

@@ -1,0 +1,31 @@
+#pragma once
+
+#include "solver/newton/dof_map.h"
+
+#include <vector>
+
+namespace mammotwin {
+
+/// Lower triangle of the tangent, column by column, and where each element's entries go in it.
+struct SparsePattern {
+  std::vector<int> starts, rows;
+
+  /// Per element: equation (or -1) of each of its 192 unknowns (layout: tensor_basis.h), and what
+  /// the equation's increment is multiplied by to give the unknown's.
+  std::vector<std::vector<int>> equations;
+  std::vector<std::vector<double>> factors;
+
+  /// Per element: position in the values of each entry of its lower triangle, column by column;
+  /// -1 where a prescribed dof takes part.
+  std::vector<std::vector<int>> positions;
+
+  /// Elements of one colour share no equation, so they can be added at the same time and the sum's
+  /// order does not depend on threads.
+  std::vector<std::vector<int>> colours;
+
+  int num_columns() const { return static_cast<int>(starts.size()) - 1; }
+};
+
+SparsePattern make_sparse_pattern(const HermiteMesh& mesh, const DofMap& dofs);
+
+}  // namespace mammotwin

@@ -1,0 +1,106 @@
+#include "test_meshes.h"
+
+#include "solver/load/spring_bed.h"
+#include "solver/load/wall_surface.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace mammotwin {
+namespace {
+
+constexpr double kRadius = 100;
+
+/// A slab bent over a sphere of 100 mm: nodes and tangents exact, so the wall is one to 1e-3 mm.
+HermiteMesh bent_slab() {
+  const Eigen::Vector3i n(4, 4, 1);
+  const HermiteMesh flat = box_mesh({80, 80, 20}, n);
+  auto nodes = flat.nodes();
+  const auto map = [](const Eigen::Vector3d& X) {
+    const double a = (X.x() - 40) / kRadius, b = (X.y() - 40) / kRadius;
+    return Eigen::Vector3d((kRadius + X.z()) *
+                           Eigen::Vector3d(std::sin(a) * std::cos(b), std::sin(b),
+                                           std::cos(a) * std::cos(b)));
+  };
+  for (int i = 0; i < flat.num_nodes(); ++i) {
+    const Eigen::Vector3d X = flat.node(i).col(0);
+    for (int d = 0; d < 8; ++d) {  // mixed derivatives by nested central differences
+      constexpr double h = 1e-2;
+      Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+      const int count = (d & 1) + (d >> 1 & 1) + (d >> 2);
+      for (int s = 0; s < 8; ++s) {
+        if (s & ~d) continue;
+        Eigen::Vector3d Y = X;
+        double sign = 1;
+        for (int k = 0; k < 3; ++k)
+          if (d >> k & 1) {
+            Y[k] += s >> k & 1 ? -h : h;
+            sign *= s >> k & 1 ? -1 : 1;
+          }
+        sum += sign * map(Y);
+      }
+      nodes[i].col(d) = sum / std::pow(2 * h, count) * std::pow(20, count);
+    }
+  }
+  return HermiteMesh(nodes, flat.elements());
+}
+
+WallSurface wall_of(const HermiteMesh& mesh) {
+  std::vector<std::pair<int, int>> faces;
+  for (int e = 0; e < mesh.num_elements(); ++e) faces.push_back({e, 4});
+  return WallSurface(mesh, faces);
+}
+
+TEST(WallSurface, DistanceToASphereIsTheRadius) {
+  const HermiteMesh mesh = bent_slab();
+  const WallSurface wall = wall_of(mesh);
+  std::mt19937 random(5);
+  const auto uniform = [&] { return 2 * (random() / 4294967295.0) - 1; };
+  for (int trial = 0; trial < 50; ++trial) {
+    const Eigen::Vector3d direction =
+        Eigen::Vector3d(0.3 * uniform(), 0.3 * uniform(), 1).normalized();
+    const double gap = 5 * uniform();
+    // Cubic interpolation over 20 mm of a sphere of 100 mm errs by h⁴/(384 R³) ~ 4e-4 mm.
+    EXPECT_NEAR(wall.gap((kRadius + gap) * direction).gap, gap, 1e-3);
+  }
+}
+
+TEST(WallSurface, NormalAndHessianAreDerivativesOfTheGap) {
+  const HermiteMesh mesh = bent_slab();
+  const WallSurface wall = wall_of(mesh);
+  std::mt19937 random(6);
+  const auto uniform = [&] { return 2 * (random() / 4294967295.0) - 1; };
+  constexpr double h = 1e-4;
+  int compared = 0;
+  for (int trial = 0; trial < 60; ++trial) {  // 0.6 reaches beyond the rim
+    const Eigen::Vector3d x = (kRadius + 3 * uniform()) *
+                              Eigen::Vector3d(0.6 * uniform(), 0.6 * uniform(), 1).normalized();
+    const Gap exact = wall.gap(x);
+    for (int k = 0; k < 3; ++k) {
+      const Eigen::Vector3d dx = h * Eigen::Vector3d::Unit(k);
+      const Gap plus = wall.gap(x + dx), minus = wall.gap(x - dx);
+      if ((plus.hessian - minus.hessian).norm() > 1e-4) continue;  // across a patch's border
+      ++compared;
+      EXPECT_NEAR((plus.gap - minus.gap) / (2 * h), exact.normal[k], 1e-7);
+      EXPECT_NEAR(((plus.normal - minus.normal) / (2 * h) - exact.hessian.col(k)).norm(), 0, 1e-6);
+    }
+  }
+  EXPECT_GT(compared, 150);
+}
+
+TEST(SpringBed, PullsBackInProportion) {
+  SurfaceResponse response;
+  SurfacePoint point{};
+  point.X = {1, 2, 3};
+  Eigen::Matrix<double, 9, 1> y = Eigen::Matrix<double, 9, 1>::Zero();
+  y.head<3>() = Eigen::Vector3d(1, 2, 5);
+  ASSERT_TRUE(SpringBed(0.02).respond(y, point, 2, response));
+  EXPECT_DOUBLE_EQ(response.energy, 0.04);
+  EXPECT_DOUBLE_EQ(response.gradient[2], 0.04);
+  EXPECT_DOUBLE_EQ(response.hessian(2, 2), 0.02);
+  EXPECT_THROW(SpringBed(-1), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace mammotwin
