@@ -48,10 +48,16 @@ std::optional<Apices> find_apices(const std::vector<double>& front, double step)
   const Second down = second_apex(front, first, -1, step);
   const Second& best = up.prominence >= down.prominence ? up : down;
   if (best.prominence < least_prominence_mm) return std::nullopt;
+  const auto finite = [](double value) { return std::isfinite(value); };
+  const auto begin = std::find_if(front.begin(), front.end(), finite) - front.begin();
+  const auto end = front.rend() - std::find_if(front.rbegin(), front.rend(), finite);
   Apices apices;
   apices.right = std::min(first, best.at);
   apices.left = std::max(first, best.at);
   apices.valley = middle_of_plateau(front, apices.right, apices.left);
+  const double along =
+      static_cast<double>(apices.valley - begin) / static_cast<double>(end - begin);
+  if (along < 1.0 / 3 || along > 2.0 / 3) return std::nullopt;  // a breast and an arm
   return apices;
 }
 

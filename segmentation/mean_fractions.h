@@ -1,8 +1,8 @@
 #pragma once
 
-#include "segmentation/tissue.h"
-
 #include <Eigen/Core>
+
+#include "segmentation/tissue.h"
 
 namespace mammotwin {
 

@@ -5,7 +5,7 @@
 #include <stdexcept>
 
 #include "segmentation/read_dicom_series.h"
-#include "segmentation/read_image_file.h"
+#include "segmentation/read_raw_image.h"
 
 namespace mammotwin {
 namespace {
@@ -22,7 +22,7 @@ void check_exists(const fs::path& path) {
 }
 
 GridImage read_grid(const fs::path& path) {
-  RawImage raw = read_image_file(path);
+  RawImage raw = read_raw_image(path);
   GridImage image;
   image.size = Eigen::Map<const Eigen::Vector3i>(raw.size.data());
   image.spacing = Eigen::Map<const Eigen::Vector3d>(raw.spacing.data());

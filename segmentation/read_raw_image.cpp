@@ -1,4 +1,4 @@
-#include "segmentation/read_image_file.h"
+#include "segmentation/read_raw_image.h"
 
 #include <itkMetaDataObject.h>
 #include <itkMetaImageIO.h>
@@ -43,7 +43,7 @@ itk::ImageIOBase::Pointer io_for(const std::string& name) {
   return itk::MetaImageIO::New().GetPointer();
 }
 
-void check_dimensions(const itk::ImageIOBase& io) {
+void check_dimensions(const itk::ImageIOBase& io, unsigned components) {
   const unsigned dimensions = io.GetNumberOfDimensions();
   bool spatial = dimensions >= 3;
   for (unsigned d = 0; d < std::min(3u, dimensions); ++d) spatial &= io.GetDimensions(d) > 1;
@@ -53,9 +53,9 @@ void check_dimensions(const itk::ImageIOBase& io) {
     if (io.GetDimensions(d) != 1)
       throw std::runtime_error("holds " + std::to_string(io.GetDimensions(d)) +
                                " volumes; expected one (save the phase to be used on its own)");
-  if (io.GetNumberOfComponents() != 1)
+  if (io.GetNumberOfComponents() != components)
     throw std::runtime_error("has " + std::to_string(io.GetNumberOfComponents()) +
-                             " values a voxel; expected one grey value");
+                             " value(s) a voxel; expected " + std::to_string(components));
   double voxels = 1;
   for (unsigned d = 0; d < 3; ++d) voxels *= static_cast<double>(io.GetDimensions(d));
   if (voxels > static_cast<double>(most_voxels))
@@ -139,7 +139,8 @@ bool is_image_file_name(const fs::path& path) {
   return is_nifti(name) || is_nrrd(name) || is_meta(name);
 }
 
-RawImage read_image_file(const fs::path& path, std::map<std::string, std::string>* keys) {
+RawImage read_raw_image(const fs::path& path, std::map<std::string, std::string>* keys,
+                        int components) {
   const itk::ImageIOBase::Pointer io = io_for(lower_name(path));
   io->SetFileName(path.string());
   RawImage image;
@@ -149,7 +150,7 @@ RawImage read_image_file(const fs::path& path, std::map<std::string, std::string
   } catch (const itk::ExceptionObject&) {
     throw std::runtime_error("its header cannot be read; expected a NIfTI, NRRD or MetaImage file");
   }
-  check_dimensions(*io);
+  check_dimensions(*io, static_cast<unsigned>(components));
   check_spacing(*io);
   check_nifti(path, *io);
   itk::ImageIORegion region(io->GetNumberOfDimensions());

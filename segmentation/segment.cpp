@@ -1,0 +1,152 @@
+#include "segmentation/segment.h"
+
+#include <cmath>
+#include <stdexcept>
+
+#include "segmentation/breast_region.h"
+#include "segmentation/distance.h"
+#include "segmentation/half_body.h"
+#include "segmentation/landmarks.h"
+#include "segmentation/read_image.h"
+#include "segmentation/segment_labels.h"
+#include "segmentation/segment_mri.h"
+
+namespace mammotwin {
+namespace {
+
+/// What is not breast has no fractions; skin counts as fat.
+void settle_fractions(Segmentation& s) {
+  for (std::size_t v = 0; v < s.labels.values.size(); ++v) {
+    const std::uint8_t value = s.labels.values[v];
+    Fractions& f = s.fractions.values[v];
+    const float sum = f.fat + f.fibroglandular + f.lesion;
+    if (!label::is_breast(value) || !(sum > 0)) f = pure_fractions(value);
+  }
+}
+
+void crop(SegmentResult& result) {
+  Segmentation& s = result.segmentation;
+  const VoxelBox box = labelled_box(s.labels, 5);
+  s.labels = cropped(s.labels, box.low, box.high);
+  s.fractions = cropped(s.fractions, box.low, box.high);
+  if (!result.image.values.empty()) result.image = cropped(result.image, box.low, box.high);
+}
+
+void find_nipple(const SegmentInput& input, Segmentation& s, SegmentQuality& quality) {
+  if (input.nipple_in_lps) {
+    s.nipple_in_lps = *input.nipple_in_lps;
+  } else if (input.nipple_markups) {
+    s.nipple_in_lps = read_markups_point(*input.nipple_markups);
+  } else {
+    s.nipple_in_lps = most_anterior_point(s.labels, s.region);
+    quality.notes.push_back("the nipple was taken as the most anterior skin point");
+    return;
+  }
+  auto breast = s.labels.like<std::uint8_t>(0);
+  for (std::size_t v = 0; v < breast.values.size(); ++v)
+    breast.values[v] = label::is_breast(s.labels.values[v]);
+  const Eigen::Vector3d& x = s.nipple_in_lps;
+  const Eigen::Vector3i v = s.labels.index(x).array().round().cast<int>();
+  constexpr double farthest_mm = 15;
+  const double off =
+      s.labels.contains(v.x(), v.y(), v.z()) ? distance_to(breast)(v.x(), v.y(), v.z()) : INFINITY;
+  if (off > farthest_mm)
+    throw std::runtime_error(
+        "the nipple given lies more than 15 mm outside the breast; expected "
+        "a point on its skin in LPS [mm] (is it in RAS, or the other side?)");
+}
+
+void measure_volumes(const Segmentation& s, SegmentQuality& q) {
+  const double ml = s.labels.voxel_volume() / 1000;
+  for (int k = 0; k < s.labels.size.z(); ++k)
+    for (int j = 0; j < s.labels.size.y(); ++j)
+      for (int i = 0; i < s.labels.size.x(); ++i) {
+        const std::uint8_t value = s.labels(i, j, k);
+        if (!label::is_breast(value) || !s.region.contains(s.labels.position(i, j, k))) continue;
+        q.breast_volume_ml += ml;
+        if (value == label::skin) {
+          q.skin_ml += ml;
+          continue;
+        }
+        q.fat_ml += ml * s.fractions(i, j, k).fat;
+        q.fibroglandular_ml += ml * s.fractions(i, j, k).fibroglandular;
+      }
+}
+
+/// Mean thickness of the skin label in the region: twice the mean depth of its voxels below air.
+double labelled_skin_thickness(const Segmentation& s) {
+  auto air = s.labels.like<std::uint8_t>(0);
+  for (std::size_t v = 0; v < air.values.size(); ++v)
+    air.values[v] = s.labels.values[v] == label::air;
+  const Volume<float> depth = distance_to(air);
+  const double half_voxel = std::cbrt(s.labels.voxel_volume()) / 2;
+  double sum = 0, count = 0;
+  for (int k = 0; k < air.size.z(); ++k)
+    for (int j = 0; j < air.size.y(); ++j)
+      for (int i = 0; i < air.size.x(); ++i)
+        if (s.labels(i, j, k) == label::skin && s.region.contains(air.position(i, j, k)))
+          sum += depth(i, j, k) - half_voxel, ++count;
+  return count > 0 ? 2 * sum / count : 0;
+}
+
+void hand_on_mri(const SegmentInput& input, SegmentResult& result) {
+  if (!input.mri) return;
+  const Mri mri = read_mri(*input.mri, input.series);
+  result.files.insert(result.files.end(), mri.files.begin(), mri.files.end());
+  const Volume<std::uint8_t>& grid = result.segmentation.labels;
+  result.image = grid.like<float>(0);
+  for (int k = 0; k < grid.size.z(); ++k)
+    for (int j = 0; j < grid.size.y(); ++j)
+      for (int i = 0; i < grid.size.x(); ++i) {
+        const Eigen::Vector3i v =
+            mri.image.index(grid.position(i, j, k)).array().round().cast<int>();
+        if (mri.image.contains(v.x(), v.y(), v.z()))
+          result.image(i, j, k) = mri.image(v.x(), v.y(), v.z());
+      }
+}
+
+void judge_volumes(SegmentQuality& q) {
+  constexpr double least_ml = 30, most_ml = 4000;  // beyond what breasts measure
+  if (q.breast_volume_ml < least_ml || q.breast_volume_ml > most_ml)
+    q.doubt(SegmentStatus::look, "the breast's volume is " +
+                                     std::to_string(static_cast<int>(q.breast_volume_ml)) +
+                                     " ml; expected 30 to 4000 ml (are the units mm?)");
+}
+
+}  // namespace
+
+SegmentResult segment(const SegmentInput& input, const SegmentOptions& options,
+                      const SegmentProgress& progress) {
+  const auto tell = [&](double fraction, const std::string& what) {
+    if (progress) progress(fraction, what);
+  };
+  if (!input.label_map && !input.mri)
+    throw std::invalid_argument("neither an MRI nor a label map is given; expected one of them");
+  SegmentResult result;
+  if (input.label_map) {
+    tell(0, "reading the label map");
+    result = segment_labels(input);
+  } else {
+    result = segment_mri(input, options,
+                         [&](double f, const std::string& what) { tell(0.9 * f, what); });
+  }
+  Segmentation& s = result.segmentation;
+  SegmentQuality& q = result.quality;
+  tell(0.9, "finding the breast's region");
+  settle_fractions(s);
+  crop(result);
+  s.region = find_breast_region(s.labels, s.region.side);
+  find_nipple(input, s, q);
+  if (input.label_map) hand_on_mri(input, result);
+  tell(0.95, "measuring");
+  q.side = s.region.side;
+  q.lesions = s.lesions;
+  q.nipple_in_lps = s.nipple_in_lps;
+  measure_volumes(s, q);
+  if (input.label_map) q.skin_thickness_mm = labelled_skin_thickness(s);
+  judge_volumes(q);
+  tell(1, "done");
+  return result;
+}
+
+}  // namespace mammotwin

@@ -1,0 +1,67 @@
+#include "segmentation/segment_quality.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+namespace mammotwin {
+namespace {
+
+using nlohmann::json;
+
+json point(const Eigen::Vector3d& x) { return {x.x(), x.y(), x.z()}; }
+
+json optional_number(const std::optional<double>& value) {
+  return value ? json(*value) : json(nullptr);
+}
+
+json lesions_json(const std::vector<Lesion>& lesions) {
+  json list = json::array();
+  for (const Lesion& lesion : lesions)
+    list.push_back({{"id", lesion.id},
+                    {"centroid_lps_mm", point(lesion.centroid_in_lps)},
+                    {"volume_ml", lesion.volume_ml}});
+  return list;
+}
+
+}  // namespace
+
+void SegmentQuality::doubt(SegmentStatus at_least, const std::string& reason) {
+  status = std::max(status, at_least);
+  reasons.push_back(reason);
+}
+
+std::string to_string(SegmentStatus status) {
+  switch (status) {
+    case SegmentStatus::ok:
+      return "ok";
+    case SegmentStatus::look:
+      return "look";
+    default:
+      return "refused";
+  }
+}
+
+std::string to_string(Side side) { return side == Side::left ? "left" : "right"; }
+
+json to_json(const SegmentQuality& q) {
+  return {{"side", to_string(q.side)},
+          {"contrast", q.contrast},
+          {"breast_volume_ml", q.breast_volume_ml},
+          {"fat_ml", q.fat_ml},
+          {"fibroglandular_ml", q.fibroglandular_ml},
+          {"skin_ml", q.skin_ml},
+          {"lesions", lesions_json(q.lesions)},
+          {"skin_thickness_mm", q.skin_thickness_mm},
+          {"skin_thickness_range_mm",
+           {optional_number(q.skin_thickness_low_mm), optional_number(q.skin_thickness_high_mm)}},
+          {"nipple_lps_mm", point(q.nipple_in_lps)},
+          {"chest_wall_doubt", optional_number(q.chest_wall_doubt)},
+          {"failed_suppression_ml", optional_number(q.failed_suppression_ml)},
+          {"signal_to_noise", optional_number(q.signal_to_noise)},
+          {"clipped_share", optional_number(q.clipped_share)},
+          {"volume_ratio", optional_number(q.volume_ratio)},
+          {"lesion_agreement", q.lesion_agreement},
+          {"notes", q.notes}};
+}
+
+}  // namespace mammotwin

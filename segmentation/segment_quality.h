@@ -1,0 +1,46 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "segmentation/tissue.h"
+
+namespace mammotwin {
+
+enum class SegmentStatus { ok, look, refused };
+
+/// How far a segmentation may be believed. What was not measured is empty.
+struct SegmentQuality {
+  SegmentStatus status = SegmentStatus::ok;
+  std::vector<std::string> reasons;  ///< why the status is not ok, in sentences
+  std::vector<std::string> notes;    ///< what was chosen or assumed, in sentences
+
+  Side side = Side::left;
+  std::string contrast;  ///< "fat-suppressed", "not fat-suppressed" or "labels"
+  double breast_volume_ml = 0, fat_ml = 0, fibroglandular_ml = 0, skin_ml = 0;  ///< in the region
+  std::vector<Lesion> lesions;
+  double skin_thickness_mm = 0;
+  std::optional<double> skin_thickness_low_mm, skin_thickness_high_mm;  ///< range it may have
+  Eigen::Vector3d nipple_in_lps = Eigen::Vector3d::Zero();              ///< [mm]
+
+  std::optional<double> chest_wall_doubt;       ///< share of the wall without support, 0 to 1
+  std::optional<double> failed_suppression_ml;  ///< breast brighter than twice fat
+  std::optional<double> signal_to_noise;        ///< median breast over the noise of air
+  std::optional<double> clipped_share;          ///< of the skin's outline at the image's border
+  std::optional<double> volume_ratio;           ///< of the two breasts, smaller over larger
+  std::vector<double> lesion_agreement;         ///< Dice of two methods, one a lesion
+
+  /// Adds a reason and makes the status at least this bad.
+  void doubt(SegmentStatus at_least, const std::string& reason);
+};
+
+std::string to_string(SegmentStatus status);
+std::string to_string(Side side);
+
+/// The `quality` object of the sidecar (design, section 1), without status and reasons.
+nlohmann::json to_json(const SegmentQuality& quality);
+
+}  // namespace mammotwin
