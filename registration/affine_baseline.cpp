@@ -1,0 +1,65 @@
+#include "registration/affine_baseline.h"
+
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace mammotwin {
+namespace {
+
+/// Samples a side of an element: 20 mm elements are seen every 2.5 mm.
+constexpr int kSamples = 8;
+
+template <class Visit>
+void for_each_sample(const HermiteMesh& mesh, const Visit& visit) {
+  for (int e = 0; e < mesh.num_elements(); ++e)
+    for (int k = 0; k <= kSamples; ++k)
+      for (int j = 0; j <= kSamples; ++j)
+        for (int i = 0; i <= kSamples; ++i)
+          visit(MeshPoint{e, Eigen::Vector3d(i, j, k) / kSamples});
+}
+
+/// Lateral coordinate of the volume's centroid, by the trapezoidal rule on the samples.
+double lateral_centroid(const HermiteMesh& mesh, const ViewFrame& frame) {
+  const auto weight = [](double xi) { return xi == 0 || xi == 1 ? 0.5 : 1.0; };
+  double volume = 0, moment = 0;
+  for_each_sample(mesh, [&](const MeshPoint& p) {
+    const double dv = weight(p.xi.x()) * weight(p.xi.y()) * weight(p.xi.z()) *
+                      mesh.jacobian(p).determinant();
+    volume += dv;
+    moment += dv * frame.view_from_lps(mesh.position(p)).y();
+  });
+  return moment / volume;
+}
+
+}  // namespace
+
+AffineBaseline::AffineBaseline(const HermiteMesh& prone, const CompressedView& view)
+    : frame_(view.frame) {
+  double high = -std::numeric_limits<double>::infinity();
+  low_ = -high;
+  for_each_sample(prone, [&](const MeshPoint& p) {
+    const Eigen::Vector3d x = frame_.view_from_lps(prone.position(p));
+    if (x.x() <= 0) return;
+    low_ = std::min(low_, x.z());
+    high = std::max(high, x.z());
+  });
+  if (!(high > low_))
+    throw std::invalid_argument("baseline of view " + view.name +
+                                ": no part of the prone breast lies in front of the detector's "
+                                "chest-wall edge; check the view's origin");
+  prone_extent_mm_ = high - low_;
+  stretch_ = std::sqrt(prone_extent_mm_ / view.thickness_mm);
+  lateral_centroid_ = lateral_centroid(prone, frame_);
+}
+
+Eigen::Vector3d AffineBaseline::view_from_prone(const Eigen::Vector3d& x_in_lps) const {
+  const Eigen::Vector3d x = frame_.view_from_lps(x_in_lps);
+  return {stretch_ * x.x(), lateral_centroid_ + stretch_ * (x.y() - lateral_centroid_),
+          (x.z() - low_) / (stretch_ * stretch_)};
+}
+
+}  // namespace mammotwin

@@ -1,0 +1,36 @@
+#pragma once
+
+#include "fitting/mesh/hermite_mesh.h"
+#include "registration/compressed_view.h"
+
+namespace mammotwin {
+
+/// The prediction without physics that the model has to beat: an affine map, in the view frame, of
+/// the prone breast to the compressed thickness that keeps its volume.
+///
+///   depth'   = r depth                    held at the detector's chest-wall edge
+///   lateral' = c + r (lateral - c)        held at the lateral centroid c of the prone breast
+///   height'  = (height - low) / r^2       r^2 = prone extent / compressed thickness
+///
+/// The prone extent [low, high] along the beam is that of the tissue in front of the edge
+/// (depth > 0), which is what the plates squeeze. In-plane stretch r both ways, so det = 1.
+class AffineBaseline {
+ public:
+  /// Throws std::invalid_argument if no part of the breast lies in front of the edge.
+  AffineBaseline(const HermiteMesh& prone, const CompressedView& view);
+
+  /// Point of the prone breast [mm, LPS] -> its place in the view frame.
+  Eigen::Vector3d view_from_prone(const Eigen::Vector3d& x_in_lps) const;
+
+  double stretch() const { return stretch_; }
+  double prone_extent_mm() const { return prone_extent_mm_; }
+
+ private:
+  ViewFrame frame_;
+  double prone_extent_mm_ = 0;
+  double stretch_ = 1;
+  double low_ = 0;
+  double lateral_centroid_ = 0;
+};
+
+}  // namespace mammotwin

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace mammotwin {
+
+/// A control point of a 3D Slicer markups file.
+struct MarkupPoint {
+  std::string label;
+  Eigen::Vector3d x_in_lps = Eigen::Vector3d::Zero();  ///< [mm]
+};
+
+/// Writes one fiducial list in LPS (`.mrk.json`, markups schema 1.0.3).
+void write_markups(const std::filesystem::path& path, const std::vector<MarkupPoint>& points);
+
+/// All control points of a `.mrk.json`, in LPS whichever of LPS and RAS the file uses.
+/// Throws std::runtime_error naming the file and the field that is missing or wrong.
+std::vector<MarkupPoint> read_markups(const std::filesystem::path& path);
+
+}  // namespace mammotwin

@@ -1,0 +1,69 @@
+#include "registration/markups.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <filesystem>
+#include <fstream>
+
+namespace mammotwin {
+namespace {
+
+std::filesystem::path scratch(const std::string& name) {
+  return std::filesystem::path(testing::TempDir()) / name;
+}
+
+std::filesystem::path write_text(const std::string& name, const std::string& text) {
+  const auto path = scratch(name);
+  std::ofstream(path) << text;
+  return path;
+}
+
+TEST(Markups, ComeBackAsTheyWereWritten) {
+  const auto path = scratch("points.mrk.json");
+  write_markups(path, {{"lesion 1", {12.25, -3.5, 1.0 / 3}}, {"nipple", {0, -60, 0}}});
+  const auto points = read_markups(path);
+  ASSERT_EQ(points.size(), 2u);
+  EXPECT_EQ(points[0].label, "lesion 1");
+  EXPECT_EQ(points[0].x_in_lps, Eigen::Vector3d(12.25, -3.5, 1.0 / 3));
+}
+
+TEST(Markups, SayTheirFrameUnitAndSchema) {
+  const auto path = scratch("frame.mrk.json");
+  write_markups(path, {{"1", {1, 2, 3}}});
+  const auto file = nlohmann::json::parse(std::ifstream(path));
+  EXPECT_NE(file.at("@schema").get<std::string>().find("markups-schema-v1.0.3.json#"),
+            std::string::npos);
+  EXPECT_EQ(file["markups"][0]["type"], "Fiducial");
+  EXPECT_EQ(file["markups"][0]["coordinateSystem"], "LPS");
+  EXPECT_EQ(file["markups"][0]["coordinateUnits"], "mm");
+}
+
+TEST(Markups, AreTurnedFromRasToLps) {
+  const auto path = write_text("ras.mrk.json", R"({"markups": [{"type": "Fiducial",
+      "coordinateSystem": "RAS",
+      "controlPoints": [{"label": "F-1", "position": [10.0, 20.0, 30.0]},
+                        {"label": "F-2", "position": [0, 0, 0], "positionStatus": "undefined"}]}]})");
+  const auto points = read_markups(path);
+  ASSERT_EQ(points.size(), 1u);
+  EXPECT_EQ(points[0].x_in_lps, Eigen::Vector3d(-10, -20, 30));
+}
+
+TEST(Markups, NameWhatIsWrongWithAFile) {
+  const auto message = [](const std::filesystem::path& path) {
+    try {
+      read_markups(path);
+    } catch (const std::runtime_error& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_NE(message(scratch("absent.mrk.json")).find("cannot be opened"), std::string::npos);
+  EXPECT_NE(message(write_text("ijk.mrk.json", R"({"markups": [{"coordinateSystem": "IJK",
+      "controlPoints": []}]})")).find("\"IJK\"; expected LPS or RAS"), std::string::npos);
+  EXPECT_NE(message(write_text("none.mrk.json", R"({"markups": [{"type": "Fiducial"}]})"))
+                .find("controlPoints"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace mammotwin
