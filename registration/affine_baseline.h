@@ -24,6 +24,7 @@ class AffineBaseline {
 
   double stretch() const { return stretch_; }
   double prone_extent_mm() const { return prone_extent_mm_; }
+  double prone_low_mm() const { return low_; }  ///< lowest height of the prone tissue in front
 
  private:
   ViewFrame frame_;
