@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <deque>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -8,6 +9,8 @@
 #include <vector>
 
 #include "pipeline/frame/settings.h"
+#include "pipeline/lesion_entry.h"
+#include "segmentation/segment.h"
 
 namespace mammotwin {
 
@@ -26,14 +29,35 @@ class Patient {
   /// is not TOML, has an unknown key (the nearest known one is named) or a value out of range.
   void read(const std::filesystem::path& file, const Settings& settings);
 
-  /// A path of patient.toml, relative to that file unless absolute.
-  std::filesystem::path resolve(const std::filesystem::path& path) const;
+  /// The patient's folder, as its name: "042".
+  std::string name() const;
+
+  /// Inputs of `segment` with paths resolved. Throws std::runtime_error where neither an MRI nor a
+  /// label map is named and there is no folder `mri`.
+  SegmentInput segment_input() const;
+  /// Every file or folder that `segment_input` names.
+  std::vector<std::filesystem::path> segment_files() const;
+
+  SegmentOptions segment;
 
   /// Parameters that come in lists (lesions) below these prefixes, in the sidecar's form.
   nlohmann::json list_parameters(const std::vector<std::string>& prefixes) const;
 
  private:
-  std::filesystem::path folder_ = ".";
+  std::filesystem::path resolve(const std::filesystem::path& path) const;
+  void declare_inputs(Settings& settings);
+  void declare_segment(Settings& settings);
+  void read_lesions(const std::string& file, const nlohmann::json& list);
+  LesionSeed seed_of(const LesionEntry& entry) const;
+  LabelValues label_values() const;
+
+  std::filesystem::path file_;
+  std::optional<Side> side_;
+  std::optional<std::filesystem::path> mri_, labels_, nipple_markups_;
+  std::optional<std::string> series_;
+  std::map<ForeignTissue, std::vector<int>> label_values_;
+  std::optional<Eigen::Vector3d> nipple_lps_mm_;
+  std::deque<LesionEntry> lesions_;  // settings point into it while a list is read
 };
 
 }  // namespace mammotwin

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <sstream>
 
+#include "pipeline/frame/checksum.h"
+
 namespace mammotwin {
 namespace {
 
@@ -140,6 +142,18 @@ void Settings::text(std::string key, std::optional<std::string>& variable, std::
       std::move(key), "text", Range{}, std::move(help),
       [&variable](const json& v) { variable = checked_text(v); },
       [&variable] { return variable ? json(*variable) : json(); });
+}
+
+void Settings::private_text(std::string key, std::optional<std::string>& variable,
+                            std::string help) {
+  constexpr std::size_t hash_digits = 16;
+  add(
+      std::move(key), "text", Range{}, std::move(help),
+      [&variable](const json& v) { variable = checked_text(v); },
+      [&variable] {
+        return variable ? json("sha256 " + sha256_of_text(*variable).substr(0, hash_digits))
+                        : json();
+      });
 }
 
 void Settings::path(std::string key, std::optional<std::filesystem::path>& variable,

@@ -49,6 +49,8 @@ class Settings {
   void integer(std::string key, std::optional<int>& variable, Range range, std::string help);
   void flag(std::string key, bool& variable, std::string help);
   void text(std::string key, std::optional<std::string>& variable, std::string help);
+  /// Text that must not be written anywhere (an identifier): a sidecar gets a hash of it.
+  void private_text(std::string key, std::optional<std::string>& variable, std::string help);
   void path(std::string key, std::optional<std::filesystem::path>& variable, std::string help);
   void point(std::string key, std::optional<Eigen::Vector3d>& variable, Range range,
              std::string help);

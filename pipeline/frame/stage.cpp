@@ -5,6 +5,7 @@
 #include <iostream>
 
 #include "pipeline/frame/process.h"
+#include "pipeline/frame/settings_table.h"
 #include "pipeline/frame/sidecar.h"
 
 namespace mammotwin {
@@ -25,9 +26,16 @@ std::string flag_of(std::string key) {
   return "--" + key;
 }
 
-void declare_common(CLI::App& app, CommandLine& line) {
+void declare_common(CLI::App& app, const Settings& settings, CommandLine& line) {
   app.add_option("--patient", line.patient_file, "patient.toml with this patient's settings");
   app.add_flag("--force", line.force, "run even if the product is current");
+  app.add_flag_callback(
+      "--list-settings",
+      [&settings] {
+        std::cout << settings_table(settings.all());
+        throw CLI::Success();
+      },
+      "print every key of patient.toml as a table");
   app.set_version_flag("--version", std::string(MAMMOTWIN_VERSION));
   app.get_formatter()->column_width(44);
 }
@@ -168,7 +176,7 @@ int run_stage(int argc, char** argv, const Stage& stage) {
   CommandLine line;
   StageDeclaration declaration(app, settings);
   stage.declare(declaration);
-  declare_common(app, line);
+  declare_common(app, settings, line);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {

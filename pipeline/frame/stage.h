@@ -69,4 +69,17 @@ struct Stage {
 /// stays.
 int run_stage(int argc, char** argv, const Stage& stage);
 
+/// The same for a command's three functions over its own arguments.
+template <class Arguments>
+int run_stage(int argc, char** argv, const std::string& name, const std::string& summary,
+              void (*declare)(StageDeclaration&, Arguments&),
+              StagePlan (*plan)(const Arguments&, const Patient&),
+              Outcome (*run)(const Arguments&, StageRun&)) {
+  Arguments args;
+  return run_stage(argc, argv,
+                   Stage{name, summary, [&](StageDeclaration& stage) { declare(stage, args); },
+                         [&](const Patient& patient) { return plan(args, patient); },
+                         [&](StageRun& stage) { return run(args, stage); }});
+}
+
 }  // namespace mammotwin
