@@ -14,6 +14,8 @@ struct Arguments {
 
 void declare(StageDeclaration& stage, Arguments& args) {
   stage.product("segmentation", args.segmentation, "tissue labels to write (.seg.nrrd)");
+  for (const char* prefix : {"side", "mri.", "labels.", "nipple."})
+    stage.options_from(prefix, false);
   stage.options_from("segment.", true);
 }
 

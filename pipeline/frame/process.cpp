@@ -6,23 +6,13 @@
 #include <cstdlib>
 #include <string_view>
 
+#include "solver/newton/blas_kernels.h"
+
 namespace mammotwin {
 namespace {
 
 namespace fs = std::filesystem;
 constexpr char kPrepared[] = "MAMMOTWIN_PREPARED";
-
-/// OpenBLAS 0.3.21 does not know recent Intel cores and then uses its slowest kernels, so the
-/// choice is made from the processor's features.
-const char* openblas_core() {
-#if defined(__x86_64__)
-  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
-      __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512bw"))
-    return "SkylakeX";
-  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) return "Haswell";
-#endif
-  return nullptr;
-}
 
 bool names_a_path(std::string_view argument) {
   return argument.find('/') != std::string_view::npos && argument.front() != '-';
@@ -34,7 +24,8 @@ void prepare_process(char** argv) {
   if (std::getenv(kPrepared)) return;
   setenv(kPrepared, "1", 1);
   setenv("OPENBLAS_NUM_THREADS", "1", 1);
-  if (const char* core = openblas_core()) setenv("OPENBLAS_CORETYPE", core, 0);
+  const std::string core = blas_core_type();
+  if (!core.empty()) setenv("OPENBLAS_CORETYPE", core.c_str(), 0);
   execv("/proc/self/exe", argv);  // returns only on failure: then go on with slower kernels
 }
 

@@ -8,6 +8,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -20,6 +21,10 @@ struct Range {
   std::string unit = "-";
   std::string hint = {};
 };
+
+/// Names of an enumeration's values; E comes from the variable they are for.
+template <class E>
+using ChoiceNames = std::type_identity_t<std::vector<std::pair<std::string, E>>>;
 
 /// A setting's value does not fit its type or range.
 class BadSetting : public std::runtime_error {
@@ -60,8 +65,7 @@ class Settings {
   void label_values(std::string key, std::vector<int>& variable, std::string help);
 
   template <class E>
-  void choice(std::string key, E& variable, std::vector<std::pair<std::string, E>> names,
-              std::string help);
+  void choice(std::string key, E& variable, ChoiceNames<E> names, std::string help);
   template <class E>
   void choice(std::string key, std::optional<E>& variable,
               std::vector<std::pair<std::string, E>> names, std::string help);
@@ -114,8 +118,7 @@ std::string type_of(const std::vector<std::pair<std::string, E>>& names) {
 }  // namespace detail
 
 template <class E>
-void Settings::choice(std::string key, E& variable, std::vector<std::pair<std::string, E>> names,
-                      std::string help) {
+void Settings::choice(std::string key, E& variable, ChoiceNames<E> names, std::string help) {
   add(
       std::move(key), detail::type_of(names), Range{}, std::move(help),
       [&variable, names](const nlohmann::json& v) { variable = detail::chosen(v, names); },

@@ -26,6 +26,11 @@ std::string flag_of(std::string key) {
   return "--" + key;
 }
 
+std::string bracketed_range(const Setting& setting) {
+  const std::string range = setting.range_text();
+  return range == "any" ? "" : " [" + range + "]";
+}
+
 void declare_common(CLI::App& app, const Settings& settings, CommandLine& line) {
   app.add_option("--patient", line.patient_file, "patient.toml with this patient's settings");
   app.add_flag("--force", line.force, "run even if the product is current");
@@ -149,8 +154,7 @@ void StageDeclaration::options_from(const std::string& prefix, bool cut_prefix) 
     given->key = setting.key;
     given->flag = flag_of(cut_prefix ? setting.key.substr(prefix.size()) : setting.key);
     const nlohmann::json value = setting.value();
-    app_.add_option(given->flag, given->text,
-                    setting.help + " [" + setting.range.unit + "; " + setting.range_text() + "]")
+    app_.add_option(given->flag, given->text, setting.help + bracketed_range(setting))
         ->type_name(setting.type)
         ->default_str(value.is_null()     ? ""
                       : value.is_string() ? value.get<std::string>()
