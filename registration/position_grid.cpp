@@ -47,8 +47,9 @@ Eigen::AlignedBox3d bounding_box(const HermiteMesh& mesh) {
 
 PositionGrid cover(const Eigen::AlignedBox3d& box, double spacing_mm) {
   const Eigen::Vector3i size =
-      (box.sizes() / spacing_mm).array().ceil().cast<int>().matrix() + Eigen::Vector3i::Ones();
-  return PositionGrid(size, Eigen::Vector3d::Constant(spacing_mm), box.min());
+      (box.sizes() / spacing_mm).array().ceil().cast<int>().max(1).matrix();
+  const Eigen::Vector3d spacing = Eigen::Vector3d::Constant(spacing_mm);
+  return PositionGrid(size, spacing, box.min() + spacing / 2);
 }
 
 }  // namespace mammotwin

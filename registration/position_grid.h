@@ -23,7 +23,7 @@ HermiteMesh in_view_frame(const HermiteMesh& mesh, const ViewFrame& frame);
 /// Box round a mesh [mm], exact to the hull of its Hermite control points.
 Eigen::AlignedBox3d bounding_box(const HermiteMesh& mesh);
 
-/// Empty grid of cubic voxels whose centres cover the box.
+/// Empty grid of cubic voxels that cover the box.
 PositionGrid cover(const Eigen::AlignedBox3d& box, double spacing_mm);
 
 }  // namespace mammotwin

@@ -28,22 +28,23 @@ struct DetectorImage {
   double at(int i, int j) const { return values[static_cast<std::size_t>(j) * columns + i]; }
 };
 
-/// Attenuation -ln(I/I0) of the primary beam along the ray to each pixel (Beer-Lambert): the line
-/// integral of attenuation through the compressed breast, tissue read at its prone position; 0
-/// where the ray meets no breast. No scatter, noise, skin or beam hardening. The mesh begins at the
-/// chest wall's front, so the pectoral muscle is not seen.
-DetectorImage simulated_mammogram(const HermiteMesh& prone, const HermiteMesh& compressed,
-                                  const Volume<Fractions>& fractions, const CompressedView& view,
-                                  const Detector& detector, double spacing_mm = 0.5,
-                                  const Attenuation& attenuation = {});
+/// What the detector sees of a compressed breast.
+struct SimulatedView {
+  DetectorImage thickness;    ///< breast that the ray to each pixel passes [mm]
+  DetectorImage attenuation;  ///< -ln(I/I0) of the primary beam
+};
 
-/// Thickness of breast [mm] that the ray to each pixel passes.
-DetectorImage breast_along_rays(const HermiteMesh& compressed, const CompressedView& view,
-                                const Detector& detector, double spacing_mm = 0.5);
+/// Beer-Lambert along the ray to each pixel: the line integral of attenuation through the
+/// compressed breast, tissue read at its prone position (without `fractions`, fat); 0 where the ray
+/// meets no breast. No scatter, noise, skin or beam hardening. The mesh begins at the chest wall's
+/// front, so the pectoral muscle is not seen.
+SimulatedView simulate_view(const HermiteMesh& prone, const HermiteMesh& compressed,
+                            const Volume<Fractions>* fractions, const CompressedView& view,
+                            const Detector& detector, double spacing_mm = 0.5,
+                            const Attenuation& attenuation = {});
 
 /// Grey in [0, 1] as a mammogram is shown: dense is bright, air black, and the rim's thinner tissue
 /// lifted by judging each pixel against fat of the same thickness.
-DetectorImage as_shown(const DetectorImage& attenuation, const DetectorImage& thickness,
-                       const Attenuation& coefficients = {});
+DetectorImage as_shown(const SimulatedView& view, const Attenuation& attenuation = {});
 
 }  // namespace mammotwin

@@ -1,0 +1,97 @@
+#include "pipeline/report/mesh_surface.h"
+#include "pipeline/report/palette.h"
+#include "pipeline/report/panel.h"
+#include "pipeline/report/view_figures.h"
+#include "pipeline/report/word.h"
+#include "registration/simulated_mammogram.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace mammotwin {
+namespace {
+
+constexpr double kScale = 2.0;         // [pt/mm]
+constexpr double kMargin_mm = 10;
+constexpr double kPixel_mm = 0.5;
+
+/// Detector coordinates in space: (u, v, 0).
+Eigen::Vector3d on_plane(const Eigen::Vector2d& uv) { return {uv.x(), uv.y(), 0}; }
+
+DetectorImage shown(const PatientResults& results, const ViewResult& view) {
+  const bool tissue = results.segmentation && !results.segmentation->fractions.values.empty();
+  return as_shown(simulate_view(results.prone->mesh, view.file.mesh,
+                                tissue ? &results.segmentation->fractions : nullptr, view.view,
+                                view.detector, kPixel_mm));
+}
+
+Section detector_section(const DetectorImage& image, Side side) {
+  const Eigen::Vector2d last =
+      image.first + image.spacing_mm * Eigen::Vector2d(image.columns, image.rows);
+  Section s;
+  s.normal = 2;
+  s.right = {0, side == Side::right};  // chest walls meet in the middle, as mammograms are hung
+  s.down = {1, true};
+  s.window = Eigen::AlignedBox3d(
+      Eigen::Vector3d(0, image.first.y() - kMargin_mm, 0),
+      Eigen::Vector3d(last.x() + kMargin_mm, last.y() + kMargin_mm, 0));
+  return s;
+}
+
+Raster raster_of(const DetectorImage& image, const Section& section) {
+  return section.sample(kPixel_mm, [&](const Eigen::Vector3d& x) -> Colour {
+    const Eigen::Vector2d index =
+        (Eigen::Vector2d(x.x(), x.y()) - image.first) / image.spacing_mm;
+    const int i = static_cast<int>(std::lround(index.x()));
+    const int j = static_cast<int>(std::lround(index.y()));
+    const bool inside = i >= 0 && j >= 0 && i < image.columns && j < image.rows;
+    const double g = 0.04 + 0.96 * (inside ? image.at(i, j) : 0);
+    return {g, g, g};
+  });
+}
+
+void draw_landmarks(Panel& panel, const PatientResults& results, const ViewProjection& projection) {
+  for (const Landmark& lesion : results.lesions()) {
+    const ProjectedLandmark p = projection.project(lesion);
+    panel.baseline_mark(on_plane(p.baseline_on_detector), lesion.id);
+    panel.lesion_mark(on_plane(p.on_detector), 5, lesion.id, true);
+  }
+  if (const auto nipple = results.nipple())
+    panel.nipple_mark(on_plane(projection.project({"nipple", *nipple}).on_detector), true);
+}
+
+std::string described(const PatientResults& results, const ViewProjection& projection) {
+  std::string text;
+  for (const Landmark& lesion : results.lesions()) {
+    const ProjectedLandmark p = projection.project(lesion);
+    text += " Lesion " + lesion.id + " at u " + word::mm(p.on_detector.x()) + ", v " +
+            word::mm(p.on_detector.y()) + " mm.";
+  }
+  return text;
+}
+
+}  // namespace
+
+Figure detector_figure(const PatientResults& results, const ViewResult& view) {
+  const ViewProjection projection(results.prone->mesh, view.file.mesh, view.view, view.detector);
+  const DetectorImage image = shown(results, view);
+  const Section section = detector_section(image, view.view.side);
+  Picture picture(section.width_mm() * kScale, section.height_mm() * kScale + 20);
+  Panel panel(picture, section, 0, 18, kScale);
+  panel.image(raster_of(image, section));
+  draw_landmarks(panel, results, projection);
+  const bool right = view.view.side == Side::right;
+  const bool oblique = std::abs(view.view.angle_deg) > 15;
+  panel.sides("", "", oblique ? "superior-lateral" : "lateral",
+              oblique ? "inferior-medial" : "medial", true);
+  panel.scale_bar(20, palette::paper);
+  const std::string name = (right ? "R-" : "L-") + title_of_view(view.view.name);
+  panel.title(name);
+  return {picture,
+          name + " on the detector, simulated from the compressed model (cone beam, source at " +
+              word::number(view.detector.source_distance_mm, 0) +
+              " mm). Ring: lesion by the model; cross: without physics; triangle: nipple.",
+          "Simulated " + name + " mammogram." + described(results, projection)};
+}
+
+}  // namespace mammotwin

@@ -1,0 +1,14 @@
+#pragma once
+
+#include "pipeline/report/figure.h"
+#include "pipeline/report/patient_results.h"
+
+#include <optional>
+
+namespace mammotwin {
+
+/// Plate force against thickness over the load steps of each view, from `quality.history` of its
+/// sidecar (a list of {thickness_mm, force_N}); nothing where no view has one.
+std::optional<Figure> force_figure(const PatientResults& results);
+
+}  // namespace mammotwin

@@ -1,0 +1,64 @@
+#include "pipeline/report/overview_picture.h"
+
+#include "pipeline/report/mri_figure.h"
+#include "pipeline/report/palette.h"
+#include "pipeline/report/render_figure.h"
+#include "pipeline/report/view_figures.h"
+
+#include <algorithm>
+#include <vector>
+
+namespace mammotwin {
+namespace {
+
+constexpr double kGap = 16;  // [pt]
+
+/// Pictures side by side on white.
+Picture beside(const std::vector<Picture>& pictures) {
+  double width = kGap, height = 0;
+  for (const Picture& p : pictures) {
+    width += p.width() + kGap;
+    height = std::max(height, p.height());
+  }
+  Picture row(width, height + kGap);
+  double x = kGap;
+  for (const Picture& p : pictures) {
+    row.place(p, x, kGap);
+    x += p.width() + kGap;
+  }
+  return row;
+}
+
+}  // namespace
+
+Picture overview_picture(const PatientResults& results) {
+  std::vector<Picture> rows;
+  const std::vector<Landmark> lesions = results.lesions();
+  if (results.segmentation && !lesions.empty())
+    rows.push_back(beside({mri_figure(results, lesions.front()).picture}));
+  if (results.prone) {
+    std::vector<Picture> breasts = {render_figure(results, nullptr).picture};
+    std::vector<Picture> detectors;
+    for (const ViewResult& view : results.views) {
+      breasts.push_back(render_figure(results, &view).picture);
+      detectors.push_back(detector_figure(results, view).picture);
+    }
+    rows.push_back(beside(breasts));
+    if (!detectors.empty()) rows.push_back(beside(detectors));
+  }
+  double width = kGap, height = kGap;
+  for (const Picture& row : rows) {
+    width = std::max(width, row.width());
+    height += row.height();
+  }
+  Picture sheet(width, height);
+  sheet.rectangle(0, 0, width, height, palette::paper);
+  double y = 0;
+  for (const Picture& row : rows) {
+    sheet.place(row, (width - row.width()) / 2, y);
+    y += row.height();
+  }
+  return sheet;
+}
+
+}  // namespace mammotwin

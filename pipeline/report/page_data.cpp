@@ -1,0 +1,132 @@
+#include "pipeline/report/page_data.h"
+
+#include "pipeline/report/base64.h"
+#include "pipeline/report/force_figure.h"
+#include "pipeline/report/lesion_data.h"
+#include "pipeline/report/mri_figure.h"
+#include "pipeline/report/quality_table.h"
+#include "pipeline/report/render_figure.h"
+#include "pipeline/report/scene_data.h"
+#include "pipeline/report/verdict.h"
+#include "pipeline/report/view_figures.h"
+#include "pipeline/report/word.h"
+
+namespace mammotwin {
+namespace {
+
+using nlohmann::json;
+
+json figure_data(const Figure& figure) {
+  return {{"src", data_uri("image/svg+xml", figure.picture.svg())},
+          {"caption", figure.caption},
+          {"alt", figure.alt},
+          {"width", std::to_string(static_cast<int>(figure.picture.width()))},
+          {"height", std::to_string(static_cast<int>(figure.picture.height()))}};
+}
+
+void add_mri(const PatientResults& results, json& page) {
+  page["mri"] = json::array();
+  if (results.segmentation)
+    for (const Landmark& lesion : results.lesions())
+      page["mri"].push_back(figure_data(mri_figure(results, lesion)));
+  page["has_mri"] = !page["mri"].empty();
+}
+
+void add_views(const PatientResults& results, json& page) {
+  for (const char* list : {"detectors", "renders", "cuts", "force"}) page[list] = json::array();
+  page["has_views"] = results.prone && !results.views.empty();
+  page["has_scene"] = page["has_views"];
+  if (!page["has_views"]) return;
+  page["scene"] = scene_data(results).dump();
+  page["renders"].push_back(figure_data(render_figure(results, nullptr)));
+  for (const ViewResult& view : results.views) {
+    page["detectors"].push_back(figure_data(detector_figure(results, view)));
+    page["renders"].push_back(figure_data(render_figure(results, &view)));
+    for (const Landmark& lesion : results.lesions())
+      page["cuts"].push_back(figure_data(compressed_figure(results, view, lesion)));
+  }
+  if (const auto figure = force_figure(results)) page["force"].push_back(figure_data(*figure));
+}
+
+void add_lesions(const PatientResults& results, json& page) {
+  page["lesions"] = lesion_data(results.rows);
+  page["has_lesions"] = !results.rows.empty();
+  bool ellipses = false;
+  for (const LesionRow& row : results.rows) ellipses |= row.ellipse_major_mm.has_value();
+  page["ellipse_note"] =
+      ellipses ? ""
+               : "No search ellipse is given yet: published methods of this kind err by 5 to 13 mm "
+                 "on real patients, so look in a region and not at a point.";
+}
+
+void add_quality(const PatientResults& results, json& page) {
+  page["quality"] = json::array();
+  for (const StageRecord& stage : results.stages) {
+    json figures = json::array();
+    for (const QualityFigure& f : quality_figures(stage.sidecar.value("quality", json::object())))
+      figures.push_back({{"name", f.name}, {"value", f.value}, {"unit", f.unit}});
+    if (!figures.empty()) page["quality"].push_back({{"product", stage.product}, {"figures", figures}});
+  }
+}
+
+/// The fit in a sentence, from the figures that every fit reports.
+std::string fit_summary(const PatientResults& results) {
+  const json* sidecar = results.sidecar("prone.vtu");
+  const json quality = sidecar ? sidecar->value("quality", json::object()) : json::object();
+  const auto has = [&](const char* key) { return quality.contains(key) && quality[key].is_number(); };
+  for (const char* key : {"skin_rms_mesh_to_data_mm", "skin_rms_data_to_mesh_mm", "skin_p95_mm",
+                          "skin_max_mm", "chest_wall_rms_mm"})
+    if (!has(key)) return "";
+  const auto mm = [&](const char* key) { return word::number(quality[key], 2) + " mm"; };
+  return "The mesh lies " + mm("skin_rms_mesh_to_data_mm") + " RMS from the skin (" +
+         mm("skin_rms_data_to_mesh_mm") + " the other way round; 95 % within " + mm("skin_p95_mm") +
+         ", at most " + mm("skin_max_mm") + ") and " + mm("chest_wall_rms_mm") +
+         " RMS from the chest wall.";
+}
+
+json parameter_rows(const json& parameters) {
+  json rows = json::array();
+  for (const auto& [name, parameter] : parameters.items()) {
+    const bool with_unit = parameter.is_object() && parameter.contains("value");
+    rows.push_back({{"name", name},
+                    {"value", shown_value(with_unit ? parameter["value"] : parameter)},
+                    {"unit", with_unit ? parameter.value("unit", "") : ""}});
+  }
+  return rows;
+}
+
+void add_provenance(const PatientResults& results, json& page) {
+  page["provenance"] = json::array();
+  for (const StageRecord& stage : results.stages) {
+    const json& s = stage.sidecar;
+    json inputs = json::array();
+    for (const json& input : s.value("inputs", json::array()))
+      inputs.push_back({{"path", input.value("path", "")}, {"sha256", input.value("sha256", "")}});
+    page["provenance"].push_back({{"product", stage.product},
+                                  {"stage", s.value("stage", "")},
+                                  {"version", s.value("version", "")},
+                                  {"command", s.value("command", "")},
+                                  {"parameters", parameter_rows(s.value("parameters", json::object()))},
+                                  {"inputs", inputs}});
+  }
+  page["notes"] = json::array();
+  for (const std::string& note : results.notes) page["notes"].push_back({{"text", note}});
+}
+
+}  // namespace
+
+json page_data(const PatientResults& results, const std::string& version) {
+  json page = verdict_data(results);
+  page["patient"] = results.patient;
+  page["version"] = version;
+  page["side"] = !results.segmentation ? "" : results.segmentation->region.side == Side::left ? "left" : "right";
+  page["fit_summary"] = fit_summary(results);
+  add_lesions(results, page);
+  add_views(results, page);
+  add_mri(results, page);
+  add_quality(results, page);
+  add_provenance(results, page);
+  return page;
+}
+
+}  // namespace mammotwin

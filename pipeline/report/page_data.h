@@ -1,0 +1,14 @@
+#pragma once
+
+#include "pipeline/report/patient_results.h"
+
+#include <nlohmann/json.hpp>
+
+#include <string>
+
+namespace mammotwin {
+
+/// Everything that page.html shows, by the names that it uses; pictures as data URIs.
+nlohmann::json page_data(const PatientResults& results, const std::string& version);
+
+}  // namespace mammotwin

@@ -1,0 +1,12 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include <string>
+
+namespace mammotwin {
+
+/// page.html filled with the data of `page_data`, with style and scripts inside.
+std::string render_page(const nlohmann::json& page);
+
+}  // namespace mammotwin

@@ -1,0 +1,42 @@
+#include "pipeline/report/patient_results.h"
+
+#include <cctype>
+
+namespace mammotwin {
+
+std::string title_of_view(const std::string& name) {
+  std::string title = name;
+  for (char& c : title) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  return title;
+}
+
+std::vector<Landmark> PatientResults::lesions() const {
+  std::vector<Landmark> found;
+  if (segmentation)
+    for (const Lesion& lesion : segmentation->lesions)
+      found.push_back({lesion.id, lesion.centroid_in_lps});
+  if (!found.empty()) return found;
+  for (const LesionRow& row : rows)
+    if (row.view == "mri")
+      found.push_back({row.lesion, {*row.mri_l_mm, *row.mri_p_mm, *row.mri_s_mm}});
+  return found;
+}
+
+std::optional<Eigen::Vector3d> PatientResults::nipple() const {
+  if (segmentation) return segmentation->nipple_in_lps;
+  return std::nullopt;
+}
+
+const ViewResult* PatientResults::view(const std::string& name) const {
+  for (const ViewResult& view : views)
+    if (view.view.name == name) return &view;
+  return nullptr;
+}
+
+const nlohmann::json* PatientResults::sidecar(const std::string& product) const {
+  for (const StageRecord& stage : stages)
+    if (stage.product == product) return &stage.sidecar;
+  return nullptr;
+}
+
+}  // namespace mammotwin

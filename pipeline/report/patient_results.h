@@ -1,0 +1,53 @@
+#pragma once
+
+#include "fitting/mesh/mesh_file.h"
+#include "registration/lesion_table.h"
+#include "segmentation/tissue.h"
+
+#include <nlohmann/json.hpp>
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace mammotwin {
+
+/// A stage's sidecar, in the order in which stages run.
+struct StageRecord {
+  std::string product;  ///< "prone.vtu"
+  nlohmann::json sidecar;
+};
+
+struct ViewResult {
+  MeshFile file;  ///< shows the compressed configuration
+  CompressedView view;
+  Detector detector;
+};
+
+/// Whatever a patient's result folder holds; a stage that was refused has left only its sidecar.
+struct PatientResults {
+  std::string patient;
+  std::vector<StageRecord> stages;
+  std::optional<Volume<float>> mri;
+  std::optional<Segmentation> segmentation;
+  std::optional<MeshFile> prone;
+  std::vector<ViewResult> views;
+  std::vector<LesionRow> rows;
+  std::vector<std::string> notes;  ///< products that exist and could not be read, with the reason
+
+  /// Lesions and nipple in the prone MRI: of the segmentation, else of the lesion table.
+  std::vector<Landmark> lesions() const;
+  std::optional<Eigen::Vector3d> nipple() const;
+  const ViewResult* view(const std::string& name) const;
+  const nlohmann::json* sidecar(const std::string& product) const;
+};
+
+/// "cc" -> "CC", "mlo" -> "MLO", "mri" -> "MRI".
+std::string title_of_view(const std::string& name);
+
+/// Never throws for a missing or broken product: it is absent and, if broken, noted.
+/// Throws std::runtime_error if the folder itself is missing.
+PatientResults read_patient_results(const std::filesystem::path& folder);
+
+}  // namespace mammotwin

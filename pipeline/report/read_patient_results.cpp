@@ -1,0 +1,89 @@
+#include "pipeline/report/patient_results.h"
+
+#include "segmentation/segmentation_file.h"
+
+#include <fstream>
+#include <functional>
+#include <stdexcept>
+
+namespace mammotwin {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kProductsInOrder[] = {"segmentation.seg.nrrd", "prone.vtu", "unloaded.vtu",
+                                            "cc.vtu", "mlo.vtu", "lesions.csv"};
+constexpr const char* kViews[] = {"cc", "mlo"};
+
+void read_sidecars(const fs::path& folder, PatientResults& results) {
+  for (const char* product : kProductsInOrder) {
+    std::ifstream in(folder / (std::string(product) + ".json"));
+    if (!in) continue;
+    nlohmann::json sidecar = nlohmann::json::parse(in, nullptr, false);
+    if (sidecar.is_object())
+      results.stages.push_back({product, std::move(sidecar)});
+    else
+      results.notes.push_back(std::string(product) + ".json is not a JSON object");
+  }
+}
+
+/// Runs `read` if the file exists; what it throws becomes a note.
+void try_read(const fs::path& file, PatientResults& results, const std::function<void()>& read) {
+  if (!fs::exists(file)) return;
+  try {
+    read();
+  } catch (const std::exception& error) {
+    results.notes.push_back(file.filename().string() + " could not be read: " + error.what());
+  }
+}
+
+/// The geometry that `register` used for a view, from its sidecar; defaults where it says nothing.
+Detector detector_of(const PatientResults& results, const std::string& view) {
+  Detector detector;
+  const nlohmann::json* sidecar = results.sidecar("lesions.csv");
+  if (!sidecar) return detector;
+  const nlohmann::json empty = nlohmann::json::object();
+  const auto child = [&](const nlohmann::json& parent, const std::string& key) {
+    return parent.is_object() && parent.contains(key) ? parent[key] : empty;
+  };
+  const nlohmann::json said = child(child(child(*sidecar, "quality"), "detectors"), view);
+  detector.source_distance_mm = said.value("source_distance_mm", detector.source_distance_mm);
+  detector.support_gap_mm = said.value("support_gap_mm", detector.support_gap_mm);
+  return detector;
+}
+
+void read_view(const fs::path& folder, const std::string& name, PatientResults& results) {
+  const fs::path path = folder / (name + ".vtu");
+  try_read(path, results, [&] {
+    MeshFile file = read_mesh_file(path);
+    CompressedView view = compressed_view(name, path.filename().string(), file.metadata);
+    if (!results.prone && file.configurations.contains("prone")) {
+      results.prone = file;
+      results.prone->mesh = HermiteMesh(file.configurations.at("prone"), file.mesh.elements());
+    }
+    results.views.push_back({std::move(file), std::move(view), detector_of(results, name)});
+  });
+}
+
+}  // namespace
+
+PatientResults read_patient_results(const fs::path& folder) {
+  if (!fs::is_directory(folder))
+    throw std::runtime_error(folder.string() + ": no such folder of results");
+  PatientResults results;
+  results.patient = fs::weakly_canonical(folder).filename().string();
+  read_sidecars(folder, results);
+  try_read(folder / "mri.nrrd", results, [&] { results.mri = read_image_file(folder / "mri.nrrd"); });
+  try_read(folder / "segmentation.seg.nrrd", results, [&] {
+    results.segmentation =
+        read_segmentation(folder / "segmentation.seg.nrrd", folder / "fractions.nrrd");
+  });
+  try_read(folder / "prone.vtu", results,
+           [&] { results.prone = read_mesh_file(folder / "prone.vtu"); });
+  try_read(folder / "lesions.csv", results,
+           [&] { results.rows = read_lesion_table(folder / "lesions.csv"); });
+  for (const char* view : kViews) read_view(folder, view, results);
+  return results;
+}
+
+}  // namespace mammotwin

@@ -1,0 +1,143 @@
+#include "pipeline/report/render_figure.h"
+
+#include "pipeline/report/depth_image.h"
+#include "pipeline/report/mesh_surface.h"
+#include "pipeline/report/palette.h"
+#include "pipeline/report/word.h"
+#include "registration/position_grid.h"
+
+#include <Eigen/Geometry>
+
+#include <cmath>
+
+namespace mammotwin {
+namespace {
+
+constexpr double kWidth = 350, kHeight = 300;  // [pt]
+constexpr double kPixelsPerPoint = 2;
+constexpr int kSamples = 10;                   // squares a side of an element's face
+constexpr double kSkinOpacity = 0.55;          // lesions show through
+
+/// Rows: right, up and towards the eye, for an eye in front of the patient, 40 degrees to the side
+/// and 20 above, in LPS.
+Eigen::Matrix3d eye_axes(Side side) {
+  const double turn = (side == Side::left ? 1 : -1) * 0.7, rise = 0.35;  // [rad]
+  const Eigen::Vector3d eye(std::sin(turn) * std::cos(rise), -std::cos(turn) * std::cos(rise),
+                            std::sin(rise));
+  const Eigen::Vector3d right = Eigen::Vector3d::UnitZ().cross(eye).normalized();
+  Eigen::Matrix3d axes;
+  axes << right.transpose(), eye.cross(right).transpose(), eye.transpose();
+  return axes;
+}
+
+Colour shaded(const Colour& base, const Eigen::Vector3d& normal) {
+  const Eigen::Vector3d light = Eigen::Vector3d(-0.4, 0.6, 0.7).normalized();
+  const double lit = 0.55 + 0.45 * std::abs(normal.dot(light));
+  return {base.red * lit, base.green * lit, base.blue * lit, 1};
+}
+
+Colour surface_colour(FaceLabel label) {
+  switch (label) {
+    case FaceLabel::chest_wall: return palette::muscle;
+    case FaceLabel::cut: return palette::fat;
+    default: return palette::skin;
+  }
+}
+
+/// Draws the triangles that face the eye, or those that turn away from it.
+void draw_surface(DepthImage& image, const TriangleSurface& surface, const Eigen::Matrix3d& axes,
+                  bool facing) {
+  for (std::size_t i = 0; i < surface.triangles.size(); ++i) {
+    std::array<Eigen::Vector3d, 3> x;
+    for (int k = 0; k < 3; ++k) x[k] = axes * surface.points[surface.triangles[i][k]];
+    const Eigen::Vector3d normal = (x[1] - x[0]).cross(x[2] - x[0]).normalized();
+    if ((normal.z() > 0) != facing) continue;
+    image.triangle(x, shaded(surface_colour(surface.labels[i]), normal));
+  }
+}
+
+/// Corners of a plate in LPS, in order round it.
+std::array<Eigen::Vector3d, 4> plate_corners(const ViewFrame& frame, const Eigen::AlignedBox3d& box,
+                                             double height) {
+  const double front = box.max().x() + 8, low = box.min().y() - 8, high = box.max().y() + 8;
+  return {frame.lps_from_view({0, low, height}), frame.lps_from_view({front, low, height}),
+          frame.lps_from_view({front, high, height}), frame.lps_from_view({0, high, height})};
+}
+
+Picture::Points on_paper(const DepthImage& image, const Eigen::Matrix3d& axes,
+                         const std::array<Eigen::Vector3d, 4>& corners) {
+  Picture::Points points;
+  for (const Eigen::Vector3d& x : corners) points.push_back(image.pixel(axes * x) / kPixelsPerPoint);
+  return points;
+}
+
+struct Scene {
+  TriangleSurface surface;
+  Eigen::Matrix3d axes;
+  Eigen::AlignedBox2d window;
+};
+
+Scene make_scene(const MeshFile& file, const HermiteMesh& mesh, Side side) {
+  Scene scene{triangulate(mesh, outer_faces(file), kSamples), eye_axes(side), {}};
+  for (const Eigen::Vector3d& x : scene.surface.points)
+    scene.window.extend((scene.axes * x).head<2>().eval());
+  return scene;
+}
+
+}  // namespace
+
+Figure render_figure(const PatientResults& results, const ViewResult* view) {
+  const MeshFile& file = view ? view->file : *results.prone;
+  const Side side = view                   ? view->view.side
+                    : results.segmentation ? results.segmentation->region.side
+                                           : Side::left;
+  Scene scene = make_scene(file, file.mesh, side);
+  Eigen::AlignedBox3d in_view;
+  if (view) {
+    in_view = bounding_box(in_view_frame(file.mesh, view->view.frame));
+    for (const double h : {0.0, view->view.thickness_mm})
+      for (const Eigen::Vector3d& x : plate_corners(view->view.frame, in_view, h))
+        scene.window.extend((scene.axes * x).head<2>().eval());
+  }
+  const int width = static_cast<int>(kWidth * kPixelsPerPoint);
+  const int height = static_cast<int>(kHeight * kPixelsPerPoint);
+  const double pixel_mm = 1.08 * std::max(scene.window.sizes().x() / width, scene.window.sizes().y() / height);
+  const Eigen::Vector2d corner =
+      scene.window.center() - 0.5 * pixel_mm * Eigen::Vector2d(width, height);
+  DepthImage far_side(width, height, corner, pixel_mm), near_side(width, height, corner, pixel_mm);
+  draw_surface(far_side, scene.surface, scene.axes, false);
+  draw_surface(near_side, scene.surface, scene.axes, true);
+
+  Picture picture(kWidth, kHeight);
+  if (view)
+    picture.polygon(on_paper(far_side, scene.axes, plate_corners(view->view.frame, in_view, 0)),
+                    palette::with_alpha(palette::plate, 0.45));
+  picture.image(far_side.raster(), 0, 0, kWidth, kHeight);
+  std::optional<PointCarrier> carrier;
+  if (view) carrier.emplace(results.prone->mesh, file.mesh);
+  const auto place = [&](const Eigen::Vector3d& prone) {
+    const Eigen::Vector3d x = carrier ? carrier->carry(prone).in_lps : prone;
+    return (far_side.pixel(scene.axes * x) / kPixelsPerPoint).eval();
+  };
+  for (const Landmark& lesion : results.lesions())
+    picture.disc(place(lesion.prone_in_lps), std::max(3.0, 5 / pixel_mm / kPixelsPerPoint), palette::lesion);
+  Raster glass = near_side.raster();
+  for (Colour& colour : glass.pixels) colour.alpha *= kSkinOpacity;
+  picture.image(glass, 0, 0, kWidth, kHeight);
+  if (view) {
+    const auto paddle = on_paper(far_side, scene.axes, plate_corners(view->view.frame, in_view, view->view.thickness_mm));
+    picture.polygon(paddle, palette::with_alpha(palette::plate, 0.22));
+    picture.outline(paddle, {palette::plate, 1});
+  }
+  for (const Landmark& lesion : results.lesions())
+    picture.text(place(lesion.prone_in_lps) + Eigen::Vector2d(7, 3), lesion.id, 9, palette::lesion, Anchor::start, true);
+  if (const auto nipple = results.nipple()) picture.disc(place(*nipple), 3, palette::nipple);
+  const std::string name = view ? title_of_view(view->view.name) : "Prone";
+  picture.text({6, 14}, name, 11, palette::ink, Anchor::start, true);
+  return {picture,
+          view ? name + ", between support and paddle (" + word::mm(view->view.thickness_mm) + " mm)."
+               : "Prone, as in the MRI.",
+          name + " breast seen obliquely from the front, with lesions and nipple."};
+}
+
+}  // namespace mammotwin

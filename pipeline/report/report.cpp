@@ -1,0 +1,26 @@
+#include "pipeline/report/report.h"
+
+#include "pipeline/report/overview_picture.h"
+#include "pipeline/report/page_data.h"
+#include "pipeline/report/page_template.h"
+
+#include <fstream>
+#include <stdexcept>
+
+namespace mammotwin {
+
+void write_report(const std::filesystem::path& folder, const std::filesystem::path& page,
+                  const std::string& version) {
+  const PatientResults results = read_patient_results(folder);
+  std::ofstream out(page, std::ios::binary);
+  out << render_page(page_data(results, version));
+  out.close();
+  if (!out) throw std::runtime_error(page.string() + ": cannot be written; is the disk full?");
+}
+
+void write_report_picture(const std::filesystem::path& folder, const std::filesystem::path& png) {
+  constexpr double kPixelsPerPoint = 2;
+  overview_picture(read_patient_results(folder)).write_png(png, kPixelsPerPoint);
+}
+
+}  // namespace mammotwin

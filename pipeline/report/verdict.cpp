@@ -1,0 +1,72 @@
+#include "pipeline/report/verdict.h"
+
+#include "pipeline/report/word.h"
+
+#include <algorithm>
+#include <iterator>
+
+namespace mammotwin {
+namespace {
+
+using nlohmann::json;
+
+struct Grade {
+  const char *status, *text, *verdict;
+};
+/// From good to bad.
+constexpr Grade kGrades[] = {
+    {"ok", "ok", "OK: every stage passed its checks"},
+    {"look", "look", "Look: done, but check what is said here first"},
+    {"not_converged", "not converged", "Not converged: the computation did not come to an end"},
+    {"refused", "refused", "Refused: the input cannot serve"},
+};
+
+const Grade* grade_of(const std::string& status) {
+  const auto found = std::find_if(std::begin(kGrades), std::end(kGrades),
+                                  [&](const Grade& g) { return status == g.status; });
+  return found == std::end(kGrades) ? nullptr : found;
+}
+
+std::string stage_of(const StageRecord& record) {
+  return record.sidecar.value("stage", record.product);
+}
+
+json stage_row(const StageRecord& record) {
+  const std::string status = record.sidecar.value("status", "unknown");
+  const Grade* grade = grade_of(status);
+  const auto measured = [&](const char* key, int decimals, const char* unit) {
+    return record.sidecar.contains(key) && record.sidecar[key].is_number()
+               ? word::number(record.sidecar[key].get<double>(), decimals) + unit
+               : std::string();
+  };
+  return {{"stage", stage_of(record)},
+          {"product", record.product},
+          {"status", status},
+          {"status_text", grade ? grade->text : status},
+          {"seconds", measured("seconds", 1, " s")},
+          {"memory", measured("peak_memory_mb", 0, " MB")}};
+}
+
+}  // namespace
+
+json verdict_data(const PatientResults& results) {
+  const Grade* worst = &kGrades[0];
+  json reasons = json::array(), stages = json::array();
+  for (const StageRecord& record : results.stages) {
+    const Grade* grade = grade_of(record.sidecar.value("status", ""));
+    if (grade && grade > worst) worst = grade;
+    for (const json& reason : record.sidecar.value("reasons", json::array()))
+      if (reason.is_string()) reasons.push_back({{"stage", stage_of(record)}, {"text", reason}});
+    stages.push_back(stage_row(record));
+  }
+  std::string status = worst->status, verdict = worst->verdict;
+  if (worst < &kGrades[2] && !results.sidecar("lesions.csv")) {
+    status = "incomplete";
+    verdict = "Incomplete: the chain has not come to lesion positions yet";
+  }
+  return {{"status", status},   {"verdict", verdict},
+          {"reasons", reasons}, {"has_reasons", !reasons.empty()},
+          {"stages", stages}};
+}
+
+}  // namespace mammotwin

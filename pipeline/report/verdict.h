@@ -1,0 +1,13 @@
+#pragma once
+
+#include "pipeline/report/patient_results.h"
+
+#include <nlohmann/json.hpp>
+
+namespace mammotwin {
+
+/// `status`, `verdict` (a sentence), `reasons` (stage, text) and `stages` of the page: the worst
+/// status of any stage, or "incomplete" where the chain has not come to its end.
+nlohmann::json verdict_data(const PatientResults& results);
+
+}  // namespace mammotwin
