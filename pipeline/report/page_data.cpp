@@ -2,6 +2,7 @@
 
 #include "pipeline/report/base64.h"
 #include "pipeline/report/force_figure.h"
+#include "pipeline/report/frames_figure.h"
 #include "pipeline/report/lesion_data.h"
 #include "pipeline/report/mri_figure.h"
 #include "pipeline/report/quality_table.h"
@@ -53,6 +54,7 @@ void add_lesions(const PatientResults& results, json& page) {
   page["has_lesions"] = !results.rows.empty();
   bool ellipses = false;
   for (const LesionRow& row : results.rows) ellipses |= row.ellipse_major_mm.has_value();
+  page["frames"] = figure_data(frames_figure());
   page["ellipse_note"] =
       ellipses ? ""
                : "No search ellipse is given yet: published methods of this kind err by 5 to 13 mm "

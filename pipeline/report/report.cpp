@@ -1,5 +1,6 @@
 #include "pipeline/report/report.h"
 
+#include "pipeline/report/frames_figure.h"
 #include "pipeline/report/overview_picture.h"
 #include "pipeline/report/page_data.h"
 #include "pipeline/report/page_template.h"
@@ -21,6 +22,11 @@ void write_report(const std::filesystem::path& folder, const std::filesystem::pa
 void write_report_picture(const std::filesystem::path& folder, const std::filesystem::path& png) {
   constexpr double kPixelsPerPoint = 2;
   overview_picture(read_patient_results(folder)).write_png(png, kPixelsPerPoint);
+}
+
+void write_frames_picture(const std::filesystem::path& png) {
+  constexpr double kPixelsPerPoint = 1.5;
+  frames_figure().picture.write_png(png, kPixelsPerPoint);
 }
 
 }  // namespace mammotwin

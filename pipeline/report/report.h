@@ -13,4 +13,7 @@ void write_report(const std::filesystem::path& results, const std::filesystem::p
 /// The same figures as one PNG sheet, for a README or a slide. No X server is needed.
 void write_report_picture(const std::filesystem::path& results, const std::filesystem::path& png);
 
+/// The sketch of all frames, as in registration/README.md.
+void write_frames_picture(const std::filesystem::path& png);
+
 }  // namespace mammotwin
