@@ -1,14 +1,148 @@
 #include "segmentation/segment_mri.h"
 
+#include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
-namespace mammotwin {
+#include "segmentation/half_body.h"
+#include "segmentation/half_breast.h"
+#include "segmentation/landmarks.h"
+#include "segmentation/lesion_seed.h"
+#include "segmentation/lesion_stage.h"
+#include "segmentation/read_image.h"
+#include "segmentation/tissue_stage.h"
 
-SegmentResult segment_mri(const SegmentInput& input, const SegmentOptions&,
-                          const SegmentProgress&) {
-  throw std::runtime_error(input.mri->string() +
-                           ": segmentation from the image itself is not built in; expected a "
-                           "label map beside it (labels.path in patient.toml)");
+namespace mammotwin {
+namespace {
+
+Side choose_side(const SegmentInput& input, const std::vector<PlacedSeed>& seeds, double midline) {
+  if (input.side) return *input.side;
+  std::size_t left = 0;
+  for (const PlacedSeed& seed : seeds) left += seed.point_in_lps.x() > midline;
+  if (!seeds.empty() && (left == 0 || left == seeds.size())) return left ? Side::left : Side::right;
+  throw std::runtime_error("the side is not clear: " + std::to_string(left) +
+                           " lesion(s) on the left and " + std::to_string(seeds.size() - left) +
+                           " on the right; set side = \"left\" or \"right\" in patient.toml");
+}
+
+void judge_wall(const BodyStage& body, const WallStage& wall, Side side, SegmentQuality& quality) {
+  constexpr double largest_doubt = 0.2;  // study: 0.12 at most where the wall was within 1.3 mm
+  quality.chest_wall_doubt = wall.wall.doubt(side, body.frame.z_low, body.frame.z_high);
+  if (*quality.chest_wall_doubt > largest_doubt)
+    quality.doubt(SegmentStatus::look,
+                  "the image does not support " +
+                      std::to_string(std::lround(100 * *quality.chest_wall_doubt)) +
+                      " % of the chest wall found; expected at most 20 %");
+}
+
+/// Height over the skin between the breasts in the first and last slice, over the apex's.
+void judge_end_slices(const BodyStage& body, Side side, SegmentQuality& quality) {
+  constexpr double most_share = 0.5;
+  const double apex = body.frame.sternal_y - body.frame.apex(side).y();
+  double share = 0;
+  for (const int k : {0, body.body.size.z() - 1})
+    for (int i = 0; i < body.body.size.x(); ++i) {
+      if (!is_on_side(body.body.position(i, 0, 0).x(), body.frame.midline_x, side)) continue;
+      int j = 0;
+      while (j < body.body.size.y() && !body.body(i, j, k)) ++j;
+      if (j < body.body.size.y())
+        share = std::max(share, (body.frame.sternal_y - body.body.position(i, j, k).y()) / apex);
+    }
+  quality.clipped_share = share;
+  if (share > most_share)
+    quality.doubt(SegmentStatus::look,
+                  "the breast may be cut by the first or last slice: it stands out there by " +
+                      std::to_string(std::lround(100 * share)) + " % of its height");
+}
+
+void judge_noise(SegmentQuality& quality) {
+  constexpr double least = 8;  // noise of an eighth of fat: classes overlap
+  if (*quality.signal_to_noise < least)
+    quality.doubt(SegmentStatus::look, "the image is noisy: fat is only " +
+                                           std::to_string(std::lround(*quality.signal_to_noise)) +
+                                           " times as bright as the noise; expected at least 8");
+}
+
+/// Tissue in front of the wall and of the skin between the breasts, smaller over larger side.
+void judge_symmetry(const BodyStage& body, const WallStage& wall, SegmentQuality& quality) {
+  constexpr double least_ratio = 0.4;
+  double left = 0, right = 0;
+  for (int k = 0; k < body.body.size.z(); ++k)
+    for (int j = 0; j < body.body.size.y(); ++j)
+      for (int i = 0; i < body.body.size.x(); ++i) {
+        if (!body.body(i, j, k)) continue;
+        const Eigen::Vector3d x = body.body.position(i, j, k);
+        if (x.y() > body.frame.sternal_y || wall.wall.is_behind(x)) continue;
+        (x.x() > body.frame.midline_x ? left : right) += 1;
+      }
+  quality.volume_ratio = std::min(left, right) / std::max({left, right, 1.0});
+  if (*quality.volume_ratio < least_ratio)
+    quality.doubt(SegmentStatus::look, "the two breasts differ in volume by more than 2.5 times");
+}
+
+std::vector<Lesion> named_lesions(const Volume<std::uint8_t>& labels,
+                                  const std::vector<PlacedSeed>& seeds) {
+  std::vector<Lesion> lesions;
+  for (std::size_t n = 0; n < seeds.size(); ++n) {
+    auto only = labels;
+    for (std::uint8_t& value : only.values)
+      value = value == label::lesion + n ? label::lesion : label::air;
+    const std::vector<Lesion> found = measure_lesions(only);
+    if (found.empty())
+      throw std::runtime_error(
+          "lesion " + seeds[n].id +
+          " is covered by another one; expected lesions apart from each other");
+    lesions.push_back(found.front());
+    lesions.back().id = seeds[n].id;
+  }
+  return lesions;
+}
+
+SegmentResult segment_image(const Mri& mri, const SegmentInput& input,
+                            const SegmentOptions& options, const SegmentProgress& progress) {
+  std::vector<PlacedSeed> seeds;
+  for (const LesionSeed& seed : input.lesions) seeds.push_back(place_seed(seed));
+  SegmentResult result;
+  result.files = mri.files;
+  result.quality.notes = mri.notes;
+
+  progress(0.10, "finding the outline");
+  const BodyStage body = find_body(mri.image, result.quality);
+  if (!mri.geometry_known)
+    throw std::runtime_error(
+        "its header does not say where its frames stand; expected positions "
+        "and pixel spacing (export it as single slices)");
+  const Side side = choose_side(input, seeds, body.frame.midline_x);
+  progress(0.35, "finding the chest wall");
+  const WallStage wall = find_wall(body, options.wall_stiffness);
+  judge_wall(body, wall, side, result.quality);
+  judge_end_slices(body, side, result.quality);
+  judge_noise(result.quality);
+  judge_symmetry(body, wall, result.quality);
+
+  progress(0.60, "correcting the coil's shading");
+  const HalfBreast half = cut_half(body, wall, side);
+  progress(0.80, "finding the lesions");
+  const Volume<std::uint8_t> lesions =
+      find_lesions(half, seeds, body.contrast.fat_suppressed, options, result.quality);
+  progress(0.88, "telling skin, fat and fibroglandular tissue apart");
+  label_tissue(half, body.frame, lesions, body.contrast.fat_suppressed, options, result);
+  result.segmentation.region.side = side;
+  result.segmentation.lesions = named_lesions(result.segmentation.labels, seeds);
+  return result;
+}
+
+}  // namespace
+
+SegmentResult segment_mri(const SegmentInput& input, const SegmentOptions& options,
+                          const SegmentProgress& progress) {
+  progress(0, "reading the MRI");
+  const Mri mri = read_mri(*input.mri, input.series);
+  try {
+    return segment_image(mri, input, options, progress);
+  } catch (const std::exception& error) {
+    throw std::runtime_error(input.mri->string() + ": " + error.what());
+  }
 }
 
 }  // namespace mammotwin

@@ -1,0 +1,101 @@
+#include "segmentation/body_stage.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+
+#include "segmentation/body_mask.h"
+#include "segmentation/half_body.h"
+
+namespace mammotwin {
+namespace {
+
+constexpr double least_width_mm = 150, least_depth_mm = 80, least_height_mm = 60;
+constexpr double before_apex_mm = 15, behind_sternum_mm = 115;
+constexpr double cut_fat_suppressed = 0.45, cut_other = 0.30;
+
+std::string extent_text(const Eigen::Vector3d& extent) {
+  std::ostringstream text;
+  text.setf(std::ios::fixed);
+  text.precision(0);
+  text << extent.x() << " x " << extent.y() << " x " << extent.z() << " mm";
+  return text.str();
+}
+
+/// Share of the voxels on the faces of the image that are body; front, left, right, top, bottom.
+double border_share(const Volume<std::uint8_t>& body) {
+  double in = 0, all = 0;
+  for (int k = 0; k < body.size.z(); ++k)
+    for (int j = 0; j < body.size.y(); ++j)
+      for (int i = 0; i < body.size.x(); ++i) {
+        const bool border =
+            i == 0 || i == body.size.x() - 1 || j == 0 || k == 0 || k == body.size.z() - 1;
+        if (border) in += body(i, j, k), ++all;
+      }
+  return all > 0 ? in / all : 0;
+}
+
+void check_extent(const Volume<float>& image) {
+  const Eigen::Vector3d extent = image.size.cast<double>().cwiseProduct(image.spacing);
+  if (extent.x() >= least_width_mm && extent.y() >= least_depth_mm && extent.z() >= least_height_mm)
+    return;
+  constexpr double mostly = 0.5;
+  const bool full = border_share(coarse_body(image, estimate_noise(image))) > mostly;
+  throw std::runtime_error(
+      (full ? "the breast is cut by the field of view on every side: the image covers "
+            : "there is no breast in it: the image covers ") +
+      extent_text(extent) + "; expected a prone MRI of both breasts, at least 150 x 80 x 60 mm");
+}
+
+/// Cuts away the air in front and what lies far behind, where the frame says so.
+BodyStage crop_to_frame(const Volume<float>& image, const Volume<std::uint8_t>& body,
+                        const BreastFrame& frame) {
+  const auto row = [&](double y) {
+    return std::clamp(static_cast<int>(std::lround((y - image.origin.y()) / image.spacing.y())), 0,
+                      image.size.y() - 1);
+  };
+  const Eigen::Vector3i low(0, row(frame.front_y - before_apex_mm), 0);
+  const Eigen::Vector3i high(image.size.x() - 1, row(frame.sternal_y + behind_sternum_mm),
+                             image.size.z() - 1);
+  BodyStage stage;
+  stage.image = cropped(image, low, high);
+  stage.body = cropped(body, low, high);
+  stage.frame = frame;
+  return stage;
+}
+
+/// Body columns that begin on the first row: the field of view cuts the breast's tip.
+double clipped_in_front(const Volume<std::uint8_t>& body) {
+  double clipped = 0;
+  for (int k = 0; k < body.size.z(); ++k)
+    for (int i = 0; i < body.size.x(); ++i) clipped += body(i, 0, k);
+  return clipped * body.spacing.x() * body.spacing.z() / 100;  // cm^2
+}
+
+}  // namespace
+
+BodyStage find_body(const Volume<float>& image, SegmentQuality& quality) {
+  check_extent(image);
+  const double noise = estimate_noise(image);
+  const Volume<std::uint8_t> body = coarse_body(image, noise);
+  constexpr double largest_clip_cm2 = 4;  // a nipple's worth: the breast's tip is missing
+  if (const double clip = clipped_in_front(body); clip > largest_clip_cm2)
+    throw std::runtime_error("the breast is cut by the field of view in front over " +
+                             std::to_string(static_cast<int>(clip)) +
+                             " cm2; expected air in front of it");
+  BodyStage stage = crop_to_frame(image, body, find_breast_frame(body));
+  stage.noise = noise;
+  stage.depth = depth_below_surface(stage.body);
+  stage.contrast = find_contrast(stage.image, stage.depth, stage.frame);
+  stage.body = cut_rim(stage.image, stage.body,
+                       stage.contrast.fat_suppressed ? cut_fat_suppressed : cut_other);
+  stage.frame = find_breast_frame(stage.body);
+  stage.depth = depth_below_surface(stage.body);
+  quality.contrast = stage.contrast.fat_suppressed ? "fat-suppressed" : "not fat-suppressed";
+  quality.signal_to_noise =
+      subcutaneous_fat(stage.image, stage.depth, stage.frame) / std::max(noise, 1e-6);
+  return stage;
+}
+
+}  // namespace mammotwin

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cstdint>
+
+#include "segmentation/breast_frame.h"
+#include "segmentation/contrast.h"
+#include "segmentation/segment_quality.h"
+#include "segmentation/volume.h"
+
+namespace mammotwin {
+
+/// The outline of the patient and what it tells, on the part of the image around the breasts.
+struct BodyStage {
+  Volume<float> image;  ///< cropped in front of the breasts and far behind the chest
+  Volume<std::uint8_t> body;
+  Volume<float> depth;  ///< below the skin [mm]
+  double noise = 0;     ///< standard deviation [image units]
+  BreastFrame frame;
+  Contrast contrast;
+};
+
+/// Finds them. Throws std::runtime_error, without the file's name, if the image holds no breast or
+/// only a part of one; doubts go to `quality`.
+BodyStage find_body(const Volume<float>& image, SegmentQuality& quality);
+
+}  // namespace mammotwin

@@ -1,0 +1,107 @@
+#include "segmentation/half_breast.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "segmentation/distance.h"
+#include "segmentation/half_body.h"
+#include "segmentation/n4.h"
+#include "segmentation/smoothing.h"
+
+namespace mammotwin {
+namespace {
+
+constexpr double behind_sternum_mm = 45, beyond_midline_mm = 0;
+constexpr double skin_mm = 4, wall_mm = 2;  // left out of the bias: study, section 4
+constexpr double n4_block_mm = 4;
+
+struct Crop {
+  Eigen::Vector3i low, high;
+};
+
+Crop side_box(const Volume<float>& image, const BreastFrame& frame, Side side) {
+  const auto column = [&](double x) {
+    return std::clamp(static_cast<int>(std::ceil((x - image.origin.x()) / image.spacing.x())), 0,
+                      image.size.x() - 1);
+  };
+  const int middle = column(frame.midline_x + (side == Side::left ? 1 : -1) * beyond_midline_mm);
+  const int rear =
+      std::clamp(static_cast<int>((frame.sternal_y + behind_sternum_mm - image.origin.y()) /
+                                  image.spacing.y()),
+                 0, image.size.y() - 1);
+  Crop crop{Eigen::Vector3i::Zero(), {image.size.x() - 1, rear, image.size.z() - 1}};
+  (side == Side::left ? crop.low.x() : crop.high.x()) = middle;
+  return crop;
+}
+
+/// Divides by the field that N4 finds in `where`, and leaves the median there as it was.
+void correct_by_n4(Volume<float>& image, const Volume<std::uint8_t>& where) {
+  const Eigen::Vector3i factor =
+      (n4_block_mm / image.spacing.array()).round().max(1).cast<int>().matrix();
+  Volume<float> share;
+  const Volume<float> coarse = block_means(image, where, factor, share);
+  RawImage raw;
+  std::vector<std::uint8_t> mask;
+  for (int a = 0; a < 3; ++a) {
+    raw.size[a] = coarse.size[a];
+    raw.spacing[a] = coarse.spacing[a];
+  }
+  std::size_t in = 0;
+  for (std::size_t v = 0; v < coarse.values.size(); ++v) {
+    raw.values.push_back(std::max(coarse.values[v], 1e-3F));
+    mask.push_back(share.values[v] > 0.5F);
+    in += mask.back();
+  }
+  constexpr std::size_t least_blocks = 200;
+  if (in < least_blocks) return;
+  Volume<float> field = coarse.like<float>(0);
+  field.values = n4_log_bias(raw, mask);
+  double mean = 0;
+  for (std::size_t v = 0; v < mask.size(); ++v)
+    if (mask[v]) mean += field.values[v];
+  mean /= static_cast<double>(in);
+  // Beyond the blocks that N4 saw the field is the nearest one's, smoothly.
+  Volume<float> weight = coarse.like<float>(0);
+  for (std::size_t v = 0; v < mask.size(); ++v) weight.values[v] = mask[v];
+  const Volume<float> spread = weighted_smoothed(field, weight, 12);
+  for (std::size_t v = 0; v < mask.size(); ++v) {
+    if (!mask[v]) field.values[v] = spread.values[v] != 0 ? spread.values[v] : mean;
+    field.values[v] -= static_cast<float>(mean);
+  }
+  tbb::parallel_for(0, image.size.z(), [&](int k) {
+    for (int j = 0; j < image.size.y(); ++j)
+      for (int i = 0; i < image.size.x(); ++i)
+        image(i, j, k) *= std::exp(-interpolated(field, image.position(i, j, k)));
+  });
+}
+
+}  // namespace
+
+HalfBreast cut_half(const BodyStage& body, const WallStage& wall, Side side) {
+  const Crop crop = side_box(body.image, body.frame, side);
+  HalfBreast half;
+  half.side = side;
+  half.image = cropped(wall.corrected, crop.low, crop.high);
+  half.body = cropped(body.body, crop.low, crop.high);
+  half.depth = cropped(body.depth, crop.low, crop.high);
+  half.inside = half.body;
+  auto behind = half.body.like<std::uint8_t>(0);
+  tbb::parallel_for(0, half.body.size.z(), [&](int k) {
+    for (int j = 0; j < half.body.size.y(); ++j)
+      for (int i = 0; i < half.body.size.x(); ++i) {
+        if (!half.body(i, j, k)) continue;
+        behind(i, j, k) = wall.wall.is_behind(half.body.position(i, j, k));
+        half.inside(i, j, k) = !behind(i, j, k);
+      }
+  });
+  half.above_wall = distance_to(behind);
+  auto where = half.inside;
+  for (std::size_t v = 0; v < where.values.size(); ++v)
+    where.values[v] &= half.depth.values[v] > skin_mm && half.above_wall.values[v] > wall_mm;
+  correct_by_n4(half.image, where);
+  return half;
+}
+
+}  // namespace mammotwin

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "segmentation/wall_stage.h"
+
+namespace mammotwin {
+
+/// One side's part of the image: from the midline out, from the air in front to a plane 45 mm
+/// behind the skin between the breasts.
+struct HalfBreast {
+  Side side = Side::left;
+  Volume<float> image;  ///< bias corrected, fat at 1
+  Volume<std::uint8_t> body;
+  Volume<std::uint8_t> inside;  ///< body in front of the chest wall
+  Volume<float> depth;          ///< below the skin [mm]
+  Volume<float> above_wall;     ///< distance to what lies behind the chest wall [mm]
+};
+
+/// Cuts out one side and refines its bias by N4 in the breast, away from skin and wall.
+HalfBreast cut_half(const BodyStage& body, const WallStage& wall, Side side);
+
+}  // namespace mammotwin

@@ -1,0 +1,217 @@
+#include "segmentation/lesion.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "segmentation/components.h"
+#include "segmentation/distance.h"
+#include "segmentation/half_body.h"
+#include "segmentation/random_walker.h"
+#include "segmentation/smoothing.h"
+
+namespace mammotwin {
+namespace {
+
+using Mask = Volume<std::uint8_t>;
+
+constexpr double find_within_mm = 6;  // of the point: it may be that far off
+constexpr double smoothing_mm = 0.7;
+constexpr double opening_share = 0.5;  // of the inscribed radius
+constexpr double shell_from_mm = 2, shell_to_mm = 6;
+constexpr int most_rounds = 12;
+constexpr double least_ml = 0.03;
+constexpr double fallback_mm = 5;
+constexpr double least_contrast = 0.15;  // over the surroundings, else nothing stands out
+
+double median_where(const Volume<float>& image, const Mask& mask) {
+  std::vector<float> values;
+  for (std::size_t v = 0; v < mask.values.size(); ++v)
+    if (mask.values[v]) values.push_back(image.values[v]);
+  if (values.empty()) return 0;
+  std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
+  return values[values.size() / 2];
+}
+
+std::size_t count(const Mask& mask) {
+  return static_cast<std::size_t>(std::count(mask.values.begin(), mask.values.end(), 1));
+}
+
+template <class Keep>
+Mask where(const Mask& grid, const Keep& keep) {
+  auto out = grid.like<std::uint8_t>(0);
+  std::size_t v = 0;
+  for (int k = 0; k < grid.size.z(); ++k)
+    for (int j = 0; j < grid.size.y(); ++j)
+      for (int i = 0; i < grid.size.x(); ++i, ++v) out.values[v] = keep(grid.position(i, j, k), v);
+  return out;
+}
+
+/// Voxel of the largest value in a mask; the first of equals.
+std::size_t argmax(const Volume<float>& image, const Mask& mask) {
+  std::size_t best = 0;
+  float highest = -1e30F;
+  for (std::size_t v = 0; v < mask.values.size(); ++v)
+    if (mask.values[v] && image.values[v] > highest) highest = image.values[v], best = v;
+  return best;
+}
+
+Mask component_at(const Mask& mask, std::size_t voxel) {
+  const Components parts = connected_components(mask);
+  const std::int32_t id = parts.ids.values[voxel];
+  auto out = mask.like<std::uint8_t>(0);
+  if (id > 0)
+    for (std::size_t v = 0; v < out.values.size(); ++v) out.values[v] = parts.ids.values[v] == id;
+  return out;
+}
+
+Volume<float> inner_distance(const Mask& mask) {
+  auto outside = mask;
+  for (std::uint8_t& value : outside.values) value = !value;
+  return distance_to(outside);
+}
+
+/// Half maximum, iterated, in one crop of the image.
+class HalfMaximum {
+ public:
+  HalfMaximum(const Volume<float>& image, const Mask& allowed, const Eigen::Vector3d& point,
+              double reach)
+      : image_(image), allowed_(allowed), point_(point), reach_(reach) {}
+
+  Mask run(FoundLesion& lesion) {
+    const Volume<float> wide = gaussian_smoothed(image_, 1.5);
+    const Mask near = where(allowed_, [&](const Eigen::Vector3d& x, std::size_t v) {
+      return allowed_.values[v] && (x - point_).norm() <= find_within_mm;
+    });
+    core_ = argmax(wide, near);
+    lesion.brightness = wide.values[core_];
+    lesion.background = median_where(image_, where(allowed_, [&](const auto& x, std::size_t v) {
+                                       const double d = (x - point_).norm();
+                                       return allowed_.values[v] && d > 10 && d < 25;
+                                     }));
+    Mask region = allowed_.like<std::uint8_t>(0);
+    for (int round = 0; round < most_rounds; ++round) {
+      const Mask next = grow((lesion.brightness + lesion.background) / 2, lesion);
+      if (count(next) == 0 || next.values == region.values) break;
+      region = next;
+      measure(region, lesion);
+    }
+    return region;
+  }
+
+ private:
+  Mask grow(double threshold, FoundLesion& lesion) {
+    Mask above = where(allowed_, [&](const Eigen::Vector3d& x, std::size_t v) {
+      return allowed_.values[v] && image_.values[v] > threshold && (x - point_).norm() <= reach_;
+    });
+    above = component_at(above, core_);
+    if (count(above) == 0) return above;
+    // The inscribed ball nearest to the core: a large neighbour must not draw the lesion away.
+    const Volume<float> depth = inner_distance(above);
+    lesion.inscribed_mm = deepest_near_core(depth);
+    const Mask inner = where(above, [&](const auto&, std::size_t v) {
+      return depth.values[v] > opening_share * lesion.inscribed_mm;
+    });
+    const Mask kept = component_at(inner, core_);
+    if (count(kept) == 0) return kept;
+    const Volume<float> to_kept = distance_to(kept);
+    return where(above, [&](const auto&, std::size_t v) {
+      return above.values[v] && to_kept.values[v] <= opening_share * lesion.inscribed_mm;
+    });
+  }
+
+  /// Climbs from the core to the deepest place within its own depth, and moves the core there.
+  double deepest_near_core(const Volume<float>& depth) {
+    for (int step = 0; step < 50; ++step) {
+      const Eigen::Vector3d centre = position(core_);
+      const double radius = std::max<double>(depth.values[core_], 1.5 * depth.spacing.maxCoeff());
+      const std::size_t next =
+          argmax(depth, where(allowed_, [&](const Eigen::Vector3d& x, std::size_t) {
+                   return (x - centre).norm() <= radius;
+                 }));
+      if (!(depth.values[next] > depth.values[core_])) break;
+      core_ = next;
+    }
+    return depth.values[core_];
+  }
+
+  void measure(const Mask& region, FoundLesion& lesion) const {
+    const Volume<float> depth = inner_distance(region), away = distance_to(region);
+    lesion.brightness = median_where(image_, where(region, [&](const auto&, std::size_t v) {
+                                       return depth.values[v] > opening_share * lesion.inscribed_mm;
+                                     }));
+    const Mask shell = where(region, [&](const auto&, std::size_t v) {
+      return allowed_.values[v] && away.values[v] > shell_from_mm && away.values[v] < shell_to_mm;
+    });
+    if (count(shell) > 0) lesion.background = median_where(image_, shell);
+  }
+
+  Eigen::Vector3d position(std::size_t v) const {
+    const std::size_t nx = image_.size.x(), nxy = nx * image_.size.y();
+    return image_.position(static_cast<int>(v % nx), static_cast<int>(v % nxy / nx),
+                           static_cast<int>(v / nxy));
+  }
+
+  const Volume<float>& image_;
+  const Mask& allowed_;
+  Eigen::Vector3d point_;
+  double reach_;
+  std::size_t core_ = 0;
+};
+
+double dice(const Mask& a, const Mask& b) {
+  double both = 0, sum = 0;
+  for (std::size_t v = 0; v < a.values.size(); ++v)
+    both += a.values[v] && b.values[v], sum += a.values[v] + b.values[v];
+  return sum > 0 ? 2 * both / sum : 0;
+}
+
+Mask walk(const Volume<float>& image, const Mask& allowed, const Mask& region,
+          const FoundLesion& lesion) {
+  const Volume<float> depth = inner_distance(region), away = distance_to(region);
+  const double range = std::abs(lesion.brightness - lesion.background);
+  auto seeds = region.like<std::uint8_t>(0);
+  for (std::size_t v = 0; v < seeds.values.size(); ++v) {
+    if (depth.values[v] > 0.7 * lesion.inscribed_mm) seeds.values[v] = walker_inside;
+    if (away.values[v] > shell_to_mm) seeds.values[v] = walker_outside;
+  }
+  return random_walk(image, allowed, seeds, range);
+}
+
+}  // namespace
+
+FoundLesion find_lesion(const Volume<float>& image, const Volume<std::uint8_t>& allowed,
+                        const Eigen::Vector3d& point_in_lps, const LesionSearch& search) {
+  FoundLesion lesion;
+  const double margin = search.reach_mm + shell_to_mm + 4;
+  const Eigen::Array3d index = image.index(point_in_lps).array();
+  const Eigen::Array3d extent = margin / image.spacing.array();
+  lesion.low = (index - extent).floor().max(0).cast<int>().matrix();
+  const Eigen::Vector3i high =
+      (index + extent).ceil().min((image.size.array() - 1).cast<double>()).cast<int>().matrix();
+  Volume<float> part = cropped(image, lesion.low, high);
+  const Mask may = cropped(allowed, lesion.low, high);
+  constexpr float top = 10;  // fat is at 1: dark lesions are looked for in the negative
+  if (!search.brighter)
+    for (float& value : part.values) value = top - value;
+  part = gaussian_smoothed(std::move(part), smoothing_mm);
+
+  lesion.mask = HalfMaximum(part, may, point_in_lps, search.reach_mm).run(lesion);
+  const double ml = count(lesion.mask) * image.voxel_volume() / 1000;
+  if (ml < least_ml || lesion.brightness - lesion.background < least_contrast) {
+    lesion.is_sphere = true;
+    lesion.mask = where(may, [&](const Eigen::Vector3d& x, std::size_t v) {
+      return may.values[v] && (x - point_in_lps).norm() <= fallback_mm;
+    });
+  } else {
+    const Mask walked = walk(part, may, lesion.mask, lesion);
+    lesion.agreement = dice(lesion.mask, walked);
+    if (search.random_walker && count(walked) > 0) lesion.mask = walked;
+  }
+  if (!search.brighter) {
+    lesion.brightness = top - lesion.brightness;
+    lesion.background = top - lesion.background;
+  }
+  return lesion;
+}
+
+}  // namespace mammotwin

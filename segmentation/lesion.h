@@ -1,0 +1,37 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "segmentation/volume.h"
+
+namespace mammotwin {
+
+/// A lesion found around a point.
+struct FoundLesion {
+  Volume<std::uint8_t> mask;                      ///< on a part of the image's grid
+  Eigen::Vector3i low = Eigen::Vector3i::Zero();  ///< voxel of the image where that part begins
+  double brightness = 0;                          ///< median of its inner part
+  double background = 0;                          ///< median of the 2 to 6 mm around it
+  double inscribed_mm = 0;                        ///< radius of the largest ball inside
+  double agreement = 0;                           ///< Dice of half maximum and random walker
+  bool is_sphere = false;                         ///< nothing stood out: a ball of 5 mm was taken
+
+  double contrast() const { return background > 0 ? brightness / background : 0; }
+};
+
+struct LesionSearch {
+  double reach_mm = 30;        ///< from the point
+  bool brighter = true;        ///< than what surrounds it
+  bool random_walker = false;  ///< take the walker's answer instead of half maximum's
+};
+
+/// Stops at the lesion's edge. Half maximum, iterated: threshold midway between the inner part and
+/// the surroundings, the part that holds the brightest place within 6 mm of the point, opened by
+/// half of its inscribed radius so that vessels and ducts fall off. A random walker from the same
+/// core is the second opinion (random_walker.h).
+FoundLesion find_lesion(const Volume<float>& image, const Volume<std::uint8_t>& allowed,
+                        const Eigen::Vector3d& point_in_lps, const LesionSearch& search);
+
+}  // namespace mammotwin

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "segmentation/breast_frame.h"
+#include "segmentation/volume.h"
+
+namespace mammotwin {
+
+/// The front of the chest wall as a radius over angle and height, round a vertical axis behind the
+/// breastbone. Angle 0 points forward, positive to the patient's left.
+struct PectoralWall {
+  double axis_x = 0, axis_y = 0;           ///< [mm, LPS]
+  double first_angle = 0, angle_step = 0;  ///< [radians]
+  double first_z = 0, z_step = 0;          ///< [mm, LPS]
+  int angles = 0, rows = 0;
+  std::vector<double> radius;  ///< [mm], angles fastest
+  std::vector<float> cost;     ///< of the wall found there; below -0.5 the image supports it
+
+  /// True if a point lies behind the front; beyond the last angle the last radius holds.
+  bool is_behind(const Eigen::Vector3d& x_in_lps) const;
+
+  /// Share of the wall in front of one side (within 50 degrees, in the breasts' slices) that the
+  /// image does not support.
+  double doubt(Side side, double z_low, double z_high) const;
+};
+
+/// Brightness of what lies on both sides of the wall, with fat at 1.
+struct WallContrast {
+  double muscle = 1.55;
+};
+
+/// Finds the front of the pectoral muscle in a bias-corrected image with fat at 1.
+///
+/// Cost of a radius: 0.5 times a region term (fat in the 6 mm outside, muscle in the 7 mm inside,
+/// by log-likelihood), minus 2 times the signed edge (outward: darker where muscle is brighter
+/// than fat), plus dark tissue in front of it (per 10 mm); not within 4 mm of the skin. The
+/// study of segmentation measured that each term is needed.
+PectoralWall find_pectoral_wall(const Volume<float>& corrected, const Volume<std::uint8_t>& body,
+                                const BreastFrame& frame, const WallContrast& contrast,
+                                double stiffness);
+
+}  // namespace mammotwin

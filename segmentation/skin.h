@@ -1,0 +1,24 @@
+#pragma once
+
+#include <cstdint>
+
+#include "segmentation/volume.h"
+
+namespace mammotwin {
+
+/// Thickness of the skin and the range that it may have [mm].
+struct SkinThickness {
+  double thickness = 0, low = 0, high = 0;
+  double misfit = 0;  ///< root mean square of the fit over the brightness of fat
+};
+
+/// Fits a blurred slab (air, skin, fat) to the median profile along the depth below the skin.
+///
+/// The image's own blur is not known: a Gaussian of 0.62 voxels is assumed, and the range is what
+/// 1.3 and 0.75 times that blur would give (study of segmentation, section 5: at the resolution
+/// of a breast MRI skin under 2 mm is read by its blur). `depth` from body_mask.h; `where`: voxels
+/// of the breast's skin layer that may be used, to at least 8 mm deep and 4 mm outside.
+SkinThickness measure_skin(const Volume<float>& image, const Volume<std::uint8_t>& body,
+                           const Volume<std::uint8_t>& where);
+
+}  // namespace mammotwin

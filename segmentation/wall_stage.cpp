@@ -1,0 +1,50 @@
+#include "segmentation/wall_stage.h"
+
+#include <tbb/parallel_for.h>
+
+#include <cmath>
+
+#include "segmentation/em_bias.h"
+#include "segmentation/smoothing.h"
+
+namespace mammotwin {
+namespace {
+
+constexpr int num_classes = 4;  // lung and noise, fat, muscle and gland, vessels and skin
+
+/// Muscle over fat: the class nearest to what the study saw (1.4 to 2.0, 0.4), if in range.
+double muscle_over_fat(const BiasEstimate& bias, double log_fat, bool fat_suppressed) {
+  const double usual = fat_suppressed ? 1.55 : 0.40;
+  const double low = fat_suppressed ? 1.25 : 0.25, high = fat_suppressed ? 2.0 : 0.65;
+  double best = usual, nearest = 1e9;
+  for (const IntensityClass& c : bias.classes) {
+    const double ratio = std::exp(c.mean - log_fat);
+    if (ratio < low || ratio > high || std::abs(std::log(ratio / usual)) > nearest) continue;
+    nearest = std::abs(std::log(ratio / usual));
+    best = ratio;
+  }
+  return best;
+}
+
+}  // namespace
+
+WallStage find_wall(const BodyStage& body, double stiffness) {
+  const BiasEstimate bias = estimate_bias(body.image, body.body, num_classes);
+  WallStage stage;
+  stage.corrected = body.image;
+  Volume<float>& corrected = stage.corrected;
+  tbb::parallel_for(0, corrected.size.z(), [&](int k) {
+    for (int j = 0; j < corrected.size.y(); ++j)
+      for (int i = 0; i < corrected.size.x(); ++i)
+        corrected(i, j, k) *= bias.correction(corrected.position(i, j, k));
+  });
+  const double fat = subcutaneous_fat(corrected, body.depth, body.frame);
+  for (float& value : corrected.values) value /= static_cast<float>(fat);
+  stage.contrast.muscle = muscle_over_fat(bias, std::log(fat), body.contrast.fat_suppressed);
+  constexpr double ray_smoothing_mm = 0.8;  // about a voxel: noise falls, the edge stays
+  stage.wall = find_pectoral_wall(gaussian_smoothed(corrected, ray_smoothing_mm), body.body,
+                                  body.frame, stage.contrast, stiffness);
+  return stage;
+}
+
+}  // namespace mammotwin
