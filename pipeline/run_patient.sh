@@ -3,16 +3,15 @@
 # Environment: P (name of the patient's folder), DATA, RESULTS (folders), FORCE (1: run anyway),
 # BIN (folder of the programs).
 set -u
+. "$(dirname "$0")/patient_name.sh"
 last=$1
 
 fail() { echo "$*" >&2; exit 2; }
 
-case "${P:-}" in
-  '') fail "name a patient: make $last P=042 (a folder of $DATA)" ;;
-  *[!A-Za-z0-9._-]* | [!A-Za-z0-9]*)
-    fail "P is not a plain name: use letters, digits, '.', '_' and '-', beginning with a letter or digit" ;;
-  evaluation | gel_*) fail "P=$P: that name is kept for the program's own results" ;;
-esac
+[ -n "${P:-}" ] || fail "name a patient: make $last P=042 (a folder of $DATA)"
+is_plain_name "$P" ||
+  fail "P is not a plain name: use letters, digits, '.', '_' and '-', beginning with a letter or digit"
+! is_kept_name "$P" || fail "P=$P: that name is kept for the program's own results"
 toml=$DATA/$P/patient.toml
 [ -f "$toml" ] || fail "$toml: no such file (DATA=$DATA is the folder of patients, P=$P one of them)"
 

@@ -84,6 +84,7 @@ void Products::commit() {
 }
 
 void write_text_atomically(const fs::path& path, const std::string& text) {
+  remove_leftovers(folder_of(path), path.filename().string());
   const fs::path temporary = temporary_path(folder_of(path), path.filename().string());
   std::ofstream out(temporary, std::ios::binary);
   out << text;
