@@ -2,15 +2,23 @@
 
 DATA ?= sample_data
 RESULTS ?= results
+PREFIX ?= /usr/local
 BIN := build/release/bin
 # Taken as they stand: nothing in them is expanded by make, and recipes see them only as "$$P".
 override P := $(value P)
 override DATA := $(value DATA)
 override RESULTS := $(value RESULTS)
-export P DATA RESULTS FORCE BIN SEED
+override PATIENTS := $(value PATIENTS)
+override JOBS := $(value JOBS)
+override ONLY := $(value ONLY)
+override ENGINE := $(value ENGINE)
+override CONFIG := $(value CONFIG)
+override PREFIX := $(value PREFIX)
+export P DATA RESULTS FORCE BIN SEED PATIENTS JOBS ONLY ENGINE CONFIG PREFIX
 unexport MAKEFLAGS MAKEOVERRIDES
 
-.PHONY: help patient segment fit compress register report synthesize build test clean
+.PHONY: help patient segment fit compress register report synthesize cohort verify-results build \
+        install test clean
 .DEFAULT_GOAL := help
 
 help:
@@ -18,6 +26,10 @@ help:
 	@echo 'make segment|fit|compress|register|report P=042'
 	@echo '                       the same, up to and including that stage'
 	@echo 'make synthesize P=name SEED=1   a synthetic patient in DATA/name'
+	@echo 'make cohort            every patient of DATA (or PATIENTS="042 043"): cohort.tsv, failed.tsv,'
+	@echo '                       cohort.html; JOBS=4 at a time, ONLY=failed, ENGINE=slurm, CONFIG=file'
+	@echo 'make verify-results P=042   are all files still those that were written?'
+	@echo 'make install PREFIX=/usr/local   programs, manual pages, completion, libraries'
 	@echo 'make test              all tests'
 	@echo 'make clean             removes build/ (results stay)'
 	@echo
@@ -28,6 +40,12 @@ help:
 patient segment fit compress register report: build
 	@pipeline/run_patient.sh $@
 
+cohort: build
+	@pipeline/cohort/run_cohort.sh
+
+verify-results: build
+	@pipeline/cohort/verify_patient.sh
+
 build:
 	@pipeline/install/ensure_packages.sh
 	@test -f build/release/build.ninja || cmake --preset release
@@ -35,6 +53,9 @@ build:
 
 test: build
 	@ctest --test-dir build/release --output-on-failure -j2
+
+install: build
+	@cmake --install build/release --prefix "$$PREFIX"
 
 clean:
 	rm -rf build

@@ -1,0 +1,100 @@
+// mammotwin-cohort: results of many patients -> cohort.tsv, failed.tsv, cohort_times.tsv,
+// cohort.html.
+
+#include <CLI/CLI.hpp>
+#include <fstream>
+#include <iostream>
+#include <optional>
+#include <set>
+
+#include "pipeline/cohort/page.h"
+#include "pipeline/cohort/patient_summary.h"
+#include "pipeline/cohort/tables.h"
+#include "pipeline/frame/products.h"
+
+namespace mammotwin {
+namespace {
+
+namespace fs = std::filesystem;
+constexpr int kBadData = 1, kBadUsage = 2;
+
+struct Arguments {
+  fs::path results;
+  std::optional<fs::path> patients;
+  RunAgain again;
+};
+
+void declare(CLI::App& app, Arguments& args) {
+  app.add_option("results", args.results, "folder of patients' results; the tables go there, too")
+      ->required();
+  app.add_option("--patients", args.patients,
+                 "file of patients' names, one a line, that are listed even without results");
+  app.add_option("--data", args.again.data, "folder of patients, for the commands that run again");
+  app.add_option("--front-door", args.again.front_door, "what those commands begin with")
+      ->capture_default_str();
+  app.set_version_flag("--version", std::string(MAMMOTWIN_VERSION));
+}
+
+bool is_patient(const fs::directory_entry& entry) {
+  const std::string name = entry.path().filename().string();
+  return entry.is_directory() && name.front() != '.' && !read_stage_results(entry.path()).empty() &&
+         name != "evaluation" && name.rfind("gel_", 0) != 0;
+}
+
+/// Those named and those with results, in the order of their names.
+std::set<std::string> patients_of(const Arguments& args) {
+  std::set<std::string> patients;
+  if (args.patients) {
+    std::ifstream in(*args.patients);
+    if (!in) throw std::runtime_error(args.patients->string() + ": cannot be read");
+    for (std::string name; std::getline(in, name);)
+      if (!name.empty()) patients.insert(name);
+  }
+  for (const auto& entry : fs::directory_iterator(args.results))
+    if (is_patient(entry)) patients.insert(entry.path().filename().string());
+  return patients;
+}
+
+std::vector<PatientSummary> summarize(const Arguments& args) {
+  const CohortFolder folder{args.results};
+  std::vector<PatientSummary> cohort;
+  for (const std::string& patient : patients_of(args))
+    cohort.push_back(summarize_patient(folder, patient));
+  return cohort;
+}
+
+int run(Arguments args) {
+  args.again.results = args.results.string();
+  const std::vector<PatientSummary> cohort = summarize(args);
+  const Table failed = failed_table(cohort, args.again);
+  write_text_atomically(args.results / "cohort.tsv", cohort_table(cohort).text());
+  write_text_atomically(args.results / "cohort_times.tsv", times_table(cohort).text());
+  write_text_atomically(args.results / "failed.tsv", failed.text());
+  write_text_atomically(args.results / "cohort.html", cohort_page(cohort, args.again));
+  std::cerr << "cohort: " << cohort.size() << " patients, " << failed.rows.size()
+            << " failed: " << (args.results / "cohort.html").string() << "\n";
+  for (const auto& row : failed.rows)
+    std::cerr << "cohort: " << row[0] << ": " << row[1] << " at " << row[2] << ": " << row[3]
+              << "\n";
+  return failed.rows.empty() ? 0 : kBadData;
+}
+
+}  // namespace
+}  // namespace mammotwin
+
+int main(int argc, char** argv) {
+  CLI::App app(
+      "mammotwin-cohort: gathers the results of many patients into cohort.tsv, failed.tsv, "
+      "cohort_times.tsv and cohort.html. Exit code 1 if a patient failed.");
+  mammotwin::Arguments args;
+  mammotwin::declare(app, args);
+  try {
+    app.parse(argc, argv);
+    return mammotwin::run(args);
+  } catch (const CLI::ParseError& e) {
+    return app.exit(e) == 0 ? 0 : mammotwin::kBadUsage;
+  } catch (const std::exception& e) {
+    std::cerr << "cohort: " << e.what() << "\n";
+    return mammotwin::kBadData;
+  }
+}

@@ -1,0 +1,53 @@
+#include "pipeline/cohort/figures.h"
+
+#include <algorithm>
+
+namespace mammotwin {
+namespace {
+
+using nlohmann::json;
+constexpr std::size_t kLongestPoint = 3;
+
+void add(const std::string& name, const json& value, std::vector<Figure>& figures);
+
+void add_table(const std::string& name, const json& table, std::vector<Figure>& figures) {
+  for (const auto& [key, value] : table.items()) add(name + "." + key, value, figures);
+}
+
+std::string id_text(const json& id) { return id.is_string() ? id.get<std::string>() : id.dump(); }
+
+void add_list(const std::string& name, const json& list, std::vector<Figure>& figures) {
+  const auto has_id = [](const json& item) { return item.is_object() && item.contains("id"); };
+  if (std::all_of(list.begin(), list.end(), has_id)) {
+    for (json item : list) {
+      const std::string id = id_text(item["id"]);
+      item.erase("id");
+      add_table(name + "." + id, item, figures);
+    }
+    return;
+  }
+  if (list.size() > kLongestPoint) return;
+  for (std::size_t i = 0; i < list.size(); ++i)
+    if (list[i].is_primitive()) add(name + "." + std::to_string(i), list[i], figures);
+}
+
+void add(const std::string& name, const json& value, std::vector<Figure>& figures) {
+  if (value.is_object())
+    add_table(name, value, figures);
+  else if (value.is_array())
+    add_list(name, value, figures);
+  else if (!value.is_null())
+    figures.emplace_back(name, value);
+}
+
+}  // namespace
+
+std::vector<Figure> figures_of(const std::string& prefix, const json& quality) {
+  std::vector<Figure> figures;
+  if (quality.is_object()) add_table(prefix, quality, figures);
+  std::sort(figures.begin(), figures.end(),
+            [](const Figure& a, const Figure& b) { return a.first < b.first; });
+  return figures;
+}
+
+}  // namespace mammotwin

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace mammotwin {
+
+struct Verification {
+  int files_checked = 0;
+  std::vector<std::string> differences;  ///< sentences; empty if all is as the sidecars say
+};
+
+/// Recomputes the checksum of every input and output that the sidecars of a patient's results
+/// folder name. Throws std::runtime_error if the folder holds no sidecar.
+Verification verify_results(const std::filesystem::path& folder);
+
+}  // namespace mammotwin
