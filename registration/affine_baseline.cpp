@@ -62,4 +62,10 @@ Eigen::Vector3d AffineBaseline::view_from_prone(const Eigen::Vector3d& x_in_lps)
           (x.z() - low_) / (stretch_ * stretch_)};
 }
 
+Eigen::Vector3d AffineBaseline::prone_from_view(const Eigen::Vector3d& x) const {
+  return frame_.lps_from_view({x.x() / stretch_,
+                               lateral_centroid_ + (x.y() - lateral_centroid_) / stretch_,
+                               low_ + x.z() * stretch_ * stretch_});
+}
+
 }  // namespace mammotwin

@@ -22,6 +22,9 @@ class AffineBaseline {
   /// Point of the prone breast [mm, LPS] -> its place in the view frame.
   Eigen::Vector3d view_from_prone(const Eigen::Vector3d& x_in_lps) const;
 
+  /// Its inverse.
+  Eigen::Vector3d prone_from_view(const Eigen::Vector3d& x_in_view) const;
+
   double stretch() const { return stretch_; }
   double prone_extent_mm() const { return prone_extent_mm_; }
   double prone_low_mm() const { return low_; }  ///< lowest height of the prone tissue in front

@@ -1,7 +1,8 @@
 #include "registration/lesion_table.h"
 
+#include "registration/csv.h"
+
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <fstream>
@@ -36,13 +37,6 @@ const std::array kColumns = {
 };
 #undef MAMMOTWIN_COLUMN
 
-std::string quoted(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-  std::string result = "\"";
-  for (const char c : text) result += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return result + '"';
-}
-
 std::string formatted(std::optional<double> value) {
   if (!value) return "";
   char text[64];
@@ -51,35 +45,8 @@ std::string formatted(std::optional<double> value) {
 }
 
 std::string cell(const LesionRow& row, const Column& column) {
-  if (const Text* text = std::get_if<Text>(&column.field)) return quoted(row.*(*text));
+  if (const Text* text = std::get_if<Text>(&column.field)) return csv::quoted(row.*(*text));
   return formatted(row.*std::get<Number>(column.field));
-}
-
-std::vector<std::string> split(const std::string& line) {
-  std::vector<std::string> cells(1);
-  bool inside_quotes = false;
-  for (std::size_t i = 0; i < line.size(); ++i) {
-    const char c = line[i];
-    if (inside_quotes && c == '"' && i + 1 < line.size() && line[i + 1] == '"') {
-      cells.back() += '"';
-      ++i;
-    } else if (c == '"') {
-      inside_quotes = !inside_quotes;
-    } else if (c == ',' && !inside_quotes) {
-      cells.emplace_back();
-    } else if (c != '\r') {
-      cells.back() += c;
-    }
-  }
-  return cells;
-}
-
-double number(const std::string& text, const std::string& where) {
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size())
-    throw std::runtime_error(where + " is \"" + text + "\"; expected a number or nothing");
-  return value;
 }
 
 LesionRow parse_row(const std::vector<std::string>& cells, const std::string& where) {
@@ -92,14 +59,14 @@ LesionRow parse_row(const std::vector<std::string>& cells, const std::string& wh
       row.*(*text) = cells[i];
     } else if (!cells[i].empty()) {
       row.*std::get<Number>(kColumns[i].field) =
-          number(cells[i], where + ": column " + kColumns[i].name);
+          csv::number(cells[i], where + ": column " + kColumns[i].name);
     }
   }
   return row;
 }
 
 void check_header(const std::string& line, const std::string& file) {
-  const std::vector<std::string> cells = split(line);
+  const std::vector<std::string> cells = csv::cells(line);
   for (std::size_t i = 0; i < kColumns.size(); ++i)
     if (i >= cells.size() || cells[i] != kColumns[i].name)
       throw std::runtime_error(file + ": column " + std::to_string(i + 1) + " is \"" +
@@ -130,7 +97,7 @@ std::vector<LesionRow> read_lesion_table(const std::filesystem::path& path) {
   check_header(line, path.string());
   std::vector<LesionRow> rows;
   for (int number = 2; std::getline(in, line); ++number)
-    rows.push_back(parse_row(split(line), path.string() + ": line " + std::to_string(number)));
+    rows.push_back(parse_row(csv::cells(line), path.string() + ": line " + std::to_string(number)));
   return rows;
 }
 

@@ -49,7 +49,7 @@ PositionGrid cover(const Eigen::AlignedBox3d& box, double spacing_mm) {
   const Eigen::Vector3i size =
       (box.sizes() / spacing_mm).array().ceil().cast<int>().max(1).matrix();
   const Eigen::Vector3d spacing = Eigen::Vector3d::Constant(spacing_mm);
-  return PositionGrid(size, spacing, box.min() + spacing / 2);
+  return PositionGrid(size, spacing, box.min() + spacing / 2, Eigen::Vector3d::Zero());
 }
 
 }  // namespace mammotwin

@@ -79,9 +79,9 @@ TEST(ClosestApproach, CurveInTheOtherViewPassesTheOtherMark) {
   const SqueezedBox cc = squeezed_box(Side::left, 0, 0.5), mlo = squeezed_box(Side::left, 45, 0.5);
   const Eigen::Vector3d lesion(62, -33, 9);
   const auto curve = curve_in_other_view(rays_of(cc), mark_of(cc, lesion), rays_of(mlo), 0.25);
+  const Eigen::Vector2d other_mark = mark_of(mlo, lesion);
   double nearest = 1e9;
-  for (const Eigen::Vector2d& uv : curve)
-    nearest = std::min(nearest, (uv - mark_of(mlo, lesion)).norm());
+  for (const Eigen::Vector2d& uv : curve) nearest = std::min(nearest, (uv - other_mark).norm());
   EXPECT_LT(nearest, 0.5);  // sampled a quarter of a millimetre of height apart
 }
 

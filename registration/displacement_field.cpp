@@ -1,0 +1,111 @@
+#include "registration/displacement_field.h"
+
+#include "registration/point_carrier.h"
+#include "registration/position_grid.h"
+#include "segmentation/write_image_file.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+namespace mammotwin {
+namespace {
+
+constexpr int kContinued = 2;  // voxels beyond the surface: interpolation reaches one
+
+enum State : std::uint8_t { unknown, inside, continued };
+
+bool touches(const Volume<std::uint8_t>& state, int i, int j, int k) {
+  for (int c = -1; c <= 1; ++c)
+    for (int b = -1; b <= 1; ++b)
+      for (int a = -1; a <= 1; ++a)
+        if (state.contains(i + a, j + b, k + c) && state(i + a, j + b, k + c) != unknown) return true;
+  return false;
+}
+
+/// One layer of voxels round what is known, carried with the nearest tissue.
+void continue_one_layer(const PointCarrier& carrier, Volume<std::uint8_t>& state,
+                        DisplacementField& field) {
+  const Volume<std::uint8_t> before = state;
+  for (int k = 0; k < state.size.z(); ++k)
+    for (int j = 0; j < state.size.y(); ++j)
+      for (int i = 0; i < state.size.x(); ++i) {
+        if (before(i, j, k) != unknown || !touches(before, i, j, k)) continue;
+        const Eigen::Vector3d x = field.position(i, j, k);
+        field(i, j, k) = (carrier.carry(x).in_lps - x).cast<float>();
+        state(i, j, k) = continued;
+      }
+}
+
+}  // namespace
+
+DisplacementField displacement_field(const HermiteMesh& here, const HermiteMesh& target,
+                                     double spacing_mm) {
+  Eigen::AlignedBox3d box = bounding_box(here);
+  const Eigen::Vector3d rim = Eigen::Vector3d::Constant(kContinued * spacing_mm);
+  PositionGrid positions =
+      cover(Eigen::AlignedBox3d((box.min() - rim).eval(), (box.max() + rim).eval()), spacing_mm);
+  fill_positions(here, target, positions);
+
+  DisplacementField field = positions.like<Eigen::Vector3f>(Eigen::Vector3f::Zero());
+  Volume<std::uint8_t> state = positions.like<std::uint8_t>(unknown);
+  for (int k = 0; k < field.size.z(); ++k)
+    for (int j = 0; j < field.size.y(); ++j)
+      for (int i = 0; i < field.size.x(); ++i) {
+        if (!positions(i, j, k).allFinite()) continue;
+        state(i, j, k) = inside;
+        field(i, j, k) = (positions(i, j, k) - field.position(i, j, k)).cast<float>();
+      }
+  const PointCarrier carrier(here, target);
+  for (int layer = 0; layer < kContinued; ++layer) continue_one_layer(carrier, state, field);
+  return field;
+}
+
+Eigen::Vector3d displacement_at(const DisplacementField& field, const Eigen::Vector3d& x) {
+  const Eigen::Vector3d index = field.index(x);
+  const Eigen::Vector3i low = index.array().floor().cast<int>();
+  const Eigen::Vector3d t = index - low.cast<double>();
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (int corner = 0; corner < 8; ++corner) {
+    const Eigen::Vector3i bits(corner & 1, corner >> 1 & 1, corner >> 2);
+    const Eigen::Vector3i v = low + bits;
+    if (!field.contains(v.x(), v.y(), v.z())) continue;
+    double weight = 1;
+    for (int a = 0; a < 3; ++a) weight *= bits[a] ? t[a] : 1 - t[a];
+    sum += weight * field(v.x(), v.y(), v.z()).cast<double>();
+  }
+  return sum;
+}
+
+CompositionError composition_error(const DisplacementField& there, const DisplacementField& back,
+                                   const HermiteMesh& there_mesh) {
+  PositionGrid inside_of = there.like<Eigen::Vector3d>(Eigen::Vector3d::Zero());
+  fill_positions(there_mesh, there_mesh, inside_of);
+  std::vector<double> errors;
+  for (int k = 0; k < there.size.z(); ++k)
+    for (int j = 0; j < there.size.y(); ++j)
+      for (int i = 0; i < there.size.x(); ++i) {
+        if (!inside_of(i, j, k).allFinite()) continue;
+        const Eigen::Vector3d x = there.position(i, j, k);
+        const Eigen::Vector3d y = x + there(i, j, k).cast<double>();
+        errors.push_back((y + displacement_at(back, y) - x).norm());
+      }
+  if (errors.empty()) return {};
+  std::sort(errors.begin(), errors.end());
+  double sum = 0;
+  for (const double e : errors) sum += e;
+  return {sum / errors.size(), errors[static_cast<std::size_t>(0.99 * (errors.size() - 1))],
+          errors.back(), errors.size()};
+}
+
+void write_displacement_field(const std::filesystem::path& path, const DisplacementField& field) {
+  FileGrid grid;
+  for (int a = 0; a < 3; ++a) {
+    grid.size[a] = field.size[a];
+    grid.spacing[a] = field.spacing[a];
+    grid.origin[a] = field.origin[a];
+  }
+  write_nrrd(path, grid, field.values.front().data(), 3, {});
+}
+
+}  // namespace mammotwin
