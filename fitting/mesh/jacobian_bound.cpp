@@ -96,7 +96,8 @@ struct Search {
     sampled = std::min(sampled, smallest_corner(box));
     const double bound = *std::min_element(box.begin(), box.end()) - slack;
     const bool disproved = stop_below_zero && sampled <= 0;
-    if (disproved || bound > floor || bound > sampled - gap || level == max_halvings) {
+    const bool close = bound > sampled - gap && (bound > 0 || sampled <= 0);
+    if (disproved || bound > floor || close || level == max_halvings) {
       lower = std::min(lower, bound);
       return;
     }

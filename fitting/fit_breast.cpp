@@ -1,0 +1,188 @@
+#include "fitting/fit_breast.h"
+
+#include "fitting/fit_quality.h"
+#include "fitting/fit_samples.h"
+#include "fitting/label_surface.h"
+#include "fitting/mesh/jacobian_bound.h"
+#include "fitting/newton_step.h"
+
+#include <cmath>
+#include <optional>
+#include <stdexcept>
+
+namespace mammotwin {
+
+namespace {
+
+constexpr double surface_sigma_mm = 1;    // of the mask, before the surface that is fitted
+constexpr double surface_spacing_mm = 2;  // of that surface's grid
+constexpr int smallest_breast_voxels = 20000;  // 20 ml at 1 mm
+
+void check(const FitOptions& o) {
+  const auto require = [](bool good, const std::string& message) {
+    if (!good) throw std::invalid_argument("fit: " + message);
+  };
+  require(o.elements.minCoeff() >= 1 && o.elements.maxCoeff() <= 16,
+          "elements must be 1 to 16 in each direction");
+  require(o.smoothing >= 1e-12 && o.smoothing <= 1e-3, "smoothing must be 1e-12 to 1e-3");
+  require(o.shape >= 0.1 && o.shape <= 10, "shape must be 0.1 to 10");
+}
+
+void require_breast(const Segmentation& s) {
+  long voxels = 0;
+  for (int k = 0; k < s.labels.size.z(); ++k)
+    for (int j = 0; j < s.labels.size.y(); ++j)
+      for (int i = 0; i < s.labels.size.x(); ++i)
+        voxels += label::is_breast(s.labels(i, j, k)) && s.region.contains(s.labels.position(i, j, k));
+  if (voxels < smallest_breast_voxels)
+    throw std::runtime_error("fit: the breast's region holds " + std::to_string(voxels) +
+                             " voxels of tissue; expected at least " +
+                             std::to_string(smallest_breast_voxels) +
+                             " (is it the right side, and does the segmentation show a breast?)");
+}
+
+/// The skin to fit: smoothed, on a coarser grid, its body closed as little as makes it a disc.
+TriangleSurface skin_to_fit(const Segmentation& s, const ChestWall& wall) {
+  std::string reason;
+  for (int closing : {2, 3, 5}) {
+    const Volume<float> solid = solid_from_labels(s.labels, s.region, wall.height, {closing});
+    const TriangleSurface skin =
+        skin_surface(resampled(smoothed(solid, surface_sigma_mm), surface_spacing_mm), s.region);
+    reason = why_not_a_square(skin, s.region);
+    if (reason.empty()) return skin;
+  }
+  throw std::runtime_error("fit: the skin surface cannot be laid on a square: " + reason +
+                           "; look at the segmentation for holes, or for a breast that the "
+                           "field of view or the region's planes cut");
+}
+
+TriangleSurface skin_as_labelled(const Segmentation& s, const ChestWall& wall) {
+  return skin_surface(solid_from_labels(s.labels, s.region, wall.height, {}), s.region);
+}
+
+/// Weights of one part of the fit.
+struct Stage {
+  double data, mu, sobolev;
+  int steps;
+};
+
+/// The fit as it goes: nodes, and the last of them that were proved valid.
+class Fit {
+ public:
+  Fit(const Slab& slab, HermiteMesh start, FitTarget& target, FitReport& report,
+      const FitProgress& progress)
+      : slab_(slab), start_(std::move(start)), nodes_(start_.nodes()), target_(target),
+        newton_(start_.elements(), held_parameters(slab)), report_(report), progress_(progress) {}
+
+  /// Runs until the mesh is proved valid (and then while steps remain).
+  bool untangle(const Stage& stage) {
+    run(stage, false);
+    return is_proved();
+  }
+
+  void refine(const Stage& stage) { run(stage, true); }
+
+  bool is_proved() const { return proved_valid(mesh()); }
+  HermiteMesh mesh() const { return HermiteMesh(nodes_, start_.elements()); }
+
+ private:
+  void run(const Stage& stage, bool must_stay_proved) {
+    FitModel model(slab_, start_, stage.mu, stage.sobolev);
+    for (int step = 0; step < stage.steps; ++step) {
+      model.update(nodes_, target_.samples(mesh(), {stage.data}));
+      report_.skin_rms_by_iteration_mm.push_back(target_.skin_rms());
+      const StepReport done = newton_.step(model, must_stay_proved, nodes_);
+      ++report_.iterations;
+      if (progress_)
+        progress_(std::min(0.9, 0.2 + 0.03 * report_.iterations), "fitting the mesh");
+      if (done.length == 0) break;
+    }
+  }
+
+  Slab slab_;
+  HermiteMesh start_;
+  std::vector<HermiteMesh::Node> nodes_;
+  FitTarget& target_;
+  NewtonStep newton_;
+  FitReport& report_;
+  const FitProgress& progress_;
+};
+
+/// Valid nodes by the recipe of fitting/README.md; empty if none were found.
+std::optional<HermiteMesh> fit_slab(const Slab& slab, const HermiteMesh& start, FitTarget& target,
+                                    const FitOptions& o, FitReport& report,
+                                    const FitProgress& progress) {
+  Fit fit(slab, start, target, report, progress);
+  if (!fit.untangle({1, 10, 1e-6, 10}))
+    for (double sobolev : {1e-6, 1e-5})
+      if (fit.untangle({0.02, 10, sobolev, 15})) break;
+  if (!fit.is_proved()) return std::nullopt;
+  fit.refine({1, o.shape, o.smoothing, 6});
+  return fit.mesh();
+}
+
+void judge(const FitReport& r, std::string& status, std::vector<std::string>& reasons) {
+  const auto look = [&](bool bad, const std::string& reason) {
+    if (bad) reasons.push_back(reason);
+  };
+  look(std::max(r.skin_rms_mesh_to_data_mm, r.skin_rms_data_to_mesh_mm) > 1,
+       "The mesh's skin is more than 1 mm (RMS) off the labels'.");
+  look(r.covered_fraction < 0.97, "Less than 97 % of the breast's voxels lie in the mesh.");
+  look(r.covered_lesions < 0.99, "Part of a lesion lies outside the mesh.");
+  look(r.chest_wall_rms_mm > 2, "The mesh's chest wall is more than 2 mm (RMS) off the muscle.");
+  status = reasons.empty() ? "ok" : "look";
+}
+
+void measure(const MeshFile& file, const Segmentation& s, const ChestWall& wall, FitReport& r) {
+  const SurfaceDistances skin =
+      surface_distances(file.mesh, file.faces, FaceLabel::skin, skin_as_labelled(s, wall));
+  r.skin_rms_mesh_to_data_mm = skin.rms_mesh_to_data;
+  r.skin_rms_data_to_mesh_mm = skin.rms_data_to_mesh;
+  r.skin_p95_mm = skin.p95;
+  r.skin_max_mm = skin.max;
+  r.farthest_in_lps = skin.farthest;
+  r.chest_wall_rms_mm = rms_to_faces(file.mesh, file.faces, FaceLabel::chest_wall, wall.labelled);
+  r.min_jacobian_bound = bound_jacobian(file.mesh).lower;
+  r.min_scaled_jacobian = smallest_scaled_jacobian(file.mesh);
+  const Coverage covered = coverage(file.mesh, s.labels, s.region);
+  r.covered_fraction = covered.breast;
+  r.covered_lesions = covered.lesions;
+  judge(r, r.status, r.reasons);
+}
+
+}  // namespace
+
+FitResult fit_breast(const Segmentation& s, const FitOptions& options,
+                     const FitProgress& progress) {
+  check(options);
+  require_breast(s);
+  const auto tell = [&](double fraction, const char* what) {
+    if (progress) progress(fraction, what);
+  };
+  tell(0, "finding skin and chest wall");
+  const ChestWall wall = find_chest_wall(s.labels, s.region);
+  const TriangleSurface skin = skin_to_fit(s, wall);
+  tell(0.1, "flattening the skin");
+  const FlatSkin flat = flatten(skin, s.region);
+  const Slab slab{options.elements};
+  const HermiteMesh start = straight_start(slab, skin, flat, wall.height, s.region);
+
+  FitResult result{{HermiteMesh({}, {}), {}, {}, {}, {}, {}}, {}};
+  result.report.elements = options.elements;
+  FitTarget target(slab, skin, flat, wall.height);
+  const auto mesh = fit_slab(slab, start, target, options, result.report, progress);
+  if (!mesh) {
+    result.report.status = "not_converged";
+    result.report.reasons = {"No mesh was found whose elements are all valid; look at the "
+                             "segmentation's skin and chest wall, or try other element counts."};
+    return result;
+  }
+  result.mesh.mesh = *mesh;
+  result.mesh.faces = slab_faces(slab);
+  tell(0.9, "measuring the fit");
+  measure(result.mesh, s, wall, result.report);
+  tell(1, "done");
+  return result;
+}
+
+}  // namespace mammotwin

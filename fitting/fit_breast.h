@@ -1,0 +1,58 @@
+#pragma once
+
+#include "fitting/mesh/mesh_file.h"
+#include "segmentation/tissue.h"
+
+#include <functional>
+#include <string>
+
+namespace mammotwin {
+
+using FitProgress = std::function<void(double fraction, const std::string& what)>;
+
+struct FitOptions {
+  Eigen::Vector3i elements{6, 6, 2};  ///< along x, z and from chest wall to skin, 1 to 16 each
+  /// Weight of ∫ Σᵢⱼ |∂²x/∂uᵢ∂uⱼ|² du over u in [0,1]³ against mean squared distances [mm²],
+  /// 1e-12 to 1e-3. 1e-9 to 1e-7 change the skin's RMS by less than 0.02 mm.
+  double smoothing = 1e-8;
+  /// Weight of the mean foldover-free energy against the same, 0.1 to 10. Lower follows the skin
+  /// closer with worse shaped elements.
+  double shape = 1;
+};
+
+/// Distances are to the label boundary without any smoothing, all of it inside the region.
+struct FitReport {
+  std::string status = "refused";    ///< ok, look, refused or not_converged
+  std::vector<std::string> reasons;  ///< sentences; empty when ok
+  Eigen::Vector3i elements = Eigen::Vector3i::Zero();
+  double skin_rms_mesh_to_data_mm = 0;
+  double skin_rms_data_to_mesh_mm = 0;
+  double skin_p95_mm = 0;         ///< the larger of both directions
+  double skin_max_mm = 0;         ///< the larger of both directions
+  double chest_wall_rms_mm = 0;   ///< labelled muscle front to the mesh
+  double min_jacobian_bound = 0;  ///< det(∂x/∂ξ) is at least this fraction of its mean, proved
+  double min_scaled_jacobian = 0; ///< smallest over 7³ points an element
+  double covered_fraction = 0;    ///< of the breast's voxels in the region
+  double covered_lesions = 1;     ///< of the lesions' voxels in the region
+  int iterations = 0;
+  std::vector<double> skin_rms_by_iteration_mm;  ///< to the smoothed surface, data to mesh
+  Eigen::Vector3d farthest_in_lps = Eigen::Vector3d::Zero();  ///< where skin_max_mm was met
+  bool usable() const { return status == "ok" || status == "look"; }
+};
+
+struct FitResult {
+  MeshFile mesh;
+  FitReport report;
+};
+
+/// Skin and chest wall of a labelled breast as a slab of tri-cubic Hermite elements whose
+/// det(∂x/∂ξ) > 0 is proved (fitting/README.md says how). ξ₁ runs with x (to the patient's
+/// left), ξ₂ with z (up), ξ₃ from chest wall to skin.
+///
+/// Throws std::invalid_argument for options out of range and std::runtime_error, saying what to
+/// look at, where labels hold no breast or its skin cannot be laid on a square. Where no valid
+/// mesh was found the report says not_converged and the mesh has no elements.
+FitResult fit_breast(const Segmentation& segmentation, const FitOptions& options,
+                     const FitProgress& progress = {});
+
+}  // namespace mammotwin

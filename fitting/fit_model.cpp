@@ -1,0 +1,182 @@
+#include "fitting/fit_model.h"
+
+#include <Eigen/LU>
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace mammotwin {
+
+namespace {
+
+constexpr int points_a_side = 5;
+constexpr int num_points = points_a_side * points_a_side * points_a_side;
+
+/// Gauss-Lobatto points on [0,1]: the ends, the middle and (1 ± √(3/7)) / 2.
+std::array<double, points_a_side> lobatto_points() {
+  const double s = std::sqrt(3.0 / 7) / 2;
+  return {0, 0.5 - s, 0.5, 0.5 + s, 1};
+}
+
+Eigen::Matrix<double, 1, 64> basis_row(const Eigen::Vector3d& xi, const std::array<int, 3>& order) {
+  const HermiteMesh::Weights w = HermiteMesh::weights(xi, order);
+  Eigen::Matrix<double, 1, 64> row;
+  for (int n = 0; n < 8; ++n) row.segment<8>(8 * n) = w.row(n);
+  return row;
+}
+
+/// Mean over elements of the length of the line ξ = const through the element's centre.
+Eigen::Vector3d mean_lengths(const HermiteMesh& mesh) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (int e = 0; e < mesh.num_elements(); ++e)
+    sum += mesh.jacobian({e, Eigen::Vector3d::Constant(0.5)}).colwise().norm().transpose();
+  return sum / mesh.num_elements();
+}
+
+/// ∫ Σᵢⱼ (∂²/∂uᵢ∂uⱼ)² of the basis over one of n₁ n₂ n₃ equal elements.
+Eigen::Matrix<double, 64, 64> smoothing_matrix(const Eigen::Vector3i& n) {
+  // Gauss-Legendre with 4 points is exact for the squares of cubics' derivatives.
+  constexpr std::array<double, 4> x = {0.06943184420297371, 0.33000947820757187,
+                                       0.66999052179242813, 0.93056815579702629};
+  constexpr std::array<double, 4> w = {0.17392742256872693, 0.32607257743127307,
+                                       0.32607257743127307, 0.17392742256872693};
+  Eigen::Matrix<double, 64, 64> m = Eigen::Matrix<double, 64, 64>::Zero();
+  for (int q = 0; q < 64; ++q)
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) {
+        std::array<int, 3> order = {0, 0, 0};
+        ++order[i];
+        ++order[j];
+        const auto row = basis_row({x[q % 4], x[q / 4 % 4], x[q / 16]}, order);
+        const double scale = n[i] * n[j];
+        m += w[q % 4] * w[q / 4 % 4] * w[q / 16] * scale * scale * row.transpose() * row;
+      }
+  return m / n.prod();
+}
+
+}  // namespace
+
+FitModel::FitModel(const Slab& slab, const HermiteMesh& start, double mu, double sobolev)
+    : elements_(start.elements()), mu_(mu), sobolev_(sobolev), centre_(Eigen::Vector3d::Zero()),
+      gradients_(3 * num_points, 64), smoothing_(smoothing_matrix(slab.elements)) {
+  for (int n = 0; n < start.num_nodes(); ++n) centre_ += start.node(n).col(0) / start.num_nodes();
+  const Eigen::Vector3d lengths = mean_lengths(start);
+  const auto x = lobatto_points();
+  for (int q = 0; q < num_points; ++q)
+    for (int i = 0; i < 3; ++i) {
+      std::array<int, 3> order = {0, 0, 0};
+      order[i] = 1;
+      const Eigen::Vector3d xi(x[q % 5], x[q / 5 % 5], x[q / 25]);
+      gradients_.row(3 * q + i) = basis_row(xi, order) / lengths[i];
+    }
+}
+
+FitModel::Shape FitModel::shape(const std::vector<HermiteMesh::Node>& nodes, int element) const {
+  Shape x;
+  for (int n = 0; n < 8; ++n) {
+    x.middleCols<8>(8 * n) = nodes[elements_[element][n]];
+    x.col(8 * n) -= centre_;
+  }
+  return x;
+}
+
+double FitModel::smallest_determinant(const std::vector<HermiteMesh::Node>& nodes) const {
+  std::vector<double> smallest(elements_.size());
+  tbb::parallel_for(0, static_cast<int>(elements_.size()), [&](int e) {
+    const Eigen::Matrix<double, 3, Eigen::Dynamic> F = shape(nodes, e) * gradients_.transpose();
+    smallest[e] = F.leftCols<3>().determinant();
+    for (int q = 1; q < num_points; ++q)
+      smallest[e] = std::min(smallest[e], F.middleCols<3>(3 * q).determinant());
+  });
+  return *std::min_element(smallest.begin(), smallest.end());
+}
+
+void FitModel::update(const std::vector<HermiteMesh::Node>& nodes,
+                      const std::vector<PlaneSample>& samples) {
+  energy_ = FoldoverEnergy::for_smallest(smallest_determinant(nodes));
+  std::vector<std::vector<int>> of_element(elements_.size());
+  for (std::size_t s = 0; s < samples.size(); ++s)
+    of_element[samples[s].point.element].push_back(static_cast<int>(s));
+  linear_.resize(elements_.size());
+  tbb::parallel_for(0, static_cast<int>(elements_.size()), [&](int e) {
+    Linear& l = linear_[e];
+    l.a = ElementMatrix::Zero(element_size, element_size);
+    l.b.setZero();
+    l.c = 0;
+    for (int s : of_element[e]) {
+      const PlaneSample& sample = samples[s];
+      const auto basis = basis_row(sample.point.xi, {0, 0, 0});
+      std::array<int, 64> used;
+      int count = 0;
+      for (int a = 0; a < 64; ++a)
+        if (basis[a] != 0) used[count++] = a;
+      const double goal = sample.normal.dot(sample.target - centre_);
+      l.c += sample.weight * goal * goal / 2;
+      for (int p = 0; p < count; ++p) {
+        const Eigen::Vector3d row = sample.weight * basis[used[p]] * sample.normal;
+        l.b.segment<3>(3 * used[p]) += goal * row;
+        for (int q = 0; q <= p; ++q)
+          l.a.block<3, 3>(3 * used[p], 3 * used[q]) +=
+              basis[used[q]] * row * sample.normal.transpose();
+      }
+    }
+    l.a = ElementMatrix(l.a.selfadjointView<Eigen::Lower>());
+  });
+}
+
+double FitModel::cost(const std::vector<HermiteMesh::Node>& nodes, int e) const {
+  const Shape x = shape(nodes, e);
+  const Eigen::Map<const ElementVector> flat(x.data());
+  const Linear& l = linear_[e];
+  double cost = 0.5 * flat.dot(l.a * flat) - l.b.dot(flat) + l.c;
+  cost += 0.5 * sobolev_ * (x * smoothing_).cwiseProduct(x).sum();
+  const Eigen::Matrix<double, 3, Eigen::Dynamic> F = x * gradients_.transpose();
+  double energy = 0;
+  for (int q = 0; q < num_points; ++q) energy += energy_.value(F.middleCols<3>(3 * q));
+  return cost + mu_ * energy / (num_points * elements_.size());
+}
+
+FitModel::Quadratic FitModel::quadratic(const std::vector<HermiteMesh::Node>& nodes, int e) const {
+  const Shape x = shape(nodes, e);
+  const Eigen::Map<const ElementVector> flat(x.data());
+  const Linear& l = linear_[e];
+  Quadratic result;
+  result.cost = cost(nodes, e);
+  result.gradient = l.a * flat - l.b;
+  result.hessian = l.a;
+
+  const double scale = mu_ / (num_points * elements_.size());
+  const Eigen::Matrix<double, 3, Eigen::Dynamic> F = x * gradients_.transpose();
+  Eigen::Matrix<double, 3, Eigen::Dynamic> stress(3, 3 * num_points);
+  std::vector<FoldoverEnergy::Hessian> tangent(num_points);
+  for (int q = 0; q < num_points; ++q) {
+    const Eigen::Matrix3d Fq = F.middleCols<3>(3 * q);
+    stress.middleCols<3>(3 * q) = scale * energy_.gradient(Fq).reshaped(3, 3);
+    tangent[q] = scale * energy_.positive_hessian(Fq);
+  }
+  const Shape by_x = stress * gradients_ + sobolev_ * x * smoothing_;
+  result.gradient += Eigen::Map<const ElementVector>(by_x.data());
+
+  Eigen::MatrixXd product(3 * num_points, 64);
+  for (int c = 0; c < 3; ++c)
+    for (int b = 0; b <= c; ++b) {
+      for (int q = 0; q < num_points; ++q) {
+        Eigen::Matrix3d part;
+        for (int i = 0; i < 3; ++i)
+          for (int j = 0; j < 3; ++j) part(i, j) = tangent[q](c + 3 * i, b + 3 * j);
+        product.middleRows<3>(3 * q).noalias() = part * gradients_.middleRows<3>(3 * q);
+      }
+      Eigen::MatrixXd block = gradients_.transpose() * product;
+      if (b == c) block += sobolev_ * smoothing_;
+      for (int p = 0; p < 64; ++p)
+        for (int r = 0; r < 64; ++r) {
+          result.hessian(3 * p + c, 3 * r + b) += block(p, r);
+          if (b != c) result.hessian(3 * r + b, 3 * p + c) += block(p, r);
+        }
+    }
+  return result;
+}
+
+}  // namespace mammotwin

@@ -1,0 +1,66 @@
+#pragma once
+
+#include "fitting/foldover_energy.h"
+#include "fitting/slab.h"
+
+namespace mammotwin {
+
+/// One residual √weight · n · (x(ξ) − target) [mm]: the mesh's point wants to lie in a plane.
+struct PlaneSample {
+  MeshPoint point;
+  Eigen::Vector3d normal, target;
+  double weight;
+};
+
+/// What the fit minimises over all nodal parameters:
+///
+///   ½ Σ weight (n · (x − target))² + ½ sobolev ∫ Σᵢⱼ |∂²x/∂uᵢ∂uⱼ|² du + mu · mean e(F)
+///
+/// u in [0,1]³ runs through the whole slab; e is the foldover-free energy of F = ∂x/∂ξ with
+/// column i divided by a typical element's length along ξᵢ₊₁, at 5³ Lobatto points an element,
+/// all of equal weight (quadrature weights would let corners degenerate).
+class FitModel {
+ public:
+  static constexpr int element_size = 192;  ///< 24·corner + 3·parameter + component
+  using ElementVector = Eigen::Matrix<double, element_size, 1>;
+  using ElementMatrix = Eigen::MatrixXd;
+
+  /// Quadratic model of one element's share around the nodes it was made for. The Hessian
+  /// leaves out what would make it indefinite.
+  struct Quadratic {
+    double cost = 0;
+    ElementVector gradient;
+    ElementMatrix hessian;
+  };
+
+  FitModel(const Slab& slab, const HermiteMesh& start, double mu, double sobolev);
+
+  /// Renews the samples, and ε from the smallest determinant of these nodes.
+  void update(const std::vector<HermiteMesh::Node>& nodes, const std::vector<PlaneSample>& samples);
+
+  double cost(const std::vector<HermiteMesh::Node>& nodes, int element) const;
+  Quadratic quadratic(const std::vector<HermiteMesh::Node>& nodes, int element) const;
+
+  const std::vector<HermiteMesh::Corners>& elements() const { return elements_; }
+
+ private:
+  using Shape = Eigen::Matrix<double, 3, 64>;
+  Shape shape(const std::vector<HermiteMesh::Node>& nodes, int element) const;
+  double smallest_determinant(const std::vector<HermiteMesh::Node>& nodes) const;
+
+  struct Linear {  ///< samples of one element: ½ xᵀ A x − bᵀ x + c over all 192 parameters
+    ElementMatrix a;
+    ElementVector b;
+    double c = 0;
+  };
+
+  std::vector<HermiteMesh::Corners> elements_;
+  double mu_, sobolev_;
+  Eigen::Vector3d centre_;                  ///< positions are taken from here, for rounding
+  Eigen::MatrixXd gradients_;               ///< 375 x 64: ∂/∂ξᵢ of every basis function, scaled
+  Eigen::Matrix<double, 64, 64> smoothing_;
+  std::vector<Linear> linear_;
+  FoldoverEnergy energy_;
+};
+
+}  // namespace mammotwin

@@ -1,0 +1,33 @@
+#pragma once
+
+#include "fitting/fit_model.h"
+
+#include <memory>
+
+namespace mammotwin {
+
+/// What one step did.
+struct StepReport {
+  double length = 0;  ///< fraction of the full Newton step that was taken; 0: none
+  double cost_before = 0, cost_after = 0;
+};
+
+/// Newton's method with a line search for FitModel: the factorisation's pattern is kept, a trial
+/// length costs one evaluation, and lengths whose mesh is not proved valid can be refused.
+class NewtonStep {
+ public:
+  /// Parameters that are held keep their values.
+  NewtonStep(const std::vector<HermiteMesh::Corners>& elements, const HeldParameters& held);
+  ~NewtonStep();
+
+  /// `nodes` change in place. Halves the step until the cost falls (Armijo, 1e-4) and, if asked,
+  /// det(∂x/∂ξ) > 0 is proved.
+  StepReport step(const FitModel& model, bool must_stay_proved,
+                  std::vector<HermiteMesh::Node>& nodes);
+
+ private:
+  struct System;
+  std::unique_ptr<System> system_;
+};
+
+}  // namespace mammotwin

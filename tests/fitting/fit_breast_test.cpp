@@ -1,0 +1,112 @@
+#include "fitting/fit_breast.h"
+
+#include "fitting/mesh/jacobian_bound.h"
+#include "tests/fitting/dome.h"
+
+#include <gtest/gtest.h>
+
+#include <tbb/global_control.h>
+
+#include <stdexcept>
+
+namespace mammotwin {
+namespace {
+
+FitOptions coarse() {
+  FitOptions options;
+  options.elements = {4, 4, 2};
+  return options;
+}
+
+const FitResult& fit_of_bell() {
+  static const FitResult fit = fit_breast(dome_breast(), coarse());
+  return fit;
+}
+
+TEST(FitBreast, FitsABellAndProvesItValid) {
+  const FitResult& fit = fit_of_bell();
+  const FitReport& r = fit.report;
+  ASSERT_TRUE(r.usable());
+  EXPECT_EQ(r.status, "ok");
+  // Marching cubes of a mask strays by 0.29 voxels (uniform error) of 2 mm; the fit adds little.
+  EXPECT_LT(r.skin_rms_mesh_to_data_mm, 0.7);
+  EXPECT_LT(r.skin_rms_data_to_mesh_mm, 0.7);
+  EXPECT_LT(r.chest_wall_rms_mm, 0.3);
+  EXPECT_GT(r.covered_fraction, 0.98);
+  EXPECT_GT(r.min_jacobian_bound, 0);
+  EXPECT_TRUE(proved_valid(fit.mesh.mesh));
+  EXPECT_GT(r.min_scaled_jacobian, 0.1);
+}
+
+TEST(FitBreast, SideFacesLieInTheRegionsPlanes) {
+  const Segmentation s = dome_breast();
+  const HermiteMesh& mesh = fit_of_bell().mesh.mesh;
+  for (int e = 0; e < mesh.num_elements(); e += 4)
+    for (double a : {0.2, 0.7}) {
+      EXPECT_NEAR(mesh.position({e, {0, a, 0.4}}).x(), s.region.x_min, 1e-10);
+      EXPECT_NEAR(mesh.position({e + 3, {1, a, 0.4}}).x(), s.region.x_max, 1e-10);
+    }
+}
+
+TEST(FitBreast, LabelsItsFaces) {
+  const FitResult& fit = fit_of_bell();
+  std::array<int, 4> count{};
+  for (const auto& element : fit.mesh.faces)
+    for (FaceLabel face : element) ++count[static_cast<int>(face)];
+  EXPECT_EQ(count[static_cast<int>(FaceLabel::skin)], 16);
+  EXPECT_EQ(count[static_cast<int>(FaceLabel::chest_wall)], 16);
+  EXPECT_EQ(count[static_cast<int>(FaceLabel::cut)], 4 * 4 * 2);
+}
+
+TEST(FitBreast, IsTheSameOnOneThreadAndItsProgressGrowsToOne) {
+  const tbb::global_control control(tbb::global_control::max_allowed_parallelism, 1);
+  double last = -1;
+  const FitResult fit =
+      fit_breast(dome_breast(), coarse(), [&](double fraction, const std::string& what) {
+        EXPECT_GE(fraction, last);
+        EXPECT_FALSE(what.empty());
+        last = fraction;
+      });
+  EXPECT_EQ(last, 1);
+  EXPECT_EQ(fit.mesh.mesh.nodes(), fit_of_bell().mesh.mesh.nodes());
+}
+
+std::string refusal(const Segmentation& s, const FitOptions& options = coarse()) {
+  try {
+    fit_breast(s, options);
+  } catch (const std::exception& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(FitBreast, RefusesARegionWithoutABreast) {
+  Segmentation s = dome_breast();
+  for (auto& value : s.labels.values) value = label::air;
+  EXPECT_NE(refusal(s).find("voxels of tissue"), std::string::npos);
+}
+
+TEST(FitBreast, RefusesSkinThatIsNoDisc) {
+  Segmentation s = dome_breast();
+  // An arm that lies against the tip and leaves the region 26 mm above the chest.
+  for (int k = 0; k < s.labels.size.z(); ++k)
+    for (int j = 0; j < s.labels.size.y(); ++j)
+      for (int i = 0; i < s.labels.size.x(); ++i) {
+        const Eigen::Vector3d x = s.labels.position(i, j, k);
+        if (std::abs(x.z()) < 6 && x.x() > 0 && x.y() > -56 && x.y() < -46)
+          s.labels(i, j, k) = label::fat;
+      }
+  EXPECT_NE(refusal(s).find("cannot be laid on a square"), std::string::npos);
+}
+
+TEST(FitBreast, RefusesOptionsOutOfRange) {
+  FitOptions options;
+  options.elements = {0, 6, 2};
+  EXPECT_NE(refusal(dome_breast(), options).find("elements"), std::string::npos);
+  options = {};
+  options.smoothing = 1;
+  EXPECT_NE(refusal(dome_breast(), options).find("smoothing"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace mammotwin
