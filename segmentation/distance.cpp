@@ -68,11 +68,23 @@ void along_axis(Volume<float>& d, int axis) {
   });
 }
 
-template <class Keep>
-Volume<std::uint8_t> where(const Volume<float>& d, const Keep& keep) {
-  auto out = d.like<std::uint8_t>(0);
-  for (std::size_t v = 0; v < out.values.size(); ++v) out.values[v] = keep(d.values[v]);
-  return out;
+/// Steps from a voxel to all voxels whose centres lie within `radius` mm.
+std::vector<Eigen::Vector3i> ball(const Eigen::Vector3d& spacing, double radius) {
+  const Eigen::Vector3i reach = (radius / spacing.array()).floor().cast<int>().matrix();
+  std::vector<Eigen::Vector3i> steps;
+  for (int c = -reach.z(); c <= reach.z(); ++c)
+    for (int b = -reach.y(); b <= reach.y(); ++b)
+      for (int a = -reach.x(); a <= reach.x(); ++a)
+        if (spacing.cwiseProduct(Eigen::Vector3d(a, b, c)).norm() <= radius)
+          steps.emplace_back(a, b, c);
+  return steps;
+}
+
+/// A voxel of the mask with a neighbour outside it: from these the nearest is always one.
+bool is_on_border(const Volume<std::uint8_t>& mask, int i, int j, int k) {
+  const auto out = [&](int a, int b, int c) { return mask.contains(a, b, c) && !mask(a, b, c); };
+  return mask(i, j, k) && (out(i - 1, j, k) || out(i + 1, j, k) || out(i, j - 1, k) ||
+                           out(i, j + 1, k) || out(i, j, k - 1) || out(i, j, k + 1));
 }
 
 Volume<std::uint8_t> inverted(Volume<std::uint8_t> mask) {
@@ -92,11 +104,21 @@ Volume<float> distance_to(const Volume<std::uint8_t>& mask) {
 }
 
 Volume<std::uint8_t> dilated(const Volume<std::uint8_t>& mask, double radius) {
-  return where(distance_to(mask), [&](float d) { return d <= radius; });
+  const std::vector<Eigen::Vector3i> steps = ball(mask.spacing, radius);
+  auto out = mask;
+  for (int k = 0; k < mask.size.z(); ++k)
+    for (int j = 0; j < mask.size.y(); ++j)
+      for (int i = 0; i < mask.size.x(); ++i) {
+        if (!is_on_border(mask, i, j, k)) continue;
+        for (const Eigen::Vector3i& s : steps)
+          if (mask.contains(i + s.x(), j + s.y(), k + s.z()))
+            out(i + s.x(), j + s.y(), k + s.z()) = 1;
+      }
+  return out;
 }
 
 Volume<std::uint8_t> eroded(const Volume<std::uint8_t>& mask, double radius) {
-  return where(distance_to(inverted(mask)), [&](float d) { return d > radius; });
+  return inverted(dilated(inverted(mask), radius));
 }
 
 Volume<std::uint8_t> opened(const Volume<std::uint8_t>& mask, double radius) {

@@ -90,7 +90,7 @@ BiasEstimate estimate_bias(const Volume<float>& image, const Volume<std::uint8_t
     y.values[v] = std::log(std::max(y.values[v], 1e-6F));
     if (share.values[v] >= 0.5F) inside.push_back(y.values[v]);
   }
-  BiasEstimate estimate{y.like<float>(0), {}};
+  BiasEstimate estimate{y.like<float>(0), y.like<float>(0), {}};
   if (inside.empty()) return estimate;
   estimate.classes = classes_at_quantiles(inside, num_classes);
   Volume<float> residual = y.like<float>(0), weight = residual;
@@ -98,6 +98,7 @@ BiasEstimate estimate_bias(const Volume<float>& image, const Volume<std::uint8_t
   for (int n = 0; n < wide_rounds + narrow_rounds; ++n) {
     round.run(estimate.log_bias, estimate.classes, residual, weight);
     estimate.log_bias = weighted_smoothed(residual, weight, n < wide_rounds ? wide_mm : narrow_mm);
+    if (n + 1 == wide_rounds) estimate.wide_log_bias = estimate.log_bias;
   }
   std::sort(estimate.classes.begin(), estimate.classes.end(),
             [](const auto& a, const auto& b) { return a.mean < b.mean; });

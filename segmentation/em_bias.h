@@ -16,6 +16,7 @@ struct IntensityClass {
 
 struct BiasEstimate {
   Volume<float> log_bias;               ///< on a coarse grid of about 4 mm
+  Volume<float> wide_log_bias;          ///< after the rounds with 60 mm: keeps what is local
   std::vector<IntensityClass> classes;  ///< in order of their means
 
   /// exp(-log_bias), interpolated: what to multiply the image by at a point.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "segmentation/distance.h"
 #include "segmentation/half_body.h"
@@ -13,7 +14,7 @@
 namespace mammotwin {
 namespace {
 
-constexpr double behind_sternum_mm = 45, beyond_midline_mm = 0;
+constexpr double behind_sternum_mm = 70;
 constexpr double skin_mm = 4, wall_mm = 2;  // left out of the bias: study, section 4
 constexpr double n4_block_mm = 4;
 
@@ -26,7 +27,7 @@ Crop side_box(const Volume<float>& image, const BreastFrame& frame, Side side) {
     return std::clamp(static_cast<int>(std::ceil((x - image.origin.x()) / image.spacing.x())), 0,
                       image.size.x() - 1);
   };
-  const int middle = column(frame.midline_x + (side == Side::left ? 1 : -1) * beyond_midline_mm);
+  const int middle = column(frame.midline_x);
   const int rear =
       std::clamp(static_cast<int>((frame.sternal_y + behind_sternum_mm - image.origin.y()) /
                                   image.spacing.y()),
@@ -77,6 +78,23 @@ void correct_by_n4(Volume<float>& image, const Volume<std::uint8_t>& where) {
   });
 }
 
+/// The image with 60 mm of bias taken out and the median of what lies in `where` at 1.
+Volume<float> corrected_widely(Volume<float> image, const Volume<float>& log_bias,
+                               const Volume<std::uint8_t>& where) {
+  std::vector<float> values;
+  for (int k = 0; k < image.size.z(); ++k)
+    for (int j = 0; j < image.size.y(); ++j)
+      for (int i = 0; i < image.size.x(); ++i) {
+        image(i, j, k) *= std::exp(-interpolated(log_bias, image.position(i, j, k)));
+        if (where(i, j, k)) values.push_back(image(i, j, k));
+      }
+  if (values.empty()) return image;
+  std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
+  const float median = std::max(values[values.size() / 2], 1e-6F);
+  for (float& value : image.values) value /= median;
+  return image;
+}
+
 }  // namespace
 
 HalfBreast cut_half(const BodyStage& body, const WallStage& wall, Side side) {
@@ -100,6 +118,8 @@ HalfBreast cut_half(const BodyStage& body, const WallStage& wall, Side side) {
   auto where = half.inside;
   for (std::size_t v = 0; v < where.values.size(); ++v)
     where.values[v] &= half.depth.values[v] > skin_mm && half.above_wall.values[v] > wall_mm;
+  half.widely_corrected =
+      corrected_widely(cropped(body.image, crop.low, crop.high), wall.wide_log_bias, where);
   correct_by_n4(half.image, where);
   return half;
 }

@@ -4,11 +4,12 @@
 
 namespace mammotwin {
 
-/// One side's part of the image: from the midline out, from the air in front to a plane 45 mm
+/// One side's part of the image: from the midline out, from the air in front to a plane 70 mm
 /// behind the skin between the breasts.
 struct HalfBreast {
   Side side = Side::left;
-  Volume<float> image;  ///< bias corrected, fat at 1
+  Volume<float> image;             ///< bias corrected, fat at 1
+  Volume<float> widely_corrected;  ///< by the 60 mm part of the bias only, its median fat at 1
   Volume<std::uint8_t> body;
   Volume<std::uint8_t> inside;  ///< body in front of the chest wall
   Volume<float> depth;          ///< below the skin [mm]

@@ -177,7 +177,7 @@ PectoralWall find_pectoral_wall(const Volume<float>& corrected, const Volume<std
   depth = median_filtered(depth, wall.rows, wall.angles);
   for (std::size_t n = 0; n < depth.size(); ++n) {
     wall.cost.push_back(cost[n * depths + static_cast<std::size_t>(std::lround(depth[n]))]);
-    wall.radius.push_back(least_radius_mm + depth[n]);
+    wall.radius.push_back(least_radius_mm + depth[n] - 0.5);  // between the samples d - 1 and d
   }
   return wall;
 }

@@ -91,7 +91,7 @@ void label_tissue(const HalfBreast& half, const BreastFrame& frame,
                             to_lesion.values[v] > lesion_left_out_mm;
   }
   TissueSplit split = split_tissue(half.image, interior, statistics, fat_suppressed);
-  if (fat_suppressed) judge_suppression(half.image, statistics, result.quality);
+  if (fat_suppressed) judge_suppression(half.widely_corrected, statistics, result.quality);
 
   Segmentation& s = result.segmentation;
   s.labels = half.body.like<std::uint8_t>(label::air);

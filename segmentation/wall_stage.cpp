@@ -31,6 +31,7 @@ double muscle_over_fat(const BiasEstimate& bias, double log_fat, bool fat_suppre
 WallStage find_wall(const BodyStage& body, double stiffness) {
   const BiasEstimate bias = estimate_bias(body.image, body.body, num_classes);
   WallStage stage;
+  stage.wide_log_bias = bias.wide_log_bias;
   stage.corrected = body.image;
   Volume<float>& corrected = stage.corrected;
   tbb::parallel_for(0, corrected.size.z(), [&](int k) {

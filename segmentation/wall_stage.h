@@ -8,6 +8,7 @@ namespace mammotwin {
 /// Image with coarse bias correction, fat at 1, and the chest wall found in it.
 struct WallStage {
   Volume<float> corrected;
+  Volume<float> wide_log_bias;  ///< the 60 mm part of the bias only: leaves local faults in
   WallContrast contrast;
   PectoralWall wall;
 };
