@@ -1,5 +1,7 @@
 #include "solver/contact/plate_contact.h"
 
+#include <algorithm>
+
 namespace mammotwin {
 
 bool PlateContact::respond(const Eigen::Matrix<double, 9, 1>& y, const SurfacePoint&, int order,
@@ -7,18 +9,19 @@ bool PlateContact::respond(const Eigen::Matrix<double, 9, 1>& y, const SurfacePo
   bool touches = false;
   for (const Plate& plate : plates) {
     const Gap gap = plate.gap(y.head<3>());
-    if (gap.gap >= 0) continue;
+    const double t = pressure(gap.gap);
+    if (t == 0) continue;
     if (!touches) {
       response.energy = 0;
       response.gradient.head<3>().setZero();
       response.hessian.topLeftCorner<3, 3>().setZero();
     }
     touches = true;
-    response.energy += penalty / 2 * gap.gap * gap.gap;
-    response.gradient.head<3>() += penalty * gap.gap * gap.normal;
+    response.energy += t * t / (2 * penalty);
+    response.gradient.head<3>() -= t * gap.normal;
     if (order < 2) continue;
-    response.hessian.topLeftCorner<3, 3>() +=
-        penalty * (gap.normal * gap.normal.transpose() + gap.gap * gap.hessian);
+    response.hessian.topLeftCorner<3, 3>() += penalty * gap.normal * gap.normal.transpose() -
+                                              std::min(t, curvature_pressure) * gap.hessian;
   }
   return touches;
 }

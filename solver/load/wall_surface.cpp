@@ -143,7 +143,7 @@ Gap WallSurface::gap(const Eigen::Vector3d& x) const {
 
 bool WallHold::respond(const Eigen::Matrix<double, 9, 1>& y, const SurfacePoint&, int order,
                        SurfaceResponse& response) const {
-  const Gap gap = surface_.gap(y.head<3>());
+  const Gap gap = surface_->gap(y.head<3>());
   response.energy = penalty_ / 2 * gap.gap * gap.gap;
   response.gradient.head<3>() = penalty_ * gap.gap * gap.normal;
   if (order == 2)

@@ -4,6 +4,7 @@
 #include "solver/contact/plate.h"
 #include "solver/element/surface_potential.h"
 
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -42,15 +43,16 @@ class WallSurface {
 /// fascia nor enters it), free to slide along it.
 class WallHold : public SurfacePotential {
  public:
-  /// penalty ε [kPa/mm] > 0. The surface must outlive this.
-  WallHold(const WallSurface& surface, double penalty) : surface_(surface), penalty_(penalty) {}
+  /// penalty ε [kPa/mm] > 0.
+  WallHold(std::shared_ptr<const WallSurface> surface, double penalty)
+      : surface_(std::move(surface)), penalty_(penalty) {}
 
   Slots slots() const override { return kPosition; }
   bool respond(const Eigen::Matrix<double, 9, 1>& y, const SurfacePoint& point, int order,
                SurfaceResponse& response) const override;
 
  private:
-  const WallSurface& surface_;
+  std::shared_ptr<const WallSurface> surface_;
   double penalty_;
 };
 

@@ -1,5 +1,7 @@
 #include "solver/material/mixture.h"
 
+#include "solver/material/neo_hookean.h"
+
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -61,6 +63,17 @@ Material::Tangent Mixture::tangent(const Eigen::Matrix3d& F) const {
   for (int t = 0; t < 3; ++t)
     if (weights_[t] > 0) A += weights_[t] * laws_[t]->tangent(F);
   return A;
+}
+
+std::shared_ptr<const Material> mix(Mixing mixing, const std::array<double, 3>& fractions,
+                                    const Mixture::Laws& laws) {
+  check_fractions(fractions);
+  for (int t = 0; t < 3; ++t)
+    if (fractions[t] == 1) return laws[t];
+  for (const auto& law : laws)
+    if (!dynamic_cast<const NeoHookean*>(law.get()))
+      return std::make_shared<Mixture>(mixing, fractions, laws);
+  return std::make_shared<NeoHookean>(mixed_modulus(mixing, fractions, shear_moduli(laws)) / 2);
 }
 
 double Mixture::shear_modulus() const {

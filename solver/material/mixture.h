@@ -38,4 +38,9 @@ class Mixture : public Material {
   Laws laws_;
 };
 
+/// The mixture as one law: a single tissue's own where there is only one, one neo-Hookean law where
+/// all tissues are neo-Hookean (the same W, cheaper), else a Mixture.
+std::shared_ptr<const Material> mix(Mixing mixing, const std::array<double, 3>& fractions,
+                                    const Mixture::Laws& laws);
+
 }  // namespace mammotwin

@@ -1,7 +1,7 @@
 #include "solver/newton/newton.h"
 
+#include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 namespace mammotwin {
 

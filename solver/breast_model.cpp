@@ -1,0 +1,161 @@
+#include "solver/breast_model.h"
+
+#include "solver/element/skin_membrane.h"
+#include "solver/load/spring_bed.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <stdexcept>
+#include <string>
+
+namespace mammotwin {
+
+namespace {
+
+using Faces = std::vector<std::pair<int, int>>;
+
+constexpr double kWallPenalty = 1000;  // x modulus/size: 10 kPa moves the wall by about 0.05 mm
+
+void check(bool good, const std::string& message) {
+  if (!good) throw std::invalid_argument(message);
+}
+
+void check_problem(const CompressionProblem& p) {
+  check(static_cast<int>(p.mesh.faces.size()) == p.mesh.mesh.num_elements(),
+        "the mesh has face labels for " + std::to_string(p.mesh.faces.size()) + " of its " +
+            std::to_string(p.mesh.mesh.num_elements()) + " elements; expected all");
+  check(static_cast<bool>(p.tissue), "no tissue fractions were given");
+  check(p.prone.empty() || static_cast<int>(p.prone.size()) == p.mesh.mesh.num_nodes(),
+        "the prone shape has " + std::to_string(p.prone.size()) + " nodes; expected " +
+            std::to_string(p.mesh.mesh.num_nodes()) + ", as the mesh has");
+  const auto& b = p.boundary;
+  check(std::isfinite(b.chest_wall_spring) && b.chest_wall_spring >= 0,
+        "chest-wall spring is " + std::to_string(b.chest_wall_spring) +
+            " kPa/mm; expected at least 0");
+  check(std::isfinite(b.cut_face_depth) && b.cut_face_depth > 0,
+        "cut-face depth is " + std::to_string(b.cut_face_depth) + " mm; expected a positive length");
+  check(std::isfinite(p.density) && p.density > 0 && p.gravity.allFinite(),
+        "density must be positive and gravity finite");
+}
+
+Faces faces_labelled(const MeshFile& mesh, FaceLabel label) {
+  Faces faces;
+  for (int e = 0; e < mesh.mesh.num_elements(); ++e)
+    for (int face = 0; face < 6; ++face)
+      if (mesh.faces[e][face] == label) faces.push_back({e, face});
+  return faces;
+}
+
+/// Prone positions of the quadrature points, in the order in which a Model asks for tissue.
+std::vector<Eigen::Vector3d> prone_points(const CompressionProblem& problem) {
+  const HermiteMesh mesh(problem.prone.empty() ? problem.mesh.mesh.nodes() : problem.prone,
+                         problem.mesh.mesh.elements());
+  const auto& t = hermite_table().points;
+  std::vector<Eigen::Vector3d> points;
+  for (int e = 0; e < mesh.num_elements(); ++e)
+    for (int q = 0; q < kPoints; ++q)
+      points.push_back(mesh.position({e, {t[q & 3], t[q >> 2 & 3], t[q >> 4]}}));
+  return points;
+}
+
+Model::MaterialField material_field(const CompressionProblem& problem) {
+  auto points = std::make_shared<std::vector<Eigen::Vector3d>>(prone_points(problem));
+  auto next = std::make_shared<std::size_t>(0);
+  return [&problem, points, next](const Eigen::Vector3d&, double volume) {
+    const Eigen::Vector3d& x = (*points)[(*next)++];
+    return mix(problem.laws.mixing, problem.tissue(x, volume), problem.laws.laws);
+  };
+}
+
+void hold_clamped(const HermiteMesh& mesh, const Faces& faces, DofMap& dofs) {
+  for (const auto& [e, face] : faces)
+    for (int i = 0; i < 3; ++i)
+      for (int dof : face_dofs(mesh, e, face, i)) dofs.prescribe(dof);
+}
+
+double mean_modulus(const SolidElement& element) {
+  double sum = 0;
+  for (int q = 0; q < kPoints; ++q) sum += element.material(q).shear_modulus();
+  return sum / kPoints;
+}
+
+void add_skin(const CompressionProblem& problem, Model& model) {
+  if (!problem.skin.on) return;
+  const auto skin = std::make_shared<SkinMembrane>(problem.skin.c1, problem.skin.thickness);
+  for (const auto& [e, face] : faces_labelled(problem.mesh, FaceLabel::skin))
+    model.add_surface_potential(e, face, skin);
+}
+
+void hold_chest_wall(const CompressionProblem& problem, BreastModel& breast) {
+  const HermiteMesh& mesh = problem.mesh.mesh;
+  const auto& options = problem.boundary;
+  if (options.chest_wall == ChestWall::clamped)
+    return hold_clamped(mesh, breast.wall_faces, *breast.dofs);
+  breast.wall = std::make_shared<WallSurface>(mesh, breast.wall_faces);
+  const auto hold = std::make_shared<WallHold>(breast.wall, kWallPenalty * breast.penalty_unit());
+  const auto springs = std::make_shared<SpringBed>(options.chest_wall_spring);
+  for (const auto& [e, face] : breast.wall_faces) {
+    breast.model->add_surface_potential(e, face, hold);
+    if (options.chest_wall == ChestWall::sliding)
+      breast.model->add_surface_potential(e, face, springs);
+  }
+}
+
+void hold_cut_faces(const CompressionProblem& problem, BreastModel& breast) {
+  const auto& options = problem.boundary;
+  const Faces faces = faces_labelled(problem.mesh, FaceLabel::cut);
+  if (options.cut_faces == CutFaces::clamped)
+    return hold_clamped(problem.mesh.mesh, faces, *breast.dofs);
+  if (options.cut_faces == CutFaces::free) return;
+  for (const auto& [e, face] : faces) {
+    const double k = mean_modulus(breast.model->element(e)) / options.cut_face_depth;
+    breast.model->add_surface_potential(e, face, std::make_shared<SpringBed>(k));
+  }
+}
+
+void add_contact(const CompressionProblem& problem, BreastModel& breast) {
+  constexpr double settled_pressure = 4;  // shear moduli; at 60 % compression tissue presses with 3
+  breast.contact = std::make_shared<PlateContact>();
+  breast.contact->curvature_pressure = settled_pressure * breast.largest_modulus;
+  breast.contact_faces = faces_labelled(problem.mesh, FaceLabel::skin);
+  const Faces cut = faces_labelled(problem.mesh, FaceLabel::cut);
+  breast.contact_faces.insert(breast.contact_faces.end(), cut.begin(), cut.end());
+  for (const auto& [e, face] : breast.contact_faces)
+    breast.model->add_surface_potential(e, face, breast.contact);
+}
+
+void tie_nodes(const MeshFile& mesh, DofMap& dofs) {
+  for (const ParameterTie& tie : mesh.ties)
+    for (int i = 0; i < 3; ++i)
+      dofs.tie(dof_index(tie.node, tie.parameter, i), dof_index(tie.to_node, tie.to_parameter, i),
+               tie.factor);
+}
+
+}  // namespace
+
+BreastModel make_breast_model(const CompressionProblem& problem, const SolidOptions& solid) {
+  check_problem(problem);
+  BreastModel breast;
+  const HermiteMesh& mesh = problem.mesh.mesh;
+  breast.wall_faces = faces_labelled(problem.mesh, FaceLabel::chest_wall);
+  check(!breast.wall_faces.empty(),
+        "nothing holds the breast: no face of the mesh is labelled chest_wall");
+  breast.model = std::make_unique<Model>(mesh, material_field(problem), solid);
+  breast.model->body_force = problem.density * problem.gravity;
+  for (int e = 0; e < mesh.num_elements(); ++e)
+    for (int q = 0; q < kPoints; ++q)
+      breast.largest_modulus = std::max(
+          breast.largest_modulus, breast.model->element(e).material(q).shear_modulus());
+  breast.element_size = std::cbrt(breast.model->volume() / mesh.num_elements());
+  breast.dofs = std::make_unique<DofMap>(mesh);
+  tie_nodes(problem.mesh, *breast.dofs);
+  add_skin(problem, *breast.model);
+  hold_chest_wall(problem, breast);
+  hold_cut_faces(problem, breast);
+  add_contact(problem, breast);
+  breast.dofs->number(mesh);
+  return breast;
+}
+
+}  // namespace mammotwin

@@ -1,0 +1,271 @@
+#include "solver/compress.h"
+
+#include "fitting/mesh/jacobian_bound.h"
+#include "solver/breast_model.h"
+#include "solver/contact/contact_figures.h"
+#include "solver/contact/penalty_continuation.h"
+#include "solver/load/load_stepping.h"
+#include "solver/material/neo_hookean.h"
+#include "solver/newton/newton.h"
+
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <sstream>
+#include <stdexcept>
+
+namespace mammotwin {
+
+namespace {
+
+constexpr double kNewtonPerMilli = 1e-3;  // mN to N
+constexpr double kCm2PerMm2 = 1e-2;
+
+std::string in_mm(double length) {
+  std::ostringstream text;
+  text.precision(4);
+  text << length << " mm";
+  return text.str();
+}
+
+void check_shape(const HermiteMesh& mesh) {
+  for (int node = 0; node < mesh.num_nodes(); ++node)
+    if (!mesh.node(node).allFinite())
+      throw std::invalid_argument("node " + std::to_string(node) +
+                                  " of the mesh has a parameter that is not a finite number");
+  if (!proved_valid(mesh))
+    throw std::invalid_argument("the mesh is folded: det dX/dxi is not positive everywhere");
+}
+
+/// One compression under way.
+class Compression {
+ public:
+  Compression(const CompressionProblem& problem, const CompressionOptions& options,
+              const Progress& progress);
+  CompressionResult run();
+
+ private:
+  void check_thickness() const;
+  void place(double fraction);
+  void move_paddle(double height);
+  double penetration(const State& state) const;
+  enum PlateNumber { kSupport, kPaddle };
+  ContactFigures figures(const State& state, PlateNumber plate) const;
+  double paddle_force(const State& state) const;
+  NewtonReport equilibrate(double fraction, State& state);
+  NewtonReport finish(State& state);
+  void correct_thickness(State& state, NewtonReport& report);
+  void record(double fraction, const State& state, const NewtonReport& newton);
+  double energy_force(const State& state);
+  void summarise(const State& state);
+  double wall_gap(const State& state) const;
+
+  const CompressionProblem& problem_;
+  const CompressionOptions& options_;
+  const Progress& progress_;
+  BreastModel breast_;
+  PlateFrame frame_;
+  Newton newton_;
+  PlacedPlates start_, end_, placed_;
+  PenaltyOptions penalties_;
+  CompressionReport report_;
+};
+
+Compression::Compression(const CompressionProblem& problem, const CompressionOptions& options,
+                         const Progress& progress)
+    : problem_(problem),
+      options_(options),
+      progress_(progress),
+      breast_(make_breast_model(problem, options.solid)),
+      frame_(problem.mesh, problem.plates),
+      newton_(*breast_.model, *breast_.dofs) {
+  check_thickness();
+  const double half = problem.plates.thickness / 2;
+  const double middle = frame_.centroid_height() + problem.plates.lift;
+  const auto [low, high] = frame_.touching_heights();
+  end_ = frame_.place(middle - half, middle + half);
+  const bool beside = middle <= low || middle >= high;
+  if (beside || (middle - half <= low && middle + half >= high))
+    throw std::invalid_argument("plates never touch: the breast reaches from " + in_mm(low) +
+                                " to " + in_mm(high) + " between plates at " +
+                                in_mm(middle - half) + " and " + in_mm(middle + half));
+  start_ = frame_.place(std::min(low, middle - half), std::max(high, middle + half));
+  report_.target_thickness_mm = problem.plates.thickness;
+  report_.free_thickness_mm = frame_.extent(problem.mesh.mesh.nodes());
+  report_.dof = breast_.dofs->num_equations();
+}
+
+void Compression::check_thickness() const {
+  const double thickness = problem_.plates.thickness;
+  const double extent = frame_.extent(problem_.mesh.mesh.nodes());
+  if (!(std::isfinite(thickness) && thickness > 0 && thickness < extent))
+    throw std::invalid_argument("thickness is " + in_mm(thickness) +
+                                "; expected between 0 and the breast's own " + in_mm(extent) +
+                                " along the beam");
+}
+
+void Compression::place(double fraction) {
+  const auto between = [&](double a, double b) { return a + fraction * (b - a); };
+  placed_ = frame_.place(between(start_.support_height, end_.support_height),
+                         between(start_.paddle_height, end_.paddle_height));
+  breast_.contact->plates = {placed_.support, placed_.paddle};
+}
+
+void Compression::move_paddle(double height) {
+  placed_ = frame_.place(placed_.support_height, height);
+  breast_.contact->plates = {placed_.support, placed_.paddle};
+}
+
+ContactFigures Compression::figures(const State& state, PlateNumber plate) const {
+  return contact_figures(*breast_.model, state, *breast_.contact, plate, breast_.contact_faces);
+}
+
+double Compression::penetration(const State& state) const {
+  return std::max(figures(state, kSupport).penetration,
+                  figures(state, kPaddle).penetration);
+}
+
+double Compression::paddle_force(const State& state) const {
+  return -problem_.plates.up.dot(figures(state, kPaddle).force) * kNewtonPerMilli;
+}
+
+NewtonReport Compression::equilibrate(double fraction, State& state) {
+  place(fraction);
+  NewtonReport report =
+      solve_contact(newton_, *breast_.contact, breast_.penalty_unit(), penalties_, state);
+  if (report.usable() && fraction == 1) {
+    const NewtonReport last = finish(state);
+    const int iterations = report.iterations + last.iterations;
+    const int indefinite = report.indefinite + last.indefinite;
+    report = last;
+    report.iterations = iterations;
+    report.indefinite = indefinite;
+  }
+  return report;
+}
+
+/// Closes the gap, then moves the paddle until the thickness is the one asked.
+NewtonReport Compression::finish(State& state) {
+  NewtonReport report = close_gap(
+      newton_, *breast_.contact, options_.gap_tolerance,
+      [&](const State& s) { return penetration(s); },
+      penalties_.newton, state);
+  if (report.usable()) correct_thickness(state, report);
+  return report;
+}
+
+void Compression::correct_thickness(State& state, NewtonReport& report) {
+  constexpr int most_rounds = 4;  // the error falls by the penetration's share each time
+  for (int round = 0; round < most_rounds && report.usable(); ++round) {
+    const double error = frame_.extent(state.x) - problem_.plates.thickness;
+    if (std::abs(error) <= options_.thickness_tolerance) return;
+    move_paddle(placed_.paddle_height - error);
+    const NewtonReport again = resettle(newton_, *breast_.contact, penalties_.newton, state);
+    report.iterations += again.iterations;
+    report.indefinite += again.indefinite;
+    report.converged = again.converged;
+    report.reason = again.reason;
+  }
+}
+
+void Compression::record(double fraction, const State& state, const NewtonReport& newton) {
+  const Balance balance = newton_.balance(state);
+  report_.history.push_back({frame_.extent(state.x), paddle_force(state), newton.iterations,
+                             breast_.contact->penalty, balance.min_J, balance.max_J});
+  if (progress_)
+    progress_(0.95 * fraction, "compressed to " + in_mm(report_.history.back().thickness_mm));
+}
+
+/// Central difference of the total potential over the paddle's height.
+double Compression::energy_force(const State& state) {
+  constexpr double nudge = 0.02;  // [mm]: large beside rounding, small beside the force's curve
+  const double height = placed_.paddle_height;
+  double energy[2];
+  for (int side = 0; side < 2; ++side) {
+    State nudged = state;
+    move_paddle(height + (side ? nudge : -nudge));
+    const NewtonReport report = resettle(newton_, *breast_.contact, penalties_.newton, nudged);
+    energy[side] = report.usable() ? newton_.balance(nudged).energy
+                                   : std::numeric_limits<double>::quiet_NaN();
+  }
+  move_paddle(height);
+  return (energy[0] - energy[1]) / (2 * nudge) * kNewtonPerMilli;
+}
+
+double Compression::wall_gap(const State& state) const {
+  if (!breast_.wall) return 0;
+  double largest = 0;
+  for (const auto& [e, number] : breast_.wall_faces) {
+    const auto x = breast_.model->coefficients(state.x, e);
+    for (const Face& face : breast_.model->faces(e))
+      for (int q = 0; face.face() == number && q < Face::kPoints; ++q)
+        largest = std::max(largest, std::abs(breast_.wall->gap(face.deformed(x, q).head<3>()).gap));
+  }
+  return largest;
+}
+
+void Compression::summarise(const State& state) {
+  const Balance balance = newton_.balance(state);
+  const ContactFigures paddle = figures(state, kPaddle);
+  report_.thickness_mm = frame_.extent(state.x);
+  report_.force_N = paddle_force(state);
+  report_.contact_area_cm2 = paddle.area * kCm2PerMm2;
+  report_.volume_change = balance.deformed_volume / breast_.model->volume() - 1;
+  report_.min_J = balance.min_J;
+  report_.max_J = balance.max_J;
+  report_.max_penetration_mm = penetration(state);
+  report_.wall_gap_mm = wall_gap(state);
+  int within = 0;
+  for (int e = 0; e < breast_.model->num_elements(); ++e)
+    for (const auto& F :
+         breast_.model->element(e).deformation_gradients(breast_.model->coefficients(state.x, e)))
+      within += F.determinant() >= 0.5 && F.determinant() <= 1.5;
+  report_.J_within_half = within / double(kPoints * breast_.model->num_elements());
+}
+
+CompressionResult Compression::run() {
+  const auto begin = std::chrono::steady_clock::now();
+  State state = breast_.model->rest();
+  place(0);
+  const LoadSteppingReport load = step_load(
+      state, {options_.first_step, options_.smallest_step, options_.max_iterations},
+      [&](double fraction, State& s) { return equilibrate(fraction, s); },
+      [&](double fraction, const State& s, const NewtonReport& n) { record(fraction, s, n); });
+  report_.steps = load.steps;
+  report_.cutbacks = load.cutbacks;
+  report_.newton_iterations = load.iterations;
+  report_.indefinite_matrices = load.indefinite;
+  if (load.complete()) {
+    report_.status = CompressionStatus::converged;
+    summarise(state);
+    report_.energy_force_N = energy_force(state);
+  } else {
+    place(load.reached);
+    summarise(state);
+    report_.reason = "stopped at " + in_mm(report_.thickness_mm) + " of " +
+                     in_mm(problem_.plates.thickness) + ": " + load.reason;
+  }
+  report_.seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  if (progress_) progress_(1, "compressed to " + in_mm(report_.thickness_mm));
+  return {state.x, state.pressure, placed_, report_};
+}
+
+}  // namespace
+
+TissueLaws TissueLaws::defaults() {
+  return {{std::make_shared<NeoHookean>(0.75), std::make_shared<NeoHookean>(2.5),
+           std::make_shared<NeoHookean>(3.3)},
+          Mixing::geometric};
+}
+
+CompressionResult compress(const CompressionProblem& problem, const CompressionOptions& options,
+                           const Progress& progress) {
+  check_shape(problem.mesh.mesh);
+  return Compression(problem, options, progress).run();
+}
+
+}  // namespace mammotwin

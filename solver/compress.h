@@ -1,0 +1,130 @@
+#pragma once
+
+#include "fitting/mesh/mesh_file.h"
+#include "solver/contact/plate_placement.h"
+#include "solver/element/solid_element.h"
+#include "solver/material/mixture.h"
+#include "solver/newton/model.h"
+
+#include <Eigen/Core>
+
+#include <array>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace mammotwin {
+
+/// Fractions of fat, fibroglandular and lesion (they sum to 1) near a prone position [mm], averaged
+/// over the volume [mm³] that a quadrature point stands for.
+using TissueSampler =
+    std::function<std::array<double, 3>(const Eigen::Vector3d& x_prone, double volume_mm3)>;
+
+/// Laws of fat, fibroglandular and lesion, and how one quadrature point's tissues share its strain.
+struct TissueLaws {
+  Mixture::Laws laws;
+  Mixing mixing = Mixing::geometric;
+
+  /// Neo-Hookean, c₁ 0.75, 2.5 and 3.3 kPa (design, section 3).
+  static TissueLaws defaults();
+};
+
+struct SkinOptions {
+  bool on = true;
+  double c1 = 3.3;         ///< [kPa] > 0
+  double thickness = 1.5;  ///< [mm] > 0
+};
+
+enum class ChestWall {
+  sliding,  ///< held on the undeformed wall's surface, sliding against springs
+  free,     ///< held on the surface, sliding freely
+  clamped
+};
+enum class CutFaces {
+  springs,  ///< in all three directions: tissue goes on behind the cut
+  free,
+  clamped
+};
+
+struct BoundaryOptions {
+  ChestWall chest_wall = ChestWall::sliding;
+  double chest_wall_spring = 0.02;  ///< [kPa/mm] >= 0, for `sliding`
+  CutFaces cut_faces = CutFaces::springs;
+  double cut_face_depth = 50;  ///< [mm] > 0: spring = shear modulus / this, for `springs`
+};
+
+/// One breast between two plates. The solver knows nothing of views: the plates say which way.
+struct CompressionProblem {
+  /// The shape that is free of stress, with face labels.
+  MeshFile mesh{HermiteMesh({}, {}), {}, {}, {}, {}, {}};
+  std::vector<HermiteMesh::Node> prone;  ///< where tissue is sampled; empty: the mesh itself
+  TissueSampler tissue;
+  TissueLaws laws = TissueLaws::defaults();
+  SkinOptions skin;
+  BoundaryOptions boundary;
+  PlateOptions plates;
+  Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  ///< [mm/s²]
+  double density = 1e-6;                              ///< [kg/mm³] > 0
+};
+
+struct CompressionOptions {
+  SolidOptions solid;
+  double gap_tolerance = 0.01;       ///< largest penetration [mm] > 0
+  double thickness_tolerance = 0.02; ///< |measured − asked| [mm] > 0
+  double first_step = 1;             ///< of the way, in (0, 1]
+  double smallest_step = 1.0 / 64;   ///< give up below this part of the way
+  int max_iterations = 400;          ///< Newton iterations in all
+};
+
+struct CompressionStep {
+  double thickness_mm = 0;  ///< measured
+  double force_N = 0;       ///< of the paddle
+  int iterations = 0;
+  double penalty = 0;       ///< [kPa/mm]
+  double min_J = 1, max_J = 1;
+};
+
+enum class CompressionStatus { converged, not_converged };
+
+struct CompressionReport {
+  CompressionStatus status = CompressionStatus::not_converged;
+  std::string reason;              ///< why not, with the last good thickness
+  int steps = 0, cutbacks = 0, newton_iterations = 0, indefinite_matrices = 0;
+  double target_thickness_mm = 0;
+  double thickness_mm = 0;         ///< extent along `up` of the deformed skin between the plates
+  double free_thickness_mm = 0;    ///< the same of the uncompressed breast
+  double force_N = 0;              ///< of the paddle, from contact
+  double energy_force_N = 0;       ///< the same from the change of stored energy, a check
+  double contact_area_cm2 = 0;     ///< deformed, on the paddle
+  double volume_change = 0;        ///< fraction
+  double min_J = 1, max_J = 1;
+  double J_within_half = 0;        ///< fraction of quadrature points with J in [0.5, 1.5]
+  double max_penetration_mm = 0;
+  double wall_gap_mm = 0;          ///< largest distance of the chest-wall face from its surface
+  double seconds = 0;
+  int dof = 0;
+  std::vector<CompressionStep> history;
+  bool usable() const { return status == CompressionStatus::converged; }
+};
+
+struct CompressionResult {
+  std::vector<HermiteMesh::Node> deformed;  ///< at the last good step
+  std::vector<double> pressure;             ///< 8 an element (State::pressure)
+  PlacedPlates plates;                      ///< where they ended
+  CompressionReport report;
+};
+
+using Progress = std::function<void(double fraction, const std::string& what)>;
+
+/// Squeezes the breast between support and paddle to the thickness asked.
+///
+/// Throws std::invalid_argument that names the cause where the problem cannot be posed: folded
+/// mesh, stiffness not positive, a number that is not finite, a thickness that is not between 0 and
+/// the breast's, plates that never touch, nothing that holds the body. Where no equilibrium is
+/// found the report says why and how far it came.
+CompressionResult compress(const CompressionProblem& problem, const CompressionOptions& options,
+                           const Progress& progress = {});
+
+}  // namespace mammotwin

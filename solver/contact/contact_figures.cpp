@@ -1,0 +1,39 @@
+#include "solver/contact/contact_figures.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+
+namespace mammotwin {
+
+namespace {
+
+void add_face(const Face& face, const SolidElement::Coefficients& x, const PlateContact& contact,
+              int plate, ContactFigures& figures) {
+  for (int q = 0; q < Face::kPoints; ++q) {
+    const auto y = face.deformed(x, q);
+    const Gap gap = contact.plates[plate].gap(y.head<3>());
+    if (gap.gap >= 0) continue;
+    const SurfacePoint& point = face.point(q);
+    const double stretch = y.segment<3>(3).cross(y.segment<3>(6)).norm() /
+                           point.A1.cross(point.A2).norm();
+    figures.force += contact.pressure(gap.gap) * point.area * gap.normal;
+    figures.area += stretch * point.area;
+    figures.penetration = std::max(figures.penetration, -gap.gap);
+  }
+}
+
+}  // namespace
+
+ContactFigures contact_figures(const Model& model, const State& state, const PlateContact& contact,
+                               int plate, const FaceList& faces) {
+  ContactFigures figures;
+  for (const auto& [e, number] : faces) {
+    const auto x = model.coefficients(state.x, e);
+    for (const Face& face : model.faces(e))
+      if (face.face() == number) add_face(face, x, contact, plate, figures);
+  }
+  return figures;
+}
+
+}  // namespace mammotwin

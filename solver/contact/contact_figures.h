@@ -1,0 +1,22 @@
+#pragma once
+
+#include "solver/contact/plate_contact.h"
+#include "solver/newton/model.h"
+
+#include <utility>
+#include <vector>
+
+namespace mammotwin {
+
+using FaceList = std::vector<std::pair<int, int>>;  ///< (element, face) with a surface potential
+
+/// What one plate does to a state: sums over the quadrature points in contact.
+struct ContactFigures {
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();  ///< of the plate on the tissue [mN]
+  double area = 0;                                  ///< deformed area in contact [mm²]
+  double penetration = 0;                           ///< largest [mm]
+};
+ContactFigures contact_figures(const Model& model, const State& state, const PlateContact& contact,
+                               int plate, const FaceList& faces);
+
+}  // namespace mammotwin

@@ -1,0 +1,36 @@
+#pragma once
+
+#include "solver/contact/plate_contact.h"
+#include "solver/newton/newton.h"
+
+#include <functional>
+
+namespace mammotwin {
+
+/// The penalties of one load step, in units of shear modulus / element size, so that nothing is
+/// left to tune.
+struct PenaltyOptions {
+  double first = 0.1;    ///< soft: the active set is found with next to no chatter
+  double last = 100;     ///< leaves a penetration of about 1e-3 element sizes
+  double growth = 10;
+  NewtonOptions newton;
+};
+
+/// Equilibrium with the plates where they are: solved at a soft penalty, then at stiffer ones from
+/// there (paper, section 2.3; plain Newton at the last penalty cycles between active sets).
+/// `unit` = shear modulus / element size [kPa/mm]. Iterations are those of all penalties together.
+NewtonReport solve_contact(Newton& newton, PlateContact& contact, double unit,
+                           const PenaltyOptions& options, State& state);
+
+/// Equilibrium near a state that already is one, after a small change of penalty or plates.
+NewtonReport resettle(Newton& newton, PlateContact& contact, const NewtonOptions& options,
+                      State& state);
+
+/// Raises the penalty further until the largest penetration is at most `gap_tolerance` [mm].
+/// Multipliers (augmented Lagrangian) were tried instead: on coarse faces that cannot follow a
+/// plate's rounding they grow without closing the gap.
+NewtonReport close_gap(Newton& newton, PlateContact& contact, double gap_tolerance,
+                       const std::function<double(const State&)>& penetration,
+                       const NewtonOptions& options, State& state);
+
+}  // namespace mammotwin

@@ -1,0 +1,69 @@
+#pragma once
+
+#include "fitting/mesh/mesh_file.h"
+#include "solver/contact/plate.h"
+
+#include <Eigen/Core>
+
+#include <vector>
+
+namespace mammotwin {
+
+/// Where the plates should stand. The three directions are orthonormal.
+struct PlateOptions {
+  Eigen::Vector3d up = Eigen::Vector3d::UnitZ();      ///< from the support to the paddle
+  Eigen::Vector3d depth = -Eigen::Vector3d::UnitY();  ///< from the chest wall to the nipple
+  double thickness = 0;        ///< asked, of the deformed skin between the plates [mm]
+  double lift = 0;             ///< of the middle plane above the volume centroid [mm]
+  double rounding = 10;        ///< radius of the rear edges [mm] > 0
+  double wall_clearance = 10;  ///< from the chest wall to the edges [mm] >= 0
+};
+
+/// The pair of plates in place.
+struct PlacedPlates {
+  Plate support, paddle;
+  double edge = 0;                   ///< depth coordinate of both rear edges: depth · x [mm]
+  double support_height = 0;         ///< up · x of the support's face [mm]
+  double paddle_height = 0;          ///< up · x of the paddle's face [mm]
+  double lateral_middle = 0;         ///< (depth x up) · x of the breast's middle [mm]
+};
+
+/// Measures a breast along the plates' directions, on a grid of points of its outer faces.
+class PlateFrame {
+ public:
+  /// Throws std::invalid_argument if the directions are not orthonormal or a length is out of range,
+  /// or if the mesh has no chest wall or no skin in front of the plates' edge.
+  PlateFrame(const MeshFile& mesh, const PlateOptions& options);
+
+  double edge() const { return edge_; }
+  double centroid_height() const { return centroid_height_; }
+
+  /// Smallest and largest height of the outer faces of x where the plates are flat.
+  std::pair<double, double> heights(const std::vector<HermiteMesh::Node>& x) const;
+
+  /// Extent along `up` of x between the flat plates [mm].
+  double extent(const std::vector<HermiteMesh::Node>& x) const;
+
+  /// Heights at which the plates just touch the mesh's own shape, edges and all.
+  std::pair<double, double> touching_heights() const { return touching_; }
+
+  PlacedPlates place(double support_height, double paddle_height) const;
+
+ private:
+  struct Sample {
+    int element;
+    HermiteMesh::Weights weights;
+  };
+  std::vector<Eigen::Vector3d> outer_points(const std::vector<HermiteMesh::Node>& x) const;
+
+  PlateOptions options_;
+  std::vector<HermiteMesh::Corners> elements_;
+  std::vector<Sample> outer_;
+  double edge_, centroid_height_, lateral_middle_;
+  std::pair<double, double> touching_;
+};
+
+/// Extent along `up` of the uncompressed breast where plates so placed would press it [mm].
+double free_thickness(const MeshFile& mesh, const PlateOptions& options);
+
+}  // namespace mammotwin
