@@ -37,7 +37,7 @@ help:
 	@echo 'RESULTS=folder         where results go (default results)'
 	@echo 'FORCE=1                runs stages that are up to date, too'
 
-patient segment fit compress register report: build
+patient segment fit compress register report synthesize: build
 	@pipeline/run_patient.sh $@
 
 cohort: build

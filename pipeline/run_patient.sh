@@ -1,5 +1,6 @@
 #!/bin/sh
-# run_patient.sh STAGE: takes patient $P through the stages up to STAGE (all of them for "patient").
+# run_patient.sh STAGE: takes patient $P through the stages up to STAGE (all of them for "patient"),
+# or makes a synthetic one ("synthesize", environment: SEED).
 # Environment: P (name of the patient's folder), DATA, RESULTS (folders), FORCE (1: run anyway),
 # BIN (folder of the programs).
 set -u
@@ -12,6 +13,7 @@ fail() { echo "$*" >&2; exit 2; }
 is_plain_name "$P" ||
   fail "P is not a plain name: use letters, digits, '.', '_' and '-', beginning with a letter or digit"
 ! is_kept_name "$P" || fail "P=$P: that name is kept for the program's own results"
+[ "$last" != synthesize ] || exec "$BIN/mammotwin-synthesize" "$DATA/$P" --seed "${SEED:-42}"
 toml=$DATA/$P/patient.toml
 [ -f "$toml" ] || fail "$toml: no such file (DATA=$DATA is the folder of patients, P=$P one of them)"
 

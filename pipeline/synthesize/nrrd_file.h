@@ -1,0 +1,15 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+
+#include "segmentation/volume.h"
+
+namespace mammotwin {
+
+/// Writes a gzip-compressed NRRD in LPS [mm] that ITK and 3D Slicer read. Its bytes depend on the
+/// values and the version of zlib only. Throws std::runtime_error if the file cannot be written.
+void write_nrrd(const std::filesystem::path& path, const Volume<std::int16_t>& image);
+void write_nrrd(const std::filesystem::path& path, const Volume<std::uint8_t>& labels);
+
+}  // namespace mammotwin
