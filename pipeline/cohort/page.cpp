@@ -14,6 +14,7 @@ namespace {
 
 using Cohort = std::vector<PatientSummary>;
 constexpr std::size_t kMostOutliersNamed = 12;
+constexpr std::size_t kMostOutlyingPatients = 30;
 
 struct StatusText {
   const char* status;
@@ -125,8 +126,9 @@ std::string outliers_html(const std::vector<Distribution>& distributions, const 
   if (rows.empty()) return {};
   return "<h2 id=\"outliers\">Outliers</h2>\n" +
          table_html(
-             "Figures more than 1.5 interquartile ranges outside the quartiles. An outlier "
-             "is a reason to look, not an error.",
+             "Figures more than 1.5 interquartile ranges outside the quartiles, for the " +
+                 std::to_string(kMostOutlyingPatients) +
+                 " patients who have most of them. An outlier is a reason to look, not an error.",
              {"patient", "how many", "which"}, rows);
 }
 
@@ -143,15 +145,23 @@ std::string outlier_list_html(const Distribution& d, const Links& links) {
 
 std::string figure_html(const Distribution& d, const Links& links) {
   const std::string unit = unit_of(d.name);
-  std::string html = "<figure><figcaption><code>" + html_text(d.name) + "</code>" +
-                     (unit.empty() ? "" : " [" + unit + "]") + ", " +
-                     std::to_string(d.values.size()) +
-                     (d.values.size() == 1 ? " patient" : " patients") + "</figcaption>";
-  if (d.is_constant())
-    html += "<p>always " + short_number(d.median) + "</p>";
-  else
-    html += histogram_svg(d);
-  return html + outlier_list_html(d, links) + "</figure>\n";
+  return "<figure><figcaption><code>" + html_text(d.name) + "</code>" +
+         (unit.empty() ? "" : " [" + unit + "]") + ", " + std::to_string(d.values.size()) +
+         " patients</figcaption>" + histogram_svg(d) + outlier_list_html(d, links) + "</figure>\n";
+}
+
+std::string product_html(const std::string& product, const std::vector<Distribution>& its,
+                         const Links& links) {
+  std::string figures, constants;
+  for (const Distribution& d : its)
+    if (d.is_constant())
+      constants +=
+          (constants.empty() ? "" : ", ") + html_text(d.name) + " " + short_number(d.median);
+    else
+      figures += figure_html(d, links);
+  std::string html = "<h3>" + html_text(product) + "</h3>\n";
+  if (!constants.empty()) html += "<p class=\"note\">The same for all: " + constants + ".</p>\n";
+  return html + "<div class=\"figures\">\n" + figures + "</div>\n";
 }
 
 std::string distributions_html(const std::vector<Distribution>& distributions, const Links& links) {
@@ -159,16 +169,16 @@ std::string distributions_html(const std::vector<Distribution>& distributions, c
       "<h2 id=\"distributions\">Distributions</h2>\n<p class=\"note\">Bars count patients; the "
       "band "
       "below them is the middle half, its dark line the median, diamonds are outliers.</p>\n";
-  std::string product;
-  for (const Distribution& d : distributions) {
-    const std::string its_product = d.name.substr(0, d.name.find('.'));
-    if (its_product != product)
-      html += std::string(product.empty() ? "" : "</div>\n") + "<h3>" + html_text(its_product) +
-              "</h3>\n<div class=\"figures\">\n";
-    product = its_product;
-    html += figure_html(d, links);
+  if (distributions.empty()) return html + "<p>No figures yet.</p>\n";
+  const auto product_of = [](const Distribution& d) { return d.name.substr(0, d.name.find('.')); };
+  for (auto first = distributions.begin(); first != distributions.end();) {
+    const std::string product = product_of(*first);
+    const auto last = std::find_if(first, distributions.end(),
+                                   [&](const Distribution& d) { return product_of(d) != product; });
+    html += product_html(product, {first, last}, links);
+    first = last;
   }
-  return html + (product.empty() ? "<p>No figures yet.</p>\n" : "</div>\n");
+  return html;
 }
 
 std::string everyone_html(const Cohort& cohort, const Links& links) {

@@ -25,7 +25,6 @@ table { border-collapse: collapse; width: 100%; font-size: .93rem; }
 caption { text-align: left; color: var(--soft); padding-bottom: .3rem; }
 th, td { text-align: left; vertical-align: top; padding: .3rem .8rem .3rem 0;
   border-bottom: 1px solid var(--line); }
-td.number, th.number { text-align: right; }
 code { font: .88em "DejaVu Sans Mono", monospace; overflow-wrap: anywhere; }
 div.figures { display: grid; grid-template-columns: repeat(auto-fill, minmax(17rem, 1fr)); gap: 1rem; }
 figure { margin: 0; border: 1px solid var(--line); border-radius: .4rem; padding: .5rem .7rem;
@@ -40,6 +39,11 @@ svg .out { fill: #fff; stroke: var(--bad); stroke-width: 1.5; }
 svg text { font: 11px "DejaVu Sans", sans-serif; fill: var(--soft); }
 a { color: #124f9c; }
 a:focus-visible { outline: 3px solid #124f9c; outline-offset: 2px; }
+@media (max-width: 40rem) {
+  thead { position: absolute; left: -100vw; }
+  tr { display: block; padding: .5rem 0; border-bottom: 1px solid var(--line); }
+  tbody th, td { display: block; padding: .1rem 0; border: 0; }
+}
 @media print {
   body { max-width: none; padding: 0; font-size: 10pt; }
   div.wide { overflow: visible; }
