@@ -1,89 +1,126 @@
 #include "solver/newton/cholesky.h"
 
 #include "solver/newton/blas_kernels.h"
+#include "solver/newton/dense_kernels.h"
 
-#include <suitesparse/cholmod.h>
+#include <tbb/task_group.h>
 
-#include <stdexcept>
+#include <algorithm>
 
 namespace mammotwin {
 
-struct Cholesky::Implementation {
-  cholmod_common common;
-  cholmod_sparse matrix{};
-  cholmod_factor* factor = nullptr;
-
-  Implementation() {
-    use_one_blas_thread();
-    cholmod_start(&common);
-    common.supernodal = CHOLMOD_SUPERNODAL;
-    common.nmethods = 1;
-    common.method[0].ordering = CHOLMOD_NATURAL;
-    common.postorder = true;
-    common.print = 0;
-    common.quick_return_if_not_posdef = true;
-  }
-  ~Implementation() {
-    if (factor) cholmod_free_factor(&factor, &common);
-    cholmod_finish(&common);
-  }
-};
-
 namespace {
 
-cholmod_sparse as_cholmod(const SparsePattern& pattern) {
-  cholmod_sparse A{};
-  A.nrow = A.ncol = pattern.num_columns();
-  A.nzmax = pattern.rows.size();
-  A.p = const_cast<int*>(pattern.starts.data());
-  A.i = const_cast<int*>(pattern.rows.data());
-  A.stype = -1;  // lower triangle
-  A.itype = CHOLMOD_INT;
-  A.xtype = CHOLMOD_REAL;
-  A.dtype = CHOLMOD_DOUBLE;
-  A.sorted = A.packed = 1;
-  return A;
+constexpr double kTaskFlops = 2e6;  // a smaller branch is not worth a task of its own
+
+using ConstMap = Eigen::Map<const Eigen::MatrixXd>;
+
+/// Adds a child's update into its parent's panel and update; both lists ascend, so lower stays lower.
+void extend_add(const std::vector<double>& update, const std::vector<int>& to_parent, int pivots,
+                int parent_size, double* panel, double* parent_update) {
+  const int n = static_cast<int>(to_parent.size());
+  const int rest = parent_size - pivots;
+  for (int j = 0; j < n; ++j) {
+    const int column = to_parent[j];
+    double* target = column < pivots
+                         ? panel + static_cast<std::ptrdiff_t>(column) * parent_size
+                         : parent_update + static_cast<std::ptrdiff_t>(column - pivots) * rest - pivots;
+    const double* source = update.data() + static_cast<std::ptrdiff_t>(j) * n;
+    for (int i = j; i < n; ++i) target[to_parent[i]] += source[i];
+  }
 }
 
 }  // namespace
 
-Cholesky::Cholesky(const SparsePattern& pattern)
-    : implementation_(std::make_unique<Implementation>()) {
-  auto& self = *implementation_;
-  self.matrix = as_cholmod(pattern);
-  self.matrix.xtype = CHOLMOD_PATTERN;
-  self.factor = cholmod_analyze(&self.matrix, &self.common);
-  self.matrix.xtype = CHOLMOD_REAL;
-  if (!self.factor) throw std::runtime_error("CHOLMOD could not analyse the tangent's pattern");
+Cholesky::Cholesky(const SparsePattern& pattern, const std::vector<int>& node_of_equation)
+    : tree_(make_front_tree(pattern, node_of_equation)) {
+  use_one_blas_thread();
+  panels_.resize(tree_.fronts.size());
+  updates_.resize(tree_.fronts.size());
+  for (const Front& front : tree_.fronts) {
+    const double k = front.num_pivots, n = front.size();
+    double flops = k * n * n;
+    for (int child : front.children) flops += subtree_flops_[child];
+    subtree_flops_.push_back(flops);
+  }
 }
 
-Cholesky::~Cholesky() = default;
-
 bool Cholesky::factor(const std::vector<double>& values) {
-  auto& self = *implementation_;
-  self.matrix.x = const_cast<double*>(values.data());
-  cholmod_factorize(&self.matrix, self.factor, &self.common);
-  if (self.common.status < CHOLMOD_OK)
-    throw std::runtime_error("CHOLMOD ran out of memory while factoring the tangent");
-  return self.common.status == CHOLMOD_OK && self.factor->minor == self.factor->n;
+  definite_ = true;
+  for (int root : tree_.roots) factor_subtree(root, values);
+  for (auto& update : updates_) update.clear();
+  return definite_;
+}
+
+void Cholesky::factor_subtree(int index, const std::vector<double>& values) {
+  const Front& front = tree_.fronts[index];
+  tbb::task_group tasks;
+  for (int child : front.children)
+    if (subtree_flops_[child] > kTaskFlops)
+      tasks.run([this, child, &values] { factor_subtree(child, values); });
+  for (int child : front.children)
+    if (subtree_flops_[child] <= kTaskFlops) factor_subtree(child, values);
+  tasks.wait();
+  if (!definite_) return;
+  assemble(index, values);
+  eliminate(index);
+}
+
+void Cholesky::assemble(int index, const std::vector<double>& values) {
+  const Front& front = tree_.fronts[index];
+  const std::size_t size = front.size(), rest = size - front.num_pivots;
+  panels_[index].assign(size * front.num_pivots, 0.0);
+  updates_[index].assign(rest * rest, 0.0);
+  for (std::size_t k = 0; k < front.sources.size(); ++k)
+    panels_[index][front.targets[k]] += values[front.sources[k]];
+  for (int child : front.children) {
+    extend_add(updates_[child], tree_.fronts[child].to_parent, front.num_pivots, front.size(),
+               panels_[index].data(), updates_[index].data());
+    std::vector<double>().swap(updates_[child]);
+  }
+}
+
+void Cholesky::eliminate(int index) {
+  const Front& front = tree_.fronts[index];
+  double* panel = panels_[index].data();
+  if (!factor_panel(panel, front.size(), front.num_pivots)) {
+    definite_ = false;
+    return;
+  }
+  const int rest = front.size() - front.num_pivots;
+  if (rest > 0)
+    subtract_outer_product(panel + front.num_pivots, front.size(), rest, front.num_pivots,
+                           updates_[index].data());
 }
 
 Eigen::VectorXd Cholesky::solve(const Eigen::VectorXd& b) const {
-  auto& self = *implementation_;
-  cholmod_dense rhs{};
-  rhs.nrow = rhs.d = rhs.nzmax = b.size();
-  rhs.ncol = 1;
-  rhs.x = const_cast<double*>(b.data());
-  rhs.xtype = CHOLMOD_REAL;
-  rhs.dtype = CHOLMOD_DOUBLE;
-  cholmod_dense* x = cholmod_solve(CHOLMOD_A, self.factor, &rhs, &self.common);
-  if (!x) throw std::runtime_error("CHOLMOD could not solve with the tangent's factor");
-  Eigen::VectorXd solution =
-      Eigen::Map<const Eigen::VectorXd>(static_cast<const double*>(x->x), b.size());
-  cholmod_free_dense(&x, &self.common);
-  return solution;
+  Eigen::VectorXd x = b;
+  Eigen::VectorXd pivots;
+  for (std::size_t f = 0; f < tree_.fronts.size(); ++f) {
+    const Front& front = tree_.fronts[f];
+    const int k = front.num_pivots, rest = front.size() - k;
+    const ConstMap panel(panels_[f].data(), front.size(), k);
+    pivots.resize(k);
+    for (int i = 0; i < k; ++i) pivots[i] = x[front.equations[i]];
+    solve_lower(panel.data(), front.size(), k, pivots.data());
+    const Eigen::VectorXd passed_on = panel.bottomRows(rest) * pivots;
+    for (int i = 0; i < k; ++i) x[front.equations[i]] = pivots[i];
+    for (int i = 0; i < rest; ++i) x[front.equations[k + i]] -= passed_on[i];
+  }
+  Eigen::VectorXd later;
+  for (std::size_t f = tree_.fronts.size(); f-- > 0;) {
+    const Front& front = tree_.fronts[f];
+    const int k = front.num_pivots, rest = front.size() - k;
+    const ConstMap panel(panels_[f].data(), front.size(), k);
+    later.resize(rest);
+    for (int i = 0; i < rest; ++i) later[i] = x[front.equations[k + i]];
+    pivots.resize(k);
+    for (int i = 0; i < k; ++i) pivots[i] = x[front.equations[i]];
+    pivots.noalias() -= panel.bottomRows(rest).transpose() * later;
+    solve_lower_transposed(panel.data(), front.size(), k, pivots.data());
+    for (int i = 0; i < k; ++i) x[front.equations[i]] = pivots[i];
+  }
+  return x;
 }
-
-double Cholesky::flops() const { return implementation_->common.fl; }
 
 }  // namespace mammotwin

@@ -1,32 +1,42 @@
 #pragma once
 
+#include "solver/newton/front_tree.h"
 #include "solver/newton/sparse_pattern.h"
 
 #include <Eigen/Core>
 
-#include <memory>
+#include <atomic>
 #include <vector>
 
 namespace mammotwin {
 
-/// Supernodal Cholesky factor of a symmetric matrix (CHOLMOD); analysed once.
+/// Multifrontal Cholesky factor of a symmetric matrix; analysed once.
 ///
-/// The unknowns come numbered in elimination order (DofMap::number), which is only postordered.
+/// Branches of the elimination tree and tiles of large fronts run in parallel on single-threaded
+/// BLAS; tiles have a fixed size and sums a fixed order, so the factor is bit for bit the same at
+/// any number of threads. Against CHOLMOD: solver/README.md.
 class Cholesky {
  public:
-  explicit Cholesky(const SparsePattern& pattern);
-  ~Cholesky();
+  /// `pattern` must outlive this.
+  Cholesky(const SparsePattern& pattern, const std::vector<int>& node_of_equation);
 
   /// False where the matrix is not positive definite; the factor is then of no use.
   bool factor(const std::vector<double>& values);
 
   Eigen::VectorXd solve(const Eigen::VectorXd& right_hand_side) const;
 
-  double flops() const;  ///< of one factorisation
+  double flops() const { return tree_.flops(); }  ///< of one factorisation
 
  private:
-  struct Implementation;
-  std::unique_ptr<Implementation> implementation_;
+  void factor_subtree(int front, const std::vector<double>& values);
+  void assemble(int front, const std::vector<double>& values);
+  void eliminate(int front);
+
+  FrontTree tree_;
+  std::vector<double> subtree_flops_;
+  std::vector<std::vector<double>> panels_;   ///< pivots' columns of each front, column by column
+  std::vector<std::vector<double>> updates_;  ///< what a front passes on; empty once added
+  std::atomic<bool> definite_{true};
 };
 
 }  // namespace mammotwin

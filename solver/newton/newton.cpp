@@ -33,7 +33,7 @@ NewtonReport& stopped(NewtonReport& report, const char* reason) {
 }  // namespace
 
 Newton::Newton(const Model& model, const DofMap& dofs)
-    : assembler_(model, dofs), cholesky_(assembler_.pattern()) {}
+    : assembler_(model, dofs), cholesky_(assembler_.pattern(), dofs.node_of_equation()) {}
 
 bool Newton::factor_shifted(const State& state, const NewtonOptions& options,
                             const std::vector<HermiteMesh::Node>& pending, Balance& balance,
