@@ -11,6 +11,8 @@ namespace {
 constexpr int smallest_muscle = 2000;   // voxels; vessels and specks are smaller
 constexpr int median_radius = 4;        // columns
 constexpr double gaussian_sigma = 2.0;  // [mm]
+constexpr double pit_slope = 1.5;         // steeper pits fold the slab
+constexpr double lesion_clearance = 1.0;  // [mm], what the fit's wall strays by
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 /// Columns [first, last] whose centres lie in the region.
@@ -184,6 +186,43 @@ void gaussian_filter(const ColumnRange& range, int nx, bool along_x, double spac
   }
 }
 
+/// A lesion's last voxel in a column, in position.
+struct LesionEnd {
+  int i, k;
+  double y;
+};
+
+std::vector<LesionEnd> lesion_ends(const Volume<std::uint8_t>& labels, const ColumnRange& range) {
+  std::vector<LesionEnd> ends;
+  for (int k = range.k0; k <= range.k1; ++k)
+    for (int i = range.i0; i <= range.i1; ++i)
+      for (int j = labels.size.y() - 1; j >= 0; --j)
+        if (label::is_lesion(labels(i, j, k))) {
+          ends.push_back({i, k, labels.position(i, j, k).y() + labels.spacing.y() / 2});
+          break;
+        }
+  return ends;
+}
+
+void hold_lesions(const Volume<std::uint8_t>& labels, const ColumnRange& range,
+                  std::vector<double>& heights) {
+  const std::vector<double> before = heights;
+  for (const LesionEnd& end : lesion_ends(labels, range)) {
+    const double y = end.y + lesion_clearance;
+    const double excess = y - before[end.i + static_cast<std::size_t>(labels.size.x()) * end.k];
+    if (excess <= 0) continue;
+    const int ri = static_cast<int>(excess / pit_slope / labels.spacing.x()) + 1;
+    const int rk = static_cast<int>(excess / pit_slope / labels.spacing.z()) + 1;
+    for (int k = std::max(range.k0, end.k - rk); k <= std::min(range.k1, end.k + rk); ++k)
+      for (int i = std::max(range.i0, end.i - ri); i <= std::min(range.i1, end.i + ri); ++i) {
+        const double distance = std::hypot((i - end.i) * labels.spacing.x(),
+                                           (k - end.k) * labels.spacing.z());
+        double& h = heights[i + static_cast<std::size_t>(labels.size.x()) * k];
+        h = std::max(h, y - pit_slope * distance);
+      }
+  }
+}
+
 /// Columns outside the region repeat the nearest one inside.
 void extend(const ColumnRange& range, int nx, int nz, std::vector<double>& heights) {
   for (int k = 0; k < nz; ++k)
@@ -233,6 +272,7 @@ ChestWall find_chest_wall(const Volume<std::uint8_t>& labels, const BreastRegion
   heights = median_filtered(range, nx, heights);
   gaussian_filter(range, nx, true, labels.spacing.x(), heights);
   gaussian_filter(range, nx, false, labels.spacing.z(), heights);
+  hold_lesions(labels, range, heights);
   extend(range, nx, labels.size.z(), heights);
   wall.height = HeightField(labels, std::move(heights));
   return wall;

@@ -28,7 +28,9 @@ class HeightField {
 
 /// The front of the muscle inside the region.
 struct ChestWall {
-  HeightField height;  ///< smoothed: median over 9 x 9 columns, then Gaussian of 2 mm
+  /// Smoothed (median over 9 x 9 columns, then Gaussian of 2 mm), then pushed back to hold every
+  /// lesion: a tumour that has grown into the muscle lies in a pit with slopes of 1.5.
+  HeightField height;
   /// Centres of the front faces of the first muscle voxels in the region [mm, LPS], as labelled.
   std::vector<Eigen::Vector3d> labelled;
 };

@@ -6,7 +6,7 @@
 #include "fitting/mesh/jacobian_bound.h"
 #include "fitting/newton_step.h"
 
-#include <cmath>
+#include <algorithm>
 #include <optional>
 #include <stdexcept>
 
@@ -16,6 +16,9 @@ namespace {
 
 constexpr double surface_sigma_mm = 1;    // of the mask, before the surface that is fitted
 constexpr double surface_spacing_mm = 2;  // of that surface's grid
+// Elements below these get emphasis.
+constexpr double wanted_scaled_jacobian = 0.15;
+constexpr double wanted_determinant = 0.03;  // of the mean
 constexpr int smallest_breast_voxels = 20000;  // 20 ml at 1 mm
 
 void check(const FitOptions& o) {
@@ -66,28 +69,26 @@ struct Stage {
   int steps;
 };
 
-/// The fit as it goes: nodes, and the last of them that were proved valid.
+/// The fit as it goes.
 class Fit {
  public:
   Fit(const Slab& slab, HermiteMesh start, FitTarget& target, FitReport& report,
       const FitProgress& progress)
-      : slab_(slab), start_(std::move(start)), nodes_(start_.nodes()), target_(target),
+      : slab_(slab), start_(std::move(start)), nodes_(start_.nodes()),
+        emphasis_(start_.num_elements(), 0), target_(target),
         newton_(start_.elements(), held_parameters(slab)), report_(report), progress_(progress) {}
 
-  /// Runs until the mesh is proved valid (and then while steps remain).
-  bool untangle(const Stage& stage) {
-    run(stage, false);
-    return is_proved();
-  }
-
-  void refine(const Stage& stage) { run(stage, true); }
-
-  bool is_proved() const { return proved_valid(mesh()); }
   HermiteMesh mesh() const { return HermiteMesh(nodes_, start_.elements()); }
 
- private:
+  void restart() {
+    nodes_ = start_.nodes();
+    emphasis_.assign(emphasis_.size(), 0);
+    target_.forget_feet();
+  }
+
+  /// Newton steps, closest points renewed before each, until they gain little.
   void run(const Stage& stage, bool must_stay_proved) {
-    FitModel model(slab_, start_, stage.mu, stage.sobolev);
+    FitModel model(slab_, start_, stage.mu, stage.sobolev, emphasis_);
     for (int step = 0; step < stage.steps; ++step) {
       model.update(nodes_, target_.samples(mesh(), {stage.data}));
       report_.skin_rms_by_iteration_mm.push_back(target_.skin_rms());
@@ -95,29 +96,61 @@ class Fit {
       ++report_.iterations;
       if (progress_)
         progress_(std::min(0.9, 0.2 + 0.03 * report_.iterations), "fitting the mesh");
-      if (done.length == 0) break;
+      if (done.cost_before - done.cost_after < smallest_gain * done.cost_before) break;
     }
   }
+
+  /// Gives more weight to elements that are badly shaped or near folding; false if there are none.
+  bool emphasise_poor() {
+    const std::vector<JacobianBound> bounds = bound_elements(mesh());
+    const std::vector<double> scaled = scaled_jacobians(mesh());
+    bool any = false;
+    for (std::size_t e = 0; e < scaled.size(); ++e)
+      if (bounds[e].lower < wanted_determinant || scaled[e] < wanted_scaled_jacobian)
+        ++emphasis_[e], any = true;
+    return any;
+  }
+
+ private:
+  static constexpr double smallest_gain = 1e-3;  // of the cost: below, steps change no figure
 
   Slab slab_;
   HermiteMesh start_;
   std::vector<HermiteMesh::Node> nodes_;
+  std::vector<int> emphasis_;
   FitTarget& target_;
   NewtonStep newton_;
   FitReport& report_;
   const FitProgress& progress_;
 };
 
+/// From the start to a mesh that is proved valid. Where the data folds it, the data waits.
+bool untangle(Fit& fit) {
+  constexpr double mu = 10;
+  fit.run({1, mu, 1e-6, 6}, false);
+  if (proved_valid(fit.mesh())) return true;
+  for (double sobolev : {1e-6, 1e-5, 1e-4}) {
+    fit.restart();
+    fit.run({0.02, mu, sobolev, 8}, false);
+    if (!proved_valid(fit.mesh())) continue;
+    fit.run({0.1, mu, 1e-6, 4}, true);
+    fit.emphasise_poor();
+    fit.run({1, mu, 1e-6, 4}, true);
+    return true;
+  }
+  return false;
+}
+
 /// Valid nodes by the recipe of fitting/README.md; empty if none were found.
 std::optional<HermiteMesh> fit_slab(const Slab& slab, const HermiteMesh& start, FitTarget& target,
                                     const FitOptions& o, FitReport& report,
                                     const FitProgress& progress) {
   Fit fit(slab, start, target, report, progress);
-  if (!fit.untangle({1, 10, 1e-6, 10}))
-    for (double sobolev : {1e-6, 1e-5})
-      if (fit.untangle({0.02, 10, sobolev, 15})) break;
-  if (!fit.is_proved()) return std::nullopt;
-  fit.refine({1, o.shape, o.smoothing, 6});
+  if (!untangle(fit)) return std::nullopt;
+  fit.emphasise_poor();
+  fit.run({1, o.shape, o.smoothing, 5}, true);
+  for (int round = 0; round < 3 && fit.emphasise_poor(); ++round)
+    fit.run({1, o.shape, o.smoothing, 3}, true);
   return fit.mesh();
 }
 
@@ -143,7 +176,8 @@ void measure(const MeshFile& file, const Segmentation& s, const ChestWall& wall,
   r.farthest_in_lps = skin.farthest;
   r.chest_wall_rms_mm = rms_to_faces(file.mesh, file.faces, FaceLabel::chest_wall, wall.labelled);
   r.min_jacobian_bound = bound_jacobian(file.mesh).lower;
-  r.min_scaled_jacobian = smallest_scaled_jacobian(file.mesh);
+  const std::vector<double> scaled = scaled_jacobians(file.mesh);
+  r.min_scaled_jacobian = *std::min_element(scaled.begin(), scaled.end());
   const Coverage covered = coverage(file.mesh, s.labels, s.region);
   r.covered_fraction = covered.breast;
   r.covered_lesions = covered.lesions;

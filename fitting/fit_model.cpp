@@ -11,13 +11,14 @@ namespace mammotwin {
 
 namespace {
 
-constexpr int points_a_side = 5;
-constexpr int num_points = points_a_side * points_a_side * points_a_side;
-
 /// Gauss-Lobatto points on [0,1]: the ends, the middle and (1 ± √(3/7)) / 2.
-std::array<double, points_a_side> lobatto_points() {
+std::vector<double> lobatto_points() {
   const double s = std::sqrt(3.0 / 7) / 2;
   return {0, 0.5 - s, 0.5, 0.5 + s, 1};
+}
+
+std::vector<double> even_points() {
+  return {0, 0.125, 0.25, 0.375, 0.5, 0.625, 0.75, 0.875, 1};
 }
 
 Eigen::Matrix<double, 1, 64> basis_row(const Eigen::Vector3d& xi, const std::array<int, 3>& order) {
@@ -33,6 +34,19 @@ Eigen::Vector3d mean_lengths(const HermiteMesh& mesh) {
   for (int e = 0; e < mesh.num_elements(); ++e)
     sum += mesh.jacobian({e, Eigen::Vector3d::Constant(0.5)}).colwise().norm().transpose();
   return sum / mesh.num_elements();
+}
+
+/// First derivatives of the basis at a grid of points, in units of `lengths`.
+Eigen::MatrixXd gradient_matrix(const std::vector<double>& x, const Eigen::Vector3d& lengths) {
+  const int n = static_cast<int>(x.size());
+  Eigen::MatrixXd matrix(3 * n * n * n, 64);
+  for (int q = 0; q < n * n * n; ++q)
+    for (int i = 0; i < 3; ++i) {
+      std::array<int, 3> order = {0, 0, 0};
+      order[i] = 1;
+      matrix.row(3 * q + i) = basis_row({x[q % n], x[q / n % n], x[q / n / n]}, order) / lengths[i];
+    }
+  return matrix;
 }
 
 /// ∫ Σᵢⱼ (∂²/∂uᵢ∂uⱼ)² of the basis over one of n₁ n₂ n₃ equal elements.
@@ -58,19 +72,18 @@ Eigen::Matrix<double, 64, 64> smoothing_matrix(const Eigen::Vector3i& n) {
 
 }  // namespace
 
-FitModel::FitModel(const Slab& slab, const HermiteMesh& start, double mu, double sobolev)
+FitModel::FitModel(const Slab& slab, const HermiteMesh& start, double mu, double sobolev,
+                   std::vector<int> emphasis)
     : elements_(start.elements()), mu_(mu), sobolev_(sobolev), centre_(Eigen::Vector3d::Zero()),
-      gradients_(3 * num_points, 64), smoothing_(smoothing_matrix(slab.elements)) {
+      emphasis_(std::move(emphasis)), smoothing_(smoothing_matrix(slab.elements)) {
   for (int n = 0; n < start.num_nodes(); ++n) centre_ += start.node(n).col(0) / start.num_nodes();
   const Eigen::Vector3d lengths = mean_lengths(start);
-  const auto x = lobatto_points();
-  for (int q = 0; q < num_points; ++q)
-    for (int i = 0; i < 3; ++i) {
-      std::array<int, 3> order = {0, 0, 0};
-      order[i] = 1;
-      const Eigen::Vector3d xi(x[q % 5], x[q / 5 % 5], x[q / 25]);
-      gradients_.row(3 * q + i) = basis_row(xi, order) / lengths[i];
-    }
+  gradients_ = {gradient_matrix(lobatto_points(), lengths), gradient_matrix(even_points(), lengths)};
+}
+
+double FitModel::energy_weight(int element) const {
+  const double points = gradients(element).rows() / 3;
+  return mu_ * std::pow(4, emphasis_[element]) / (points * elements_.size());
 }
 
 FitModel::Shape FitModel::shape(const std::vector<HermiteMesh::Node>& nodes, int element) const {
@@ -85,9 +98,9 @@ FitModel::Shape FitModel::shape(const std::vector<HermiteMesh::Node>& nodes, int
 double FitModel::smallest_determinant(const std::vector<HermiteMesh::Node>& nodes) const {
   std::vector<double> smallest(elements_.size());
   tbb::parallel_for(0, static_cast<int>(elements_.size()), [&](int e) {
-    const Eigen::Matrix<double, 3, Eigen::Dynamic> F = shape(nodes, e) * gradients_.transpose();
+    const Eigen::Matrix<double, 3, Eigen::Dynamic> F = shape(nodes, e) * gradients(e).transpose();
     smallest[e] = F.leftCols<3>().determinant();
-    for (int q = 1; q < num_points; ++q)
+    for (int q = 1; q < F.cols() / 3; ++q)
       smallest[e] = std::min(smallest[e], F.middleCols<3>(3 * q).determinant());
   });
   return *std::min_element(smallest.begin(), smallest.end());
@@ -132,10 +145,10 @@ double FitModel::cost(const std::vector<HermiteMesh::Node>& nodes, int e) const 
   const Linear& l = linear_[e];
   double cost = 0.5 * flat.dot(l.a * flat) - l.b.dot(flat) + l.c;
   cost += 0.5 * sobolev_ * (x * smoothing_).cwiseProduct(x).sum();
-  const Eigen::Matrix<double, 3, Eigen::Dynamic> F = x * gradients_.transpose();
+  const Eigen::Matrix<double, 3, Eigen::Dynamic> F = x * gradients(e).transpose();
   double energy = 0;
-  for (int q = 0; q < num_points; ++q) energy += energy_.value(F.middleCols<3>(3 * q));
-  return cost + mu_ * energy / (num_points * elements_.size());
+  for (int q = 0; q < F.cols() / 3; ++q) energy += energy_.value(F.middleCols<3>(3 * q));
+  return cost + energy_weight(e) * energy;
 }
 
 FitModel::Quadratic FitModel::quadratic(const std::vector<HermiteMesh::Node>& nodes, int e) const {
@@ -147,8 +160,10 @@ FitModel::Quadratic FitModel::quadratic(const std::vector<HermiteMesh::Node>& no
   result.gradient = l.a * flat - l.b;
   result.hessian = l.a;
 
-  const double scale = mu_ / (num_points * elements_.size());
-  const Eigen::Matrix<double, 3, Eigen::Dynamic> F = x * gradients_.transpose();
+  const Eigen::MatrixXd& gradients = this->gradients(e);
+  const int num_points = static_cast<int>(gradients.rows() / 3);
+  const double scale = energy_weight(e);
+  const Eigen::Matrix<double, 3, Eigen::Dynamic> F = x * gradients.transpose();
   Eigen::Matrix<double, 3, Eigen::Dynamic> stress(3, 3 * num_points);
   std::vector<FoldoverEnergy::Hessian> tangent(num_points);
   for (int q = 0; q < num_points; ++q) {
@@ -156,7 +171,7 @@ FitModel::Quadratic FitModel::quadratic(const std::vector<HermiteMesh::Node>& no
     stress.middleCols<3>(3 * q) = scale * energy_.gradient(Fq).reshaped(3, 3);
     tangent[q] = scale * energy_.positive_hessian(Fq);
   }
-  const Shape by_x = stress * gradients_ + sobolev_ * x * smoothing_;
+  const Shape by_x = stress * gradients + sobolev_ * x * smoothing_;
   result.gradient += Eigen::Map<const ElementVector>(by_x.data());
 
   Eigen::MatrixXd product(3 * num_points, 64);
@@ -166,9 +181,9 @@ FitModel::Quadratic FitModel::quadratic(const std::vector<HermiteMesh::Node>& no
         Eigen::Matrix3d part;
         for (int i = 0; i < 3; ++i)
           for (int j = 0; j < 3; ++j) part(i, j) = tangent[q](c + 3 * i, b + 3 * j);
-        product.middleRows<3>(3 * q).noalias() = part * gradients_.middleRows<3>(3 * q);
+        product.middleRows<3>(3 * q).noalias() = part * gradients.middleRows<3>(3 * q);
       }
-      Eigen::MatrixXd block = gradients_.transpose() * product;
+      Eigen::MatrixXd block = gradients.transpose() * product;
       if (b == c) block += sobolev_ * smoothing_;
       for (int p = 0; p < 64; ++p)
         for (int r = 0; r < 64; ++r) {

@@ -18,7 +18,9 @@ struct PlaneSample {
 ///
 /// u in [0,1]³ runs through the whole slab; e is the foldover-free energy of F = ∂x/∂ξ with
 /// column i divided by a typical element's length along ξᵢ₊₁, at 5³ Lobatto points an element,
-/// all of equal weight (quadrature weights would let corners degenerate).
+/// all of equal weight (quadrature weights would let corners degenerate). An element may be
+/// given emphasis n > 0: its energy counts 4ⁿ times and is taken at 9³ even points, for folds
+/// that hide between the 5³.
 class FitModel {
  public:
   static constexpr int element_size = 192;  ///< 24·corner + 3·parameter + component
@@ -33,7 +35,9 @@ class FitModel {
     ElementMatrix hessian;
   };
 
-  FitModel(const Slab& slab, const HermiteMesh& start, double mu, double sobolev);
+  /// `emphasis` has one entry an element.
+  FitModel(const Slab& slab, const HermiteMesh& start, double mu, double sobolev,
+           std::vector<int> emphasis);
 
   /// Renews the samples, and ε from the smallest determinant of these nodes.
   void update(const std::vector<HermiteMesh::Node>& nodes, const std::vector<PlaneSample>& samples);
@@ -47,6 +51,8 @@ class FitModel {
   using Shape = Eigen::Matrix<double, 3, 64>;
   Shape shape(const std::vector<HermiteMesh::Node>& nodes, int element) const;
   double smallest_determinant(const std::vector<HermiteMesh::Node>& nodes) const;
+  const Eigen::MatrixXd& gradients(int element) const { return gradients_[emphasis_[element] > 0]; }
+  double energy_weight(int element) const;  ///< of each of its points
 
   struct Linear {  ///< samples of one element: ½ xᵀ A x − bᵀ x + c over all 192 parameters
     ElementMatrix a;
@@ -57,7 +63,9 @@ class FitModel {
   std::vector<HermiteMesh::Corners> elements_;
   double mu_, sobolev_;
   Eigen::Vector3d centre_;                  ///< positions are taken from here, for rounding
-  Eigen::MatrixXd gradients_;               ///< 375 x 64: ∂/∂ξᵢ of every basis function, scaled
+  std::vector<int> emphasis_;
+  /// Without and with emphasis: row 3q + i is ∂/∂ξᵢ₊₁ of every basis function at point q, scaled.
+  std::array<Eigen::MatrixXd, 2> gradients_;
   Eigen::Matrix<double, 64, 64> smoothing_;
   std::vector<Linear> linear_;
   FoldoverEnergy energy_;

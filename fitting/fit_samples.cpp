@@ -40,10 +40,17 @@ FitTarget::FitTarget(const Slab& slab, const TriangleSurface& skin, const FlatSk
       areas_(skin.vertex_areas()) {
   const double total = std::accumulate(areas_.begin(), areas_.end(), 0.0);
   for (double& a : areas_) a /= total;
-  const Eigen::Vector2d size(slab.elements.x(), slab.elements.y());
-  for (const auto& uv : flat.uv) feet_.push_back(uv.cwiseProduct(size));
-  for (int edge = 0; edge < 4; ++edge)
-    for (int v : flat.edges[edge]) edge_feet_[edge].push_back(feet_[v]);
+  forget_feet();
+}
+
+void FitTarget::forget_feet() {
+  const Eigen::Vector2d size(slab_.elements.x(), slab_.elements.y());
+  feet_.clear();
+  for (const auto& uv : flat_.uv) feet_.push_back(uv.cwiseProduct(size));
+  for (int edge = 0; edge < 4; ++edge) {
+    edge_feet_[edge].clear();
+    for (int v : flat_.edges[edge]) edge_feet_[edge].push_back(feet_[v]);
+  }
 }
 
 std::vector<PlaneSample> FitTarget::samples(const HermiteMesh& mesh, const Weights& weights) {

@@ -21,6 +21,9 @@ class FitTarget {
   /// Finds the nearest points anew and makes one plane sample of each.
   std::vector<PlaneSample> samples(const HermiteMesh& mesh, const Weights& weights);
 
+  /// Back to where the flattening puts every datum.
+  void forget_feet();
+
   /// Root mean square of data to mesh [mm] when samples were last made.
   double skin_rms() const { return skin_rms_; }
 

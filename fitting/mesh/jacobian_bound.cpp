@@ -119,6 +119,13 @@ double slack(const Box& box) {
   return rounding * largest;
 }
 
+bool proved(const HermiteMesh& mesh, int element) {
+  const Box box = determinant_coefficients(bezier_element(mesh, element));
+  Search search{0, 0, slack(box), true};
+  search.visit(box, 0);
+  return search.lower > 0;
+}
+
 double mean(const Box& box) {
   double sum = 0;
   for (double c : box) sum += c;
@@ -130,16 +137,12 @@ double mean(const Box& box) {
 bool proved_valid(const HermiteMesh& mesh) {
   std::atomic<bool> valid = true;
   tbb::parallel_for(0, mesh.num_elements(), [&](int e) {
-    if (!valid) return;
-    const Box box = determinant_coefficients(bezier_element(mesh, e));
-    Search search{0, 0, slack(box), true};
-    search.visit(box, 0);
-    if (!(search.lower > 0)) valid = false;
+    if (valid && !proved(mesh, e)) valid = false;
   });
   return valid;
 }
 
-JacobianBound bound_jacobian(const HermiteMesh& mesh) {
+std::vector<JacobianBound> bound_elements(const HermiteMesh& mesh) {
   const int count = mesh.num_elements();
   std::vector<Box> boxes(count);
   tbb::parallel_for(0, count, [&](int e) {
@@ -147,22 +150,27 @@ JacobianBound bound_jacobian(const HermiteMesh& mesh) {
   });
   double mean_determinant = 0;
   for (const Box& box : boxes) mean_determinant += std::abs(mean(box)) / count;
-  std::vector<Search> searches(count);
+  std::vector<JacobianBound> bounds(count);
   tbb::parallel_for(0, count, [&](int e) {
-    searches[e] = {std::numeric_limits<double>::infinity(), wanted_gap * mean_determinant,
-                   slack(boxes[e]), false};
-    searches[e].visit(boxes[e], 0);
+    Search search{std::numeric_limits<double>::infinity(), wanted_gap * mean_determinant,
+                  slack(boxes[e]), false};
+    search.visit(boxes[e], 0);
+    bounds[e] = {search.lower / mean_determinant, search.sampled / mean_determinant};
   });
-  JacobianBound bound{std::numeric_limits<double>::infinity(),
-                      std::numeric_limits<double>::infinity()};
-  for (const Search& s : searches) {
-    bound.lower = std::min(bound.lower, s.lower / mean_determinant);
-    bound.sampled = std::min(bound.sampled, s.sampled / mean_determinant);
-  }
-  return bound;
+  return bounds;
 }
 
-double smallest_scaled_jacobian(const HermiteMesh& mesh) {
+JacobianBound bound_jacobian(const HermiteMesh& mesh) {
+  JacobianBound smallest{std::numeric_limits<double>::infinity(),
+                         std::numeric_limits<double>::infinity()};
+  for (const JacobianBound& bound : bound_elements(mesh)) {
+    smallest.lower = std::min(smallest.lower, bound.lower);
+    smallest.sampled = std::min(smallest.sampled, bound.sampled);
+  }
+  return smallest;
+}
+
+std::vector<double> scaled_jacobians(const HermiteMesh& mesh) {
   constexpr int samples = 7;
   std::vector<double> smallest(mesh.num_elements(), std::numeric_limits<double>::infinity());
   tbb::parallel_for(0, mesh.num_elements(), [&](int e) {
@@ -173,7 +181,7 @@ double smallest_scaled_jacobian(const HermiteMesh& mesh) {
       smallest[e] = std::min(smallest[e], j.determinant() / j.colwise().norm().prod());
     }
   });
-  return *std::min_element(smallest.begin(), smallest.end());
+  return smallest;
 }
 
 }  // namespace mammotwin

@@ -17,10 +17,14 @@ struct JacobianBound {
 /// Is det > 0 everywhere? Subdivides only where the sign is open, and stops at a negative value.
 bool proved_valid(const HermiteMesh& mesh);
 
-/// The bound, sharpened until lower is within 0.01 of sampled (or 8 halvings are done).
+/// The bound of each element, sharpened until lower is within 0.01 of sampled and has its sign
+/// (or 8 halvings are done).
+std::vector<JacobianBound> bound_elements(const HermiteMesh& mesh);
+
+/// The smallest over all elements.
 JacobianBound bound_jacobian(const HermiteMesh& mesh);
 
-/// det / (|∂₁x| |∂₂x| |∂₃x|), smallest over a grid of points (7³ an element); 1 in a brick.
-double smallest_scaled_jacobian(const HermiteMesh& mesh);
+/// det / (|∂₁x| |∂₂x| |∂₃x|), the smallest of each element over a grid of 7³ points; 1 in a brick.
+std::vector<double> scaled_jacobians(const HermiteMesh& mesh);
 
 }  // namespace mammotwin

@@ -33,7 +33,7 @@ double total(const FitModel& model, const std::vector<HermiteMesh::Node>& nodes)
 
 TEST(FitModel, GradientMatchesDifferences) {
   const HermiteMesh mesh = distorted_mesh(slab.elements, 1.5);
-  FitModel model(slab, mesh, 1, 1e-6);
+  FitModel model(slab, mesh, 1, 1e-6, {0, 0, 0, 1});
   model.update(mesh.nodes(), some_samples(mesh));
   std::vector<HermiteMesh::Node> nodes = mesh.nodes();
   for (int e : {0, 3}) {
@@ -55,7 +55,7 @@ TEST(FitModel, GradientMatchesDifferences) {
 
 TEST(FitModel, HessianIsTheGradientsDerivativeWhereTheEnergyIsConvex) {
   const HermiteMesh mesh = distorted_mesh(slab.elements, 0.1);  // near bricks: nothing is cut off
-  FitModel model(slab, mesh, 1, 1e-6);
+  FitModel model(slab, mesh, 1, 1e-6, {0, 0, 0, 1});
   model.update(mesh.nodes(), some_samples(mesh));
   std::vector<HermiteMesh::Node> nodes = mesh.nodes();
   const FitModel::Quadratic q = model.quadratic(nodes, 1);
@@ -74,7 +74,7 @@ TEST(FitModel, HessianIsTheGradientsDerivativeWhereTheEnergyIsConvex) {
 
 TEST(FitModel, SmoothingIsZeroForABrickAndGrowsWithBends) {
   const HermiteMesh box = distorted_mesh(slab.elements, 0);
-  FitModel model(slab, box, 1, 1);
+  FitModel model(slab, box, 1, 1, {0, 0, 0, 0});
   model.update(box.nodes(), {});
   // What is left is the energy of bricks that are not cubes' scale: e = 1.05 each.
   EXPECT_NEAR(total(model, box.nodes()), 1.05, 1e-6);  // ε = 1e-3 enters by ε²/4
@@ -104,7 +104,7 @@ TEST(NewtonStep, PullsASheetToItsTargetsAndKeepsWhatIsHeld) {
       samples.push_back({p, Eigen::Vector3d::UnitY(), box.position(p) - Eigen::Vector3d(0, 2, 0),
                          1.0});
     }
-  FitModel model(slab, box, 1e-3, 1e-8);
+  FitModel model(slab, box, 1e-3, 1e-8, {0, 0, 0, 0});
   for (int step = 0; step < 10; ++step) {
     model.update(nodes, samples);
     newton.step(model, true, nodes);
