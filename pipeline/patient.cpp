@@ -27,6 +27,10 @@ void refuse_unknown(const std::string& where, const std::string& key, const Sett
 void Patient::declare(Settings& settings) {
   declare_inputs(settings);
   declare_segment(settings);
+  declare_fit(settings);
+  declare_compression(settings, compression);
+  declare_view(settings, "cc", cc);
+  declare_view(settings, "mlo", mlo);
 }
 
 void Patient::declare_inputs(Settings& s) {
@@ -55,6 +59,18 @@ void Patient::declare_segment(Settings& s) {
            "a lesion reaches at most this far from its point");
   s.number("segment.wall_stiffness", segment.wall_stiffness, {0.01, 1, "per mm^2"},
            "stiffness of the chest wall's search");
+}
+
+void Patient::declare_fit(Settings& s) {
+  s.integers("fit.elements", fit.elements, {1, 16}, "elements along x, z and from chest wall to skin");
+  s.number("fit.smoothing", fit.smoothing, {1e-12, 1e-3}, "weight of the Sobolev term");
+  s.number("fit.shape", fit.shape, {0.1, 10}, "weight of well-shaped elements against closeness");
+}
+
+const ViewSettings& Patient::view(const std::string& name) const {
+  if (name == "cc") return cc;
+  if (name == "mlo") return mlo;
+  throw std::logic_error("no view is called " + name);
 }
 
 void Patient::read(const fs::path& file, const Settings& settings) {

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "fitting/fit_breast.h"
+#include "pipeline/compression_settings.h"
 #include "pipeline/frame/settings.h"
 #include "pipeline/lesion_entry.h"
 #include "segmentation/segment.h"
@@ -39,6 +41,12 @@ class Patient {
   std::vector<std::filesystem::path> segment_files() const;
 
   SegmentOptions segment;
+  FitOptions fit;
+  CompressionSettings compression;
+  ViewSettings cc, mlo{.angle_deg = 45};
+
+  /// "cc" or "mlo"; std::logic_error otherwise.
+  const ViewSettings& view(const std::string& name) const;
 
   /// Parameters that come in lists (lesions) below these prefixes, in the sidecar's form.
   nlohmann::json list_parameters(const std::vector<std::string>& prefixes) const;
@@ -47,6 +55,7 @@ class Patient {
   std::filesystem::path resolve(const std::filesystem::path& path) const;
   void declare_inputs(Settings& settings);
   void declare_segment(Settings& settings);
+  void declare_fit(Settings& settings);
   void read_lesions(const std::string& file, const nlohmann::json& list);
   LesionSeed seed_of(const LesionEntry& entry) const;
   LabelValues label_values() const;

@@ -28,7 +28,7 @@ compress() {
     "$BIN/mammotwin-compress" "$view" "$out/segmentation.seg.nrrd" "$out/fractions.nrrd" "$out/prone.vtu" "$out/$view.vtu" "$@" || return
   done
 }
-register() { "$BIN/mammotwin-register" "$out/segmentation.seg.nrrd" "$out/cc.vtu" "$out/mlo.vtu" "$out/lesions.csv" "$@"; }
+register() { "$BIN/mammotwin-register" "$out/segmentation.seg.nrrd" "$out/fractions.nrrd" "$out/cc.vtu" "$out/mlo.vtu" "$out/lesions.csv" "$@"; }
 report() { "$BIN/mammotwin-report" "$out" "$out/report.html" "$@"; }
 
 for stage in segment fit compress register report; do

@@ -74,7 +74,7 @@ Attempt attempt(const Stage& stage, const Patient& patient, Products& products, 
                 char** argv) {
   const auto start = std::chrono::steady_clock::now();
   Attempt a;
-  Progress progress(stage.name);
+  ProgressLine progress(stage.name);
   try {
     StageRun run{patient, products, progress.callback()};
     a.outcome = stage.run(run);

@@ -8,7 +8,7 @@
 
 #include "pipeline/frame/outcome.h"
 #include "pipeline/frame/products.h"
-#include "pipeline/frame/progress.h"
+#include "pipeline/frame/progress_line.h"
 #include "pipeline/frame/settings.h"
 #include "pipeline/patient.h"
 

@@ -1,4 +1,4 @@
-#include "pipeline/frame/progress.h"
+#include "pipeline/frame/progress_line.h"
 
 #include <unistd.h>
 
@@ -19,15 +19,15 @@ std::string minutes_and_seconds(double seconds) {
   return text;
 }
 
-Progress::Progress(std::string stage) : stage_(std::move(stage)), is_terminal_(isatty(2) == 1) {}
+ProgressLine::ProgressLine(std::string stage) : stage_(std::move(stage)), is_terminal_(isatty(2) == 1) {}
 
-Progress::~Progress() { finish(); }
+ProgressLine::~ProgressLine() { finish(); }
 
-double Progress::elapsed_seconds() const {
+double ProgressLine::elapsed_seconds() const {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
 }
 
-void Progress::report(double fraction, const std::string& step) {
+void ProgressLine::report(double fraction, const std::string& step) {
   const double now = elapsed_seconds();
   const bool new_step = step != step_;
   const double every = is_terminal_ ? kTerminalLineEverySeconds : kPlainLineEverySeconds;
@@ -48,7 +48,7 @@ void Progress::report(double fraction, const std::string& step) {
   line_open_ = is_terminal_;
 }
 
-void Progress::finish() {
+void ProgressLine::finish() {
   if (line_open_) std::fprintf(stderr, "\r\033[K");
   line_open_ = false;
 }

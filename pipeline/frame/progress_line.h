@@ -9,12 +9,12 @@ namespace mammotwin {
 /// Says on stderr how far a stage is: one line that rewrites itself on a terminal, otherwise a
 /// plain line at the start of each step and every ten seconds. Elapsed and remaining time are
 /// stated; the remaining time assumes that the fraction grows evenly.
-class Progress {
+class ProgressLine {
  public:
-  explicit Progress(std::string stage);
-  ~Progress();
-  Progress(const Progress&) = delete;
-  Progress& operator=(const Progress&) = delete;
+  explicit ProgressLine(std::string stage);
+  ~ProgressLine();
+  ProgressLine(const ProgressLine&) = delete;
+  ProgressLine& operator=(const ProgressLine&) = delete;
 
   /// fraction in [0, 1] of the whole stage; `step` names what is being done.
   void report(double fraction, const std::string& step);

@@ -1,0 +1,114 @@
+// compress: Hermite mesh + tissue + plates -> the mesh as it lies between the plates of one view.
+
+#include "solver/compress.h"
+
+#include "pipeline/compression_quality.h"
+#include "pipeline/frame/stage.h"
+#include "registration/view_frame.h"
+#include "segmentation/mean_fractions.h"
+#include "segmentation/segmentation_file.h"
+
+namespace mammotwin {
+namespace {
+
+/// Of the breast's free extent, where nobody says how thick it was.
+constexpr double kDefaultThicknessFraction = 0.45;
+
+struct Arguments {
+  std::string view;
+  std::filesystem::path segmentation, fractions, mesh, compressed;
+};
+
+void declare(StageDeclaration& stage, Arguments& args) {
+  stage.app().add_option("view", args.view, "which view of patient.toml")
+      ->required()
+      ->check(CLI::IsMember({"cc", "mlo"}));
+  stage.input("segmentation", args.segmentation, "tissue labels from segment (.seg.nrrd)");
+  stage.input("fractions", args.fractions, "tissue fractions from segment (.nrrd)");
+  stage.input("mesh", args.mesh, "Hermite mesh from fit (.vtu)");
+  stage.product("compressed", args.compressed, "compressed mesh to write (.vtu)");
+  stage.options_from("compress.", true);
+  stage.options_from("materials.", false);
+  for (const char* key : {"thickness_mm", "angle_deg", "lift_mm"})
+    for (const char* view : {"cc", "mlo"})
+      stage.options_from(std::string("views.") + view + "." + key, false);
+}
+
+StagePlan plan(const Arguments& args, const Patient&) {
+  const std::string view = "views." + args.view + ".";
+  return {{}, {"compress.", "materials.", view + "thickness_mm", view + "angle_deg", view + "lift_mm"}};
+}
+
+TissueSampler sampler_of(const MeanFractions& mean) {
+  return [&mean](const Eigen::Vector3d& x_prone, double volume_mm3) {
+    const Fractions f = mean.at(x_prone, volume_mm3);
+    return std::array<double, 3>{f.fat, f.fibroglandular, f.lesion};
+  };
+}
+
+PlateOptions plates_of(const Patient& patient, const ViewSettings& view,
+                       const Eigen::Matrix3d& axes, const MeshFile& mesh) {
+  PlateOptions plates;
+  plates.depth = axes.row(0);
+  plates.up = axes.row(2);
+  plates.lift = view.lift_mm;
+  plates.rounding = patient.compression.plate_rounding_mm;
+  plates.wall_clearance = patient.compression.wall_clearance_mm;
+  plates.thickness =
+      view.thickness_mm.value_or(kDefaultThicknessFraction * free_thickness(mesh, plates));
+  return plates;
+}
+
+/// Middle of the detector's chest-wall edge on the support [mm, LPS].
+Eigen::Vector3d view_origin(const PlateOptions& options, const PlacedPlates& placed) {
+  return options.depth * placed.edge + options.up * placed.support_height +
+         options.depth.cross(options.up) * placed.lateral_middle;
+}
+
+MeshFile compressed_file(const MeshFile& prone, const CompressionResult& result,
+                         const PlateOptions& plates, const Eigen::Matrix3d& axes, Side side,
+                         double angle_deg) {
+  MeshFile file = prone;
+  file.configurations["prone"] = prone.mesh.nodes();
+  file.mesh = HermiteMesh(result.deformed, prone.mesh.elements());
+  const Eigen::Vector3d origin = view_origin(plates, result.plates);
+  file.metadata["view_side"] = {side == Side::left ? 0.0 : 1.0};
+  file.metadata["view_angle_deg"] = {angle_deg};
+  file.metadata["thickness_mm"] = {result.report.thickness_mm};
+  file.metadata["view_origin_lps_mm"] = {origin.begin(), origin.end()};
+  const Eigen::Matrix3d columns = axes.transpose();
+  file.metadata["view_axes"] = {columns.data(), columns.data() + columns.size()};
+  return file;
+}
+
+Outcome run(const Arguments& args, StageRun& stage) {
+  const Patient& patient = stage.patient;
+  const ViewSettings& view = patient.view(args.view);
+  const Segmentation segmentation = read_segmentation(args.segmentation, args.fractions);
+  const Side side = segmentation.region.side;
+  const Eigen::Matrix3d axes = view_axes(side, view.angle_deg);
+  const MeanFractions mean(segmentation.fractions);
+
+  CompressionProblem problem{.mesh = read_mesh_file(args.mesh)};
+  problem.tissue = sampler_of(mean);
+  problem.laws = patient.compression.laws();
+  problem.skin = patient.compression.skin;
+  problem.boundary = patient.compression.boundary;
+  problem.plates = plates_of(patient, view, axes, problem.mesh);
+
+  const CompressionResult result = compress(problem, patient.compression.options, stage.progress);
+  if (result.report.usable())
+    write_mesh_file(stage.products.write_main(),
+                    compressed_file(problem.mesh, result, problem.plates, axes, side, view.angle_deg));
+  return judge_compression(result.report, view.angle_deg, !view.thickness_mm);
+}
+
+}  // namespace
+}  // namespace mammotwin
+
+int main(int argc, char** argv) {
+  using namespace mammotwin;
+  return run_stage(argc, argv, "compress",
+                   "Hermite mesh + tissue + plates -> the mesh between the plates of one view",
+                   declare, plan, run);
+}

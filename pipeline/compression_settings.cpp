@@ -1,0 +1,112 @@
+#include "pipeline/compression_settings.h"
+
+#include "solver/material/exponential.h"
+#include "solver/material/mooney_rivlin.h"
+#include "solver/material/neo_hookean.h"
+
+#include <stdexcept>
+
+namespace mammotwin {
+namespace {
+
+const Range kModulus{0.01, 1000, "kPa", "c1 is half the shear modulus, about a sixth of E"};
+
+void declare_law(Settings& s, const std::string& tissue, LawSettings& law) {
+  const std::string prefix = "materials." + tissue + ".";
+  s.choice(prefix + "law", law.law,
+           {{"neo_hookean", LawName::neo_hookean},
+            {"mooney_rivlin", LawName::mooney_rivlin},
+            {"exponential", LawName::exponential}},
+           "stored energy of " + tissue);
+  s.number(prefix + "c1_kpa", law.c1_kpa, kModulus, "c1 of " + tissue);
+  s.number(prefix + "c2_kpa", law.c2_kpa, {0, 1000, "kPa"}, "c2, mooney_rivlin only");
+  s.number(prefix + "stiffening", law.stiffening, {0.001, 20}, "b, exponential only");
+}
+
+}  // namespace
+
+std::shared_ptr<const Material> LawSettings::material() const {
+  switch (law) {
+    case LawName::neo_hookean: return std::make_shared<NeoHookean>(c1_kpa);
+    case LawName::mooney_rivlin: return std::make_shared<MooneyRivlin>(c1_kpa, c2_kpa);
+    case LawName::exponential: return std::make_shared<Exponential>(c1_kpa, stiffening);
+  }
+  throw std::logic_error("unknown law");
+}
+
+TissueLaws CompressionSettings::laws() const {
+  return {{fat.material(), fibroglandular.material(), lesion.material()}, mixing};
+}
+
+Detector ViewSettings::detector(const std::string& view, Side side) const {
+  Detector detector;
+  detector.source_distance_mm = source_distance_mm;
+  detector.support_gap_mm = support_gap_mm;
+  const int given = pixel_spacing_mm.has_value() + columns.has_value() + rows.has_value();
+  if (given != 0 && given != 3)
+    throw std::runtime_error("views." + view + ".detector: pixel_spacing_mm, columns and rows are "
+                             "given only in part; expected all three, or none for mm alone");
+  if (given == 3) {
+    const ImageEdge as_hung = side == Side::left ? ImageEdge::left : ImageEdge::right;
+    detector.pixels = PixelGrid{*pixel_spacing_mm, *columns, *rows, chest_wall.value_or(as_hung)};
+  }
+  check_detector(detector);
+  return detector;
+}
+
+void declare_compression(Settings& s, CompressionSettings& c) {
+  declare_law(s, "fat", c.fat);
+  declare_law(s, "fibroglandular", c.fibroglandular);
+  declare_law(s, "lesion", c.lesion);
+  s.choice("materials.mixing", c.mixing,
+           {{"arithmetic", Mixing::arithmetic},
+            {"geometric", Mixing::geometric},
+            {"harmonic", Mixing::harmonic}},
+           "stiffness of a quadrature point that holds several tissues");
+  s.flag("materials.skin.membrane", c.skin.on, "skin resists stretch as a membrane");
+  s.number("materials.skin.c1_kpa", c.skin.c1, kModulus, "c1 of the skin membrane");
+  s.number("materials.skin.thickness_mm", c.skin.thickness, {0.1, 5, "mm"},
+           "thickness of the skin membrane");
+  s.choice("compress.chest_wall", c.boundary.chest_wall,
+           {{"sliding", ChestWall::sliding},
+            {"free", ChestWall::free},
+            {"clamped", ChestWall::clamped}},
+           "breast on the pectoral muscle: held on its surface against springs, freely, or fixed");
+  s.number("compress.chest_wall_spring_kpa_per_mm", c.boundary.chest_wall_spring,
+           {0, 10, "kPa/mm"}, "springs against sliding");
+  s.choice("compress.cut_faces", c.boundary.cut_faces,
+           {{"springs", CutFaces::springs}, {"free", CutFaces::free}, {"clamped", CutFaces::clamped}},
+           "where tissue goes on behind the model");
+  s.number("compress.cut_face_depth_mm", c.boundary.cut_face_depth, {1, 1000, "mm"},
+           "depth of the tissue behind a cut face: spring = shear modulus / depth");
+  s.number("compress.plate_rounding_mm", c.plate_rounding_mm, {0.5, 50, "mm"},
+           "radius of the plates' edges at the chest wall");
+  s.number("compress.wall_clearance_mm", c.wall_clearance_mm, {0, 60, "mm"},
+           "from the chest wall to the plates' edges");
+  s.number("compress.gap_tolerance_mm", c.options.gap_tolerance, {0.0001, 0.1, "mm"},
+           "largest penetration of a plate");
+}
+
+void declare_view(Settings& s, const std::string& view, ViewSettings& v) {
+  const std::string prefix = "views." + view + ".";
+  s.number(prefix + "thickness_mm", v.thickness_mm, {20, 120, "mm", "is it in cm?"},
+           "compressed thickness; default 0.45 of the free extent");
+  s.number(prefix + "angle_deg", v.angle_deg, {-90, 90, "deg"},
+           "positioner angle: the beam runs from superior-medial to inferior-lateral");
+  s.number(prefix + "lift_mm", v.lift_mm, {-50, 50, "mm"},
+           "how far the plates' middle lies above the breast's centroid");
+  const std::string detector = prefix + "detector.";
+  s.number(detector + "source_distance_mm", v.source_distance_mm, {300, 1500, "mm"},
+           "X-ray source to detector");
+  s.number(detector + "support_gap_mm", v.support_gap_mm, {0, 50, "mm"},
+           "detector to the support's surface");
+  s.number(detector + "pixel_spacing_mm", v.pixel_spacing_mm, {0.01, 2, "mm"},
+           "on the detector (ImagerPixelSpacing); without it positions are in mm only");
+  s.integer(detector + "columns", v.columns, {1, 20000}, "of the stored image");
+  s.integer(detector + "rows", v.rows, {1, 20000}, "of the stored image");
+  s.choice(detector + "chest_wall", v.chest_wall,
+           {{"left", ImageEdge::left}, {"right", ImageEdge::right}},
+           "image edge at the chest wall; default: left for a left breast");
+}
+
+}  // namespace mammotwin

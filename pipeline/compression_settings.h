@@ -1,0 +1,57 @@
+#pragma once
+
+#include "pipeline/frame/settings.h"
+#include "registration/detector.h"
+#include "segmentation/tissue.h"
+#include "solver/compress.h"
+
+#include <array>
+#include <optional>
+#include <string>
+
+namespace mammotwin {
+
+enum class LawName { neo_hookean, mooney_rivlin, exponential };
+
+/// One tissue's law and its constants; those that the law does not have are not used.
+struct LawSettings {
+  LawName law = LawName::neo_hookean;
+  double c1_kpa = 0;
+  double c2_kpa = 0;
+  double stiffening = 1;
+
+  std::shared_ptr<const Material> material() const;
+};
+
+/// What patient.toml says of tissue and of what holds it.
+struct CompressionSettings {
+  LawSettings fat{.c1_kpa = 0.75}, fibroglandular{.c1_kpa = 2.5}, lesion{.c1_kpa = 3.3};
+  Mixing mixing = Mixing::geometric;
+  SkinOptions skin;
+  BoundaryOptions boundary;
+  CompressionOptions options;
+  double plate_rounding_mm = PlateOptions{}.rounding;
+  double wall_clearance_mm = PlateOptions{}.wall_clearance;
+
+  TissueLaws laws() const;
+};
+
+/// What patient.toml says of one view.
+struct ViewSettings {
+  std::optional<double> thickness_mm;
+  double angle_deg = 0;
+  double lift_mm = 0;
+  double source_distance_mm = Detector{}.source_distance_mm;
+  double support_gap_mm = Detector{}.support_gap_mm;
+  std::optional<double> pixel_spacing_mm;
+  std::optional<int> columns, rows;
+  std::optional<ImageEdge> chest_wall;
+
+  /// Throws std::runtime_error if pixel spacing, columns and rows are given only in part.
+  Detector detector(const std::string& view, Side side) const;
+};
+
+void declare_compression(Settings& settings, CompressionSettings& compression);
+void declare_view(Settings& settings, const std::string& view, ViewSettings& values);
+
+}  // namespace mammotwin

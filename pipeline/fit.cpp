@@ -1,0 +1,42 @@
+// fit: tissue labels -> tri-cubic Hermite mesh of the breast.
+
+#include "fitting/fit_breast.h"
+
+#include "pipeline/fit_quality.h"
+#include "pipeline/frame/stage.h"
+#include "segmentation/segmentation_file.h"
+
+namespace mammotwin {
+namespace {
+
+struct Arguments {
+  std::filesystem::path segmentation, fractions, mesh;
+};
+
+void declare(StageDeclaration& stage, Arguments& args) {
+  stage.input("segmentation", args.segmentation, "tissue labels from segment (.seg.nrrd)");
+  stage.input("fractions", args.fractions, "tissue fractions from segment (.nrrd)");
+  stage.product("mesh", args.mesh, "Hermite mesh to write (.vtu; an .exf beside it)");
+  stage.options_from("fit.", true);
+}
+
+StagePlan plan(const Arguments&, const Patient&) { return {{}, {"fit."}}; }
+
+Outcome run(const Arguments& args, StageRun& stage) {
+  const Segmentation segmentation = read_segmentation(args.segmentation, args.fractions);
+  const auto [mesh, report] = fit_breast(segmentation, stage.patient.fit, stage.progress);
+  if (report.usable()) {
+    write_mesh_file(stage.products.write_main(), mesh);
+    write_exf(stage.products.write(args.mesh.stem().string() + ".exf"), mesh.mesh);
+  }
+  return judge_fit(report);
+}
+
+}  // namespace
+}  // namespace mammotwin
+
+int main(int argc, char** argv) {
+  using namespace mammotwin;
+  return run_stage(argc, argv, "fit", "tissue labels -> tri-cubic Hermite mesh of the breast",
+                   declare, plan, run);
+}

@@ -1,0 +1,121 @@
+#include "tests/pipeline/patient_case.h"
+
+#include <sys/mount.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+namespace mammotwin {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A breast that needs no image: half an ellipsoid of fat on a slab of muscle, with a skin, in 3 mm
+/// voxels, as a label map in NRRD. Labels: 1 fat, 3 skin, 4 muscle.
+std::string dome_nrrd() {
+  constexpr int nx = 60, ny = 50, nz = 60;
+  std::string voxels(nx * ny * nz, '\0');
+  for (int k = 0; k < nz; ++k)
+    for (int j = 0; j < ny; ++j)
+      for (int i = 0; i < nx; ++i) {
+        const double x = 3 * (i - 29.5), z = 3 * (k - 29.5), y = 3 * (40 - j);
+        const double outer = x * x / 3600 + z * z / 3600 + y * y / 6400;
+        const double inner = x * x / 3249 + z * z / 3249 + y * y / 5929;
+        const bool chest = j >= 38;  // chest wall 6 mm in front of y = 0
+        char label = 0;
+        if (chest) label = j >= 40 ? 4 : j == 38 && outer > 1 ? 3 : 1;
+        else if (outer < 1) label = inner < 1 ? 1 : 3;
+        voxels[(k * ny + j) * nx + i] = label;
+      }
+  return "NRRD0004\ntype: uint8\ndimension: 3\nspace: left-posterior-superior\nsizes: 60 50 60\n"
+         "space directions: (3,0,0) (0,3,0) (0,0,3)\nkinds: domain domain domain\nencoding: raw\n"
+         "space origin: (-88.5,-120,-88.5)\n\n" + voxels;
+}
+
+const std::string kLabels = "side = \"left\"\n[labels]\npath = \"dome.nrrd\"\nair = [0]\nfat = [1]\n"
+                            "skin = [3]\nmuscle = [4]\n";
+
+class BadInput : public PatientCase {
+ protected:
+  /// The breast without an image, with more lines of patient.toml after it.
+  void dome(const std::string& name, const std::string& more) {
+    std::ofstream(patient(name, kLabels + more) / "dome.nrrd", std::ios::binary) << dome_nrrd();
+  }
+  void expect_refused(const std::string& name, const std::vector<std::string>& parts,
+                      const std::string& stage = "patient", int code = 1) {
+    const CommandResult result = run(stage, name);
+    EXPECT_EQ(result.exit_code, code) << result.text;
+    for (const std::string& part : parts)
+      EXPECT_NE(result.text.find(part), std::string::npos) << "no \"" << part << "\" in\n"
+                                                           << result.text;
+    EXPECT_FALSE(fs::exists(results() / name / "lesions.csv"));
+  }
+};
+
+TEST_F(BadInput, AMissingImageIsNamed) {
+  patient("a", "[mri]\npath = \"none.nii.gz\"\n");
+  expect_refused("a", {"none.nii.gz: no such file"});
+}
+
+TEST_F(BadInput, AnEmptyFolderIsNamed) {
+  fs::create_directory(patient("a", "[mri]\npath = \"mri\"\n") / "mri");
+  expect_refused("a", {"mri", "empty"});
+}
+
+TEST_F(BadInput, AnUnknownKeyNamesTheNearestOne) {
+  dome("a", "[views.cc]\nthicknes_mm = 55\n");
+  expect_refused("a", {"patient.toml", "unknown key views.cc.thicknes_mm",
+                       "views.cc.thickness_mm"});
+}
+
+TEST_F(BadInput, AThicknessOfZeroIsRefusedWithItsRange) {
+  dome("a", "[views.cc]\nthickness_mm = 0\n");
+  expect_refused("a", {"views.cc.thickness_mm is 0; expected 20 to 120 mm"});
+}
+
+TEST_F(BadInput, AThicknessLargerThanTheBreastIsRefused) {
+  dome("a", "[fit]\nelements = [4, 4, 1]\n[views.cc]\nthickness_mm = 120\n");
+  expect_refused("a", {"120", "mm"});
+  EXPECT_EQ(sidecar("a", "cc.vtu")["status"], "refused");
+  EXPECT_FALSE(fs::exists(results() / "a" / "cc.vtu"));
+  EXPECT_TRUE(fs::exists(results() / "a" / "report.html")) << "the page is still written";
+}
+
+TEST_F(BadInput, ALesionOutsideTheBreastIsRefused) {
+  dome("a", "[[lesions]]\npoint_lps_mm = [0, -200, 0]\nradius_mm = 6\n");
+  expect_refused("a", {"L1", "outside"}, "segment");
+}
+
+TEST_F(BadInput, ATruncatedImageIsNamed) {
+  const std::string whole = dome_nrrd();
+  const auto folder = patient("a", "[mri]\npath = \"cut.nrrd\"\n");
+  std::ofstream(folder / "cut.nrrd", std::ios::binary) << whole.substr(0, whole.size() / 2);
+  expect_refused("a", {"cut.nrrd"}, "segment");
+}
+
+TEST_F(BadInput, AResultsFolderThatCannotBeWrittenIsNamed) {
+  dome("a", "");
+  write("results", "a file, where a folder is needed");
+  expect_refused("a", {"results folder cannot be written"}, "segment");
+}
+
+TEST_F(BadInput, AFullDiskLeavesNothingHalfWritten) {
+  if (geteuid() != 0) GTEST_SKIP() << "mounting a small file system needs root";
+  dome("a", "");
+  fs::create_directories(results());
+  if (mount("tmpfs", results().c_str(), "tmpfs", 0, "size=16k") != 0)
+    GTEST_SKIP() << "a small file system cannot be mounted here";
+  const CommandResult result = run("segment", "a");
+  std::vector<std::string> left;
+  for (const auto& entry : fs::recursive_directory_iterator(results()))
+    if (entry.is_regular_file()) left.push_back(entry.path().filename().string());
+  umount2(results().c_str(), MNT_DETACH);
+  EXPECT_EQ(result.exit_code, 1) << result.text;
+  for (const std::string& name : left)
+    EXPECT_EQ(name, "segmentation.seg.nrrd.json") << "half-written";
+}
+
+}  // namespace
+}  // namespace mammotwin

@@ -1,0 +1,40 @@
+#pragma once
+
+#include "tests/pipeline/command.h"
+#include "tests/pipeline/scratch_folder.h"
+
+#include <nlohmann/json.hpp>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+namespace mammotwin {
+
+/// A folder of patients and one of results, and `make patient`'s script on them.
+class PatientCase : public ScratchFolder {
+ protected:
+  /// Writes `toml` for a patient and returns the patient's folder.
+  std::filesystem::path patient(const std::string& name, const std::string& toml) {
+    const auto folder = data() / name;
+    std::filesystem::create_directories(folder);
+    std::ofstream(folder / "patient.toml") << toml;
+    return folder;
+  }
+
+  CommandResult run(const std::string& stage, const std::string& name) {
+    return run_command({MAMMOTWIN_SOURCE_DIR "/pipeline/run_patient.sh", stage},
+                       {"P=" + name, "DATA=" + data().string(), "RESULTS=" + results().string(),
+                        "BIN=" MAMMOTWIN_BIN});
+  }
+
+  std::filesystem::path data() const { return folder_ / "data"; }
+  std::filesystem::path results() const { return folder_ / "results"; }
+
+  nlohmann::json sidecar(const std::string& name, const std::string& product) const {
+    std::ifstream in(results() / name / (product + ".json"));
+    return in ? nlohmann::json::parse(in) : nlohmann::json();
+  }
+};
+
+}  // namespace mammotwin

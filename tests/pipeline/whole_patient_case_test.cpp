@@ -1,0 +1,113 @@
+// The synthetic patient of sample_data/ from MRI to lesion positions, against its truth.
+
+#include "tests/pipeline/patient_case.h"
+
+#include <Eigen/Core>
+
+#include <map>
+#include <regex>
+
+namespace mammotwin {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+Eigen::Vector3d vector_of(const json& list) { return {list[0], list[1], list[2]}; }
+
+/// Time of last change of every product: what did not run again keeps it.
+std::map<std::string, fs::file_time_type> times(const fs::path& folder) {
+  std::map<std::string, fs::file_time_type> times;
+  for (const auto& entry : fs::directory_iterator(folder))
+    times[entry.path().filename().string()] = fs::last_write_time(entry.path());
+  return times;
+}
+
+class Patient042 : public PatientCase {
+ protected:
+  void SetUp() override {
+    fs::create_directories(data());
+    fs::copy(MAMMOTWIN_SOURCE_DIR "/sample_data/042", data() / "042",
+             fs::copy_options::recursive);
+  }
+  void replace_in_toml(const std::string& pattern, const std::string& with) {
+    const fs::path toml = data() / "042" / "patient.toml";
+    const std::string before = text_of(toml);
+    const std::string after = std::regex_replace(before, std::regex(pattern), with);
+    ASSERT_NE(before, after) << "nothing in patient.toml is " << pattern;
+    std::ofstream(toml) << after;
+  }
+  json quality(const std::string& product) const { return sidecar("042", product)["quality"]; }
+
+  void expect_truth();
+  void expect_sane_compression(const std::string& view);
+  void expect_nothing_runs_again();
+  void expect_only_changed(const std::string& what, const std::vector<std::string>& changed);
+};
+
+void Patient042::expect_truth() {
+  const json truth = json::parse(std::ifstream(data() / "042" / "truth.json"));
+  const json found = quality("segmentation.seg.nrrd")["lesions"];
+  ASSERT_EQ(found.size(), truth["lesions"].size());
+  for (std::size_t n = 0; n < found.size(); ++n)
+    EXPECT_LE((vector_of(found[n]["centroid_lps_mm"]) -
+               vector_of(truth["lesions"][n]["centroid_lps_mm"])).norm(), 2.0)
+        << "lesion " << n;
+  EXPECT_LE(quality("prone.vtu")["skin_rms_mesh_to_data_mm"], 1.0);
+  EXPECT_LE(quality("prone.vtu")["skin_rms_data_to_mesh_mm"], 1.0);
+  EXPECT_GT(quality("prone.vtu")["min_jacobian_bound"], 0);
+  EXPECT_GE(quality("prone.vtu")["covered_fraction"], 0.97);
+}
+
+void Patient042::expect_sane_compression(const std::string& view) {
+  const json q = quality(view + ".vtu");
+  EXPECT_NEAR(q["thickness_mm"].get<double>(), q["target_thickness_mm"].get<double>(), 0.1) << view;
+  EXPECT_LE(std::abs(q["volume_change"].get<double>()), 0.01) << view;
+  EXPECT_LE(q["max_penetration_mm"], 0.1) << view;
+}
+
+void Patient042::expect_nothing_runs_again() {
+  const auto before = times(results() / "042");
+  const CommandResult again = run("patient", "042");
+  EXPECT_EQ(again.exit_code, 0) << again.text;
+  EXPECT_EQ(times(results() / "042"), before);
+  for (const char* product : {"segmentation.seg.nrrd", "prone.vtu", "cc.vtu", "mlo.vtu",
+                              "lesions.csv", "report.html"})
+    EXPECT_NE(again.text.find(std::string(product) + " is up to date"), std::string::npos)
+        << again.text;
+}
+
+void Patient042::expect_only_changed(const std::string& what,
+                                     const std::vector<std::string>& changed) {
+  const auto before = times(results() / "042");
+  const CommandResult result = run("patient", "042");
+  ASSERT_EQ(result.exit_code, 0) << result.text;
+  for (const auto& [name, time] : times(results() / "042")) {
+    const bool expected = std::find(changed.begin(), changed.end(), name) != changed.end();
+    const bool ran = before.count(name) == 0 || before.at(name) != time;
+    EXPECT_EQ(ran, expected) << name << " after a change of " << what;
+  }
+}
+
+TEST_F(Patient042, FromMriToLesionPositions) {
+  const CommandResult first = run("patient", "042");
+  ASSERT_EQ(first.exit_code, 0) << first.text;
+  EXPECT_NE(first.text.find("Predicted lesion positions"), std::string::npos);
+  expect_truth();
+  expect_sane_compression("cc");
+  expect_sane_compression("mlo");
+
+  const std::string table = text_of(results() / "042" / "lesions.csv");
+  for (const char* row : {"042,L1,cc,", "042,L1,mlo,", "042,L2,cc,", "042,L2,mlo,"})
+    EXPECT_NE(table.find(row), std::string::npos) << table;
+
+  expect_nothing_runs_again();
+  replace_in_toml("angle_deg = [0-9.]+", "angle_deg = 50");
+  expect_only_changed("the MLO angle",
+                      {"mlo.vtu", "mlo.vtu.json", "lesions.csv", "lesions.csv.json",
+                       "lesions_prone.mrk.json", "lesions_cc.mrk.json", "lesions_mlo.mrk.json",
+                       "report.html", "report.html.json"});
+}
+
+}  // namespace
+}  // namespace mammotwin
