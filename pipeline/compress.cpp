@@ -8,6 +8,8 @@
 #include "segmentation/mean_fractions.h"
 #include "segmentation/segmentation_file.h"
 
+#include <Eigen/Geometry>
+
 namespace mammotwin {
 namespace {
 
