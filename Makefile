@@ -3,6 +3,7 @@
 DATA ?= sample_data
 RESULTS ?= results
 PREFIX ?= /usr/local
+CASES ?= ../shared/cases
 BIN := build/release/bin
 # Taken as they stand: nothing in them is expanded by make, and recipes see them only as "$$P".
 override P := $(value P)
@@ -14,10 +15,12 @@ override ONLY := $(value ONLY)
 override ENGINE := $(value ENGINE)
 override CONFIG := $(value CONFIG)
 override PREFIX := $(value PREFIX)
-export P DATA RESULTS FORCE BIN SEED PATIENTS JOBS ONLY ENGINE CONFIG PREFIX
+override CASES := $(value CASES)
+export P DATA RESULTS FORCE BIN SEED PATIENTS JOBS ONLY ENGINE CONFIG PREFIX CASES
 unexport MAKEFLAGS MAKEOVERRIDES
 
 .PHONY: help patient segment fit compress register report synthesize cohort verify-results build \
+        evaluate-fitting \
         install test clean
 .DEFAULT_GOAL := help
 
@@ -29,6 +32,7 @@ help:
 	@echo 'make cohort            every patient of DATA (or PATIENTS="042 043"): cohort.tsv, failed.tsv,'
 	@echo '                       cohort.html; JOBS=4 at a time, ONLY=failed, ENGINE=slurm, CONFIG=file'
 	@echo 'make verify-results P=042   are all files still those that were written?'
+	@echo 'make evaluate-fitting  fits every breast of CASES=folder: RESULTS/evaluation/fitting.json'
 	@echo 'make install PREFIX=/usr/local   programs, manual pages, completion, libraries'
 	@echo 'make test              all tests'
 	@echo 'make clean             removes build/ (results stay)'
@@ -42,6 +46,9 @@ patient segment fit compress register report synthesize: build
 
 cohort: build
 	@pipeline/cohort/run_cohort.sh
+
+evaluate-fitting: build
+	@"$$BIN/mammotwin-evaluate-fitting" "$$CASES" "$$RESULTS/evaluation/fitting.json"
 
 verify-results: build
 	@pipeline/cohort/verify_patient.sh

@@ -112,7 +112,7 @@ class Fit {
   }
 
  private:
-  static constexpr double smallest_gain = 1e-3;  // of the cost: below, steps change no figure
+  static constexpr double smallest_gain = 3e-4;  // of the cost, of which about 1 is energy that no fit can lose
 
   Slab slab_;
   HermiteMesh start_;
@@ -166,9 +166,11 @@ void judge(const FitReport& r, std::string& status, std::vector<std::string>& re
   status = reasons.empty() ? "ok" : "look";
 }
 
-void measure(const MeshFile& file, const Segmentation& s, const ChestWall& wall, FitReport& r) {
+void measure(MeshFile& file, const Segmentation& s, const ChestWall& wall, FitReport& r) {
+  const TriangleSurface labelled = skin_as_labelled(s, wall);
   const SurfaceDistances skin =
-      surface_distances(file.mesh, file.faces, FaceLabel::skin, skin_as_labelled(s, wall));
+      surface_distances(file.mesh, file.faces, FaceLabel::skin, labelled);
+  file.fields["skin_distance_mm"] = skin_distance_field(file, labelled);
   r.skin_rms_mesh_to_data_mm = skin.rms_mesh_to_data;
   r.skin_rms_data_to_mesh_mm = skin.rms_data_to_mesh;
   r.skin_p95_mm = skin.p95;

@@ -72,6 +72,16 @@ SurfaceDistances surface_distances(const HermiteMesh& mesh, const std::vector<Fa
   return result;
 }
 
+PointField skin_distance_field(const MeshFile& file, const TriangleSurface& data) {
+  const ClosestPoint closest(data);
+  return interpolate_field(file.mesh, [&](const MeshPoint& p) {
+    if (p.xi.z() < 1 || file.faces[p.element][5] != FaceLabel::skin) return 0.0;
+    const Eigen::Vector3d x = file.mesh.position(p);
+    const ClosestPoint::Hit hit = closest(x);
+    return std::copysign((x - hit.x).norm(), (x - hit.x).dot(hit.normal));
+  });
+}
+
 double rms_to_faces(const HermiteMesh& mesh, const std::vector<FaceLabels>& faces,
                     FaceLabel label, const std::vector<Eigen::Vector3d>& points) {
   if (points.empty()) return 0;

@@ -19,6 +19,10 @@ struct SurfaceDistances {
 SurfaceDistances surface_distances(const HermiteMesh& mesh, const std::vector<FaceLabels>& faces,
                                    FaceLabel label, const TriangleSurface& data);
 
+/// Signed distance [mm] to a triangle surface (positive outside of it) on the mesh's skin, 0 on its
+/// other faces: something to look at.
+PointField skin_distance_field(const MeshFile& file, const TriangleSurface& data);
+
 /// Root mean square distance [mm] of points to the mesh's faces of one label.
 double rms_to_faces(const HermiteMesh& mesh, const std::vector<FaceLabels>& faces,
                     FaceLabel label, const std::vector<Eigen::Vector3d>& points);

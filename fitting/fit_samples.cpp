@@ -14,7 +14,7 @@ namespace {
 constexpr int skin_samples = 8;  // a side of a face, mesh to data
 constexpr int wall_samples = 7;  // a side of a face
 // Beyond this the labelled wall is taken for an error (a tumour in the muscle) and loses weight.
-constexpr double wall_trust_mm = 2;
+constexpr double wall_trust_mm = 10;
 
 /// Coordinate that is constant along edge 0 to 3 (u = 0, u = 1, v = 0, v = 1).
 int held_coordinate(int edge) { return edge / 2; }

@@ -19,6 +19,10 @@ namespace {
 
 using Mask = Volume<std::uint8_t>;
 
+/// Thickness [mm] that a column without any tissue is given: a region that was pushed out to hold
+/// a lesion may have some, and a slab cannot be nothing thick there.
+constexpr double empty_column_mm = 5;
+
 /// First and last index along x (axis 0) or z (axis 2) whose plane holds any label.
 std::array<int, 2> labelled_range(const Mask& labels, int axis) {
   std::array<int, 2> range = {labels.size[axis], -1};
@@ -49,10 +53,14 @@ Mask body_in_window(const Mask& labels, const BreastRegion& region, const Height
       const Eigen::Vector3d column = body.position(i, 0, k);
       const double wall_y = wall(column.x(), column.z());
       const int from_i = std::clamp(i + i0, xs[0], xs[1]), from_k = std::clamp(k + k0, zs[0], zs[1]);
+      bool any = false;
       for (int j = 0; j < body.size.y(); ++j) {
         const bool labelled = j >= front && labels(from_i, j - front, from_k) != label::air;
+        any = any || labelled;
         body(i, j, k) = labelled || body.position(i, j, k).y() > wall_y;
       }
+      for (int j = 0; j < body.size.y() && !any; ++j)
+        body(i, j, k) = body.position(i, j, k).y() > wall_y - empty_column_mm;
     }
   });
   return body;

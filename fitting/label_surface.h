@@ -7,7 +7,8 @@ namespace mammotwin {
 
 /// What is cut out of the labels: everything but the air that reaches the front, so that
 /// overhanging skin is kept; behind the chest wall all is solid. 1 solid, 0 air. The window holds
-/// the region and a margin; where the labels end there, the outermost column goes on.
+/// the region and a margin; where the labels end there, the outermost column goes on. Columns
+/// without any label are solid from 5 mm in front of the wall.
 struct SolidOptions {
   int closing_voxels = 0;  ///< radius of the ball that closes gaps in the body first
   double margin_mm = 8;

@@ -1,5 +1,6 @@
 #include "fitting/fit_breast.h"
 
+#include "fitting/mesh/bezier.h"
 #include "fitting/mesh/jacobian_bound.h"
 #include "tests/fitting/dome.h"
 
@@ -7,6 +8,7 @@
 
 #include <tbb/global_control.h>
 
+#include <algorithm>
 #include <stdexcept>
 
 namespace mammotwin {
@@ -46,6 +48,22 @@ TEST(FitBreast, SideFacesLieInTheRegionsPlanes) {
       EXPECT_NEAR(mesh.position({e, {0, a, 0.4}}).x(), s.region.x_min, 1e-10);
       EXPECT_NEAR(mesh.position({e + 3, {1, a, 0.4}}).x(), s.region.x_max, 1e-10);
     }
+}
+
+TEST(FitBreast, PaintsTheDistanceToTheLabelsOnTheSkin) {
+  const MeshFile& file = fit_of_bell().mesh;
+  const PointField& field = file.fields.at("skin_distance_mm");
+  const BezierMesh bezier(file.mesh);
+  ASSERT_EQ(field.values.size(), bezier.points.size());
+  double low = 0, high = 0;
+  for (int e = 16; e < 32; ++e)  // the layer under the skin; its corners hold samples
+    for (int corner : {48, 51, 60, 63}) {
+      low = std::min(low, field.values[bezier.elements[e][corner]]);
+      high = std::max(high, field.values[bezier.elements[e][corner]]);
+    }
+  EXPECT_LT(low, 0);
+  EXPECT_GT(high, 0);
+  EXPECT_LE(std::max(-low, high), fit_of_bell().report.skin_max_mm + 1e-9);
 }
 
 TEST(FitBreast, LabelsItsFaces) {
