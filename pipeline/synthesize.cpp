@@ -6,7 +6,7 @@
 
 #include "pipeline/frame/process.h"
 #include "pipeline/frame/products.h"
-#include "pipeline/frame/stage.h"
+#include "pipeline/frame/stage_declaration.h"
 #include "pipeline/synthesize/nrrd_file.h"
 #include "pipeline/synthesize/option_table.h"
 #include "pipeline/synthesize/patient_files.h"

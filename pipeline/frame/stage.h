@@ -1,6 +1,5 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -10,37 +9,10 @@
 #include "pipeline/frame/products.h"
 #include "pipeline/frame/progress_line.h"
 #include "pipeline/frame/settings.h"
+#include "pipeline/frame/stage_declaration.h"
 #include "pipeline/patient.h"
 
 namespace mammotwin {
-
-/// What a stage needs on its command line: inputs, then the product, as positional paths; options
-/// from the settings that concern it.
-class StageDeclaration {
- public:
-  StageDeclaration(CLI::App& app, Settings& settings) : app_(app), settings_(settings) {}
-
-  void input(const std::string& name, std::filesystem::path& variable, const std::string& help);
-  void product(const std::string& name, std::filesystem::path& variable, const std::string& help);
-  /// Every setting below `prefix` becomes an option: `prefix` is cut off if it is the stage's own,
-  /// dots and underscores become dashes.
-  void options_from(const std::string& prefix, bool cut_prefix);
-  CLI::App& app() { return app_; }
-
-  struct Given {
-    std::string flag, key, text;
-  };
-  const std::vector<std::filesystem::path*>& inputs() const { return inputs_; }
-  std::filesystem::path& product_path() const { return *product_; }
-  std::vector<Given> given() const;
-
- private:
-  CLI::App& app_;
-  Settings& settings_;
-  std::vector<std::filesystem::path*> inputs_;
-  std::filesystem::path* product_ = nullptr;
-  std::vector<std::shared_ptr<Given>> options_;
-};
 
 /// What the stage is going to read besides its positional inputs, and which settings it depends on.
 struct StagePlan {
