@@ -34,7 +34,7 @@ struct Shape {
 const std::map<std::string, Shape> kShapes{{"segment", {0, {"fractions.nrrd", "mri.nrrd"}}},
                                            {"fit", {2, {"prone.exf"}}},
                                            {"compress", {3, {}}},
-                                           {"register", {3, {"lesions_prone.mrk.json"}}},
+                                           {"register", {4, {"lesions_prone.mrk.json"}}},
                                            {"report", {0, {}}}};
 
 fs::path mri_of(const Patient& patient) { return patient.segment_files().at(0); }
