@@ -15,24 +15,43 @@ void add(NewtonReport& total, const NewtonReport& part) {
   total.indefinite = indefinite;
 }
 
-/// Newton with the curvature's pressures capped, which only has to come near.
-NewtonReport approach(Newton& newton, const NewtonOptions& options, State& state) {
-  NewtonOptions near = options;
-  near.tolerance = 1e-3;
-  near.constraint_tolerance = 1e-2;
-  return newton.solve(state, near);
+/// Newton without the part of the tangent that a curved plate's pressure gives, t ∂²gap/∂x²: far
+/// from equilibrium t is the violation's and not the tissue's, and makes the matrix indefinite at
+/// strains where nothing is unstable.
+NewtonReport without_curvature(Newton& newton, PlateContact& contact, const NewtonOptions& options,
+                               State& state) {
+  const double cap = contact.curvature_pressure;
+  contact.curvature_pressure = 0;
+  const NewtonReport report = newton.solve(state, options);
+  contact.curvature_pressure = cap;
+  return report;
+}
+
+/// Only has to come near.
+NewtonReport approach(Newton& newton, PlateContact& contact, NewtonOptions options, State& state) {
+  options.tolerance = 1e-3;
+  options.constraint_tolerance = 1e-2;
+  return without_curvature(newton, contact, options, state);
 }
 
 }  // namespace
 
 NewtonReport resettle(Newton& newton, PlateContact& contact, const NewtonOptions& options,
                       State& state) {
-  NewtonReport total = approach(newton, options, state);
+  constexpr int few = 8;  // quadratic convergence from nearby takes 3 to 5
+  NewtonReport total = approach(newton, contact, options, state);
   if (!total.usable()) return total;
+  NewtonOptions quick = options;
+  quick.max_iterations = few;
   const double cap = contact.curvature_pressure;
   contact.curvature_pressure = std::numeric_limits<double>::infinity();
-  add(total, newton.solve(state, options));
+  State trial = state;
+  add(total, newton.solve(trial, quick));
   contact.curvature_pressure = cap;
+  if (total.usable())
+    state = std::move(trial);
+  else  // linear convergence instead
+    add(total, without_curvature(newton, contact, options, state));
   return total;
 }
 
@@ -43,7 +62,7 @@ NewtonReport solve_contact(Newton& newton, PlateContact& contact, double unit,
     const bool last = factor >= options.last * (1 - 1e-9);
     contact.penalty = factor * unit;
     add(total, last ? resettle(newton, contact, options.newton, state)
-                    : approach(newton, options.newton, state));
+                    : approach(newton, contact, options.newton, state));
     if (last || !total.usable()) return total;
   }
 }
