@@ -127,4 +127,20 @@ Volume<std::uint8_t> cut_rim(const Volume<float>& image, const Volume<std::uint8
   return largest_component(out);
 }
 
+Volume<float> signed_depth(const Volume<std::uint8_t>& mask, double reach) {
+  constexpr double widths = 2.2, step_mm = 0.05;  // the Gaussian is cut at 3 widths
+  const double sigma = reach / widths;
+  std::vector<float> share;  // inside, at depth -reach, -reach + step, ...
+  for (double d = -reach; d <= reach; d += step_mm)
+    share.push_back(static_cast<float>(0.5 * std::erfc(-d / (std::sqrt(2.0) * sigma))));
+  auto depth = mask.like<float>(0);
+  for (std::size_t v = 0; v < mask.values.size(); ++v) depth.values[v] = mask.values[v];
+  depth = gaussian_smoothed(std::move(depth), sigma);
+  for (float& value : depth.values) {
+    const auto n = std::lower_bound(share.begin(), share.end(), value) - share.begin();
+    value = static_cast<float>(std::min(reach, -reach + static_cast<double>(n) * step_mm));
+  }
+  return depth;
+}
+
 }  // namespace mammotwin

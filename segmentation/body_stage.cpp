@@ -94,7 +94,8 @@ BodyStage find_body(const Volume<float>& image, SegmentQuality& quality) {
   stage.depth = depth_below_surface(stage.body);
   quality.contrast = stage.contrast.fat_suppressed ? "fat-suppressed" : "not fat-suppressed";
   quality.signal_to_noise =
-      subcutaneous_fat(stage.image, stage.depth, stage.frame) / std::max(noise, 1e-6);
+      subcutaneous_fat(stage.image, stage.depth, stage.frame, stage.contrast.fat_suppressed) /
+      std::max(noise, 1e-6);
   return stage;
 }
 

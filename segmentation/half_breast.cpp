@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "segmentation/body_mask.h"
 #include "segmentation/distance.h"
 #include "segmentation/half_body.h"
 #include "segmentation/n4.h"
@@ -78,6 +79,14 @@ void correct_by_n4(Volume<float>& image, const Volume<std::uint8_t>& where) {
   });
 }
 
+/// The breast away from skin and wall.
+Volume<std::uint8_t> pure_interior(const HalfBreast& half) {
+  auto where = half.inside;
+  for (std::size_t v = 0; v < where.values.size(); ++v)
+    where.values[v] &= half.depth.values[v] > skin_mm && half.above_wall.values[v] > wall_mm;
+  return where;
+}
+
 /// The image with 60 mm of bias taken out and the median of what lies in `where` at 1.
 Volume<float> corrected_widely(Volume<float> image, const Volume<float>& log_bias,
                                const Volume<std::uint8_t>& where) {
@@ -115,13 +124,13 @@ HalfBreast cut_half(const BodyStage& body, const WallStage& wall, Side side) {
       }
   });
   half.above_wall = distance_to(behind);
-  auto where = half.inside;
-  for (std::size_t v = 0; v < where.values.size(); ++v)
-    where.values[v] &= half.depth.values[v] > skin_mm && half.above_wall.values[v] > wall_mm;
-  half.widely_corrected =
-      corrected_widely(cropped(body.image, crop.low, crop.high), wall.wide_log_bias, where);
-  correct_by_n4(half.image, where);
+  constexpr double skin_reach_mm = 5.5;
+  half.skin_depth = signed_depth(half.body, skin_reach_mm);
+  half.widely_corrected = corrected_widely(cropped(body.image, crop.low, crop.high),
+                                           wall.wide_log_bias, pure_interior(half));
   return half;
 }
+
+void correct_shading(HalfBreast& half) { correct_by_n4(half.image, pure_interior(half)); }
 
 }  // namespace mammotwin

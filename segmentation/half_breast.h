@@ -13,10 +13,14 @@ struct HalfBreast {
   Volume<std::uint8_t> body;
   Volume<std::uint8_t> inside;  ///< body in front of the chest wall
   Volume<float> depth;          ///< below the skin [mm]
+  Volume<float> skin_depth;     ///< the same between the voxels, right up to 5.5 mm
   Volume<float> above_wall;     ///< distance to what lies behind the chest wall [mm]
 };
 
-/// Cuts out one side and refines its bias by N4 in the breast, away from skin and wall.
+/// Cuts out one side.
 HalfBreast cut_half(const BodyStage& body, const WallStage& wall, Side side);
+
+/// Refines the bias by N4 in the breast, away from skin and wall.
+void correct_shading(HalfBreast& half);
 
 }  // namespace mammotwin

@@ -71,12 +71,16 @@ void judge(const FoundLesion& found, const PlacedSeed& seed, bool brighter,
 
 }  // namespace
 
+void check_seeds(const HalfBreast& half, const std::vector<PlacedSeed>& seeds) {
+  if (seeds.empty()) return;
+  const Volume<float> to_inside = distance_to(half.inside);
+  for (const PlacedSeed& seed : seeds) check_inside(half, to_inside, seed);
+}
+
 Volume<std::uint8_t> find_lesions(const HalfBreast& half, const std::vector<PlacedSeed>& seeds,
                                   bool fat_suppressed, const SegmentOptions& options,
                                   SegmentQuality& quality) {
   auto lesions = half.body.like<std::uint8_t>(0);
-  if (seeds.empty()) return lesions;
-  const Volume<float> to_inside = distance_to(half.inside);
   constexpr double below_skin_mm = 2.5;  // skin is as bright as a lesion
   auto allowed = half.inside;
   for (std::size_t v = 0; v < allowed.values.size(); ++v)
@@ -85,7 +89,6 @@ Volume<std::uint8_t> find_lesions(const HalfBreast& half, const std::vector<Plac
   for (std::size_t n = 0; n < seeds.size(); ++n) {
     const PlacedSeed& seed = seeds[n];
     const auto value = static_cast<std::uint8_t>(label::lesion + n);
-    check_inside(half, to_inside, seed);
     if (seed.radius_mm || seed.mask) {
       if (paint_given(seed, value, half, lesions) == 0)
         throw std::runtime_error("lesion " + seed.id +

@@ -108,18 +108,23 @@ class WallCost {
       const double outside = muscle.mean(d, std::min(d + outside_mm, ray.exit - 2));
       const double region = (outside - inside) / strongest_;
       const double step = logs.mean(d, d + edge_mm) - logs.mean(d - edge_mm, d);
-      const double edge = std::clamp(-step / log_muscle_, -1.5, 1.5);
+      const double edge = std::clamp(-step / log_muscle_, -1.0, 1.0);
       const double dark_mm = darks.sum(d + 1, ray.exit - below_skin_mm);
       cost[d] = static_cast<float>(0.5 * region - 2 * edge + dark_mm / 10);
     }
   }
 
  private:
-  /// log p(muscle) - log p(fat), cut at +-3; both classes have the same spread.
+  /// log p(muscle) - log p(fat), cut at +-3; both classes have the same spread. What is like
+  /// neither (lung, vessels) says nothing: a hundredth of the peak is there for it.
   float muscle_over_fat(float log_intensity) const {
     constexpr double spread = 0.2;  // of log intensity: noise, texture and what bias is left
-    const double to_fat = log_intensity, to_muscle = log_intensity - log_muscle_;
-    const double ratio = (to_fat * to_fat - to_muscle * to_muscle) / (2 * spread * spread);
+    constexpr double neither = 0.01;
+    const auto likelihood = [&](double mean) {
+      const double d = (log_intensity - mean) / spread;
+      return std::exp(-0.5 * d * d) + neither;
+    };
+    const double ratio = std::log(likelihood(log_muscle_) / likelihood(0));
     return static_cast<float>(std::clamp(ratio, -strongest_, strongest_));
   }
 

@@ -6,7 +6,7 @@
 namespace mammotwin {
 namespace {
 
-constexpr double beta = 25, least_weight = 1e-4;
+constexpr double beta = 100, least_weight = 1e-5;
 constexpr int most_iterations = 400;
 constexpr double relative_residual = 1e-5;
 

@@ -121,7 +121,9 @@ SegmentResult segment_image(const Mri& mri, const SegmentInput& input,
   judge_symmetry(body, wall, result.quality);
 
   progress(0.60, "correcting the coil's shading");
-  const HalfBreast half = cut_half(body, wall, side);
+  HalfBreast half = cut_half(body, wall, side);
+  check_seeds(half, seeds);
+  correct_shading(half);
   progress(0.80, "finding the lesions");
   const Volume<std::uint8_t> lesions =
       find_lesions(half, seeds, body.contrast.fat_suppressed, options, result.quality);

@@ -5,12 +5,12 @@
 #include <cmath>
 #include <vector>
 
-#include "segmentation/distance.h"
+#include "segmentation/body_mask.h"
 
 namespace mammotwin {
 namespace {
 
-constexpr double bin_mm = 0.25, outermost_mm = -3, innermost_mm = 8;
+constexpr double bin_mm = 0.25, outermost_mm = -3, innermost_mm = 5.5;
 constexpr double thinnest_mm = 0.5, thickest_mm = 5, thickness_step_mm = 0.05;
 constexpr std::size_t least_in_bin = 50;
 
@@ -21,15 +21,12 @@ struct Profile {
 
 Profile median_profile(const Volume<float>& image, const Volume<std::uint8_t>& body,
                        const Volume<std::uint8_t>& where) {
-  auto outside = body;
-  for (std::uint8_t& value : outside.values) value = !value;
-  const Volume<float> to_body = distance_to(body), to_air = distance_to(outside);
+  const Volume<float> depth_of = signed_depth(body, innermost_mm);
   const int bins = static_cast<int>((innermost_mm - outermost_mm) / bin_mm);
   std::vector<std::vector<float>> samples(bins);
-  const double half = std::cbrt(image.voxel_volume()) / 2;
   for (std::size_t v = 0; v < image.values.size(); ++v) {
     if (!where.values[v]) continue;
-    const double depth = body.values[v] ? to_air.values[v] - half : half - to_body.values[v];
+    const double depth = depth_of.values[v];
     const int bin = static_cast<int>(std::floor((depth - outermost_mm) / bin_mm));
     if (bin >= 0 && bin < bins) samples[bin].push_back(image.values[v]);
   }
@@ -79,8 +76,7 @@ SlabFit fit_slab(const Profile& profile, double sigma) {
 
 SkinThickness measure_skin(const Volume<float>& image, const Volume<std::uint8_t>& body,
                            const Volume<std::uint8_t>& where) {
-  // 0.55 voxels of blur, and 0.29 (1 over root 12) for the outline, which knows whole voxels only.
-  constexpr double blur_voxels = 0.62, more = 1.3, less = 0.75;
+  constexpr double blur_voxels = 0.55, more = 1.3, less = 0.75;
   const Profile profile = median_profile(image, body, where);
   constexpr std::size_t least_bins = 12;
   if (profile.depth.size() < least_bins) return {};

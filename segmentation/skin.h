@@ -14,10 +14,10 @@ struct SkinThickness {
 
 /// Fits a blurred slab (air, skin, fat) to the median profile along the depth below the skin.
 ///
-/// The image's own blur is not known: a Gaussian of 0.62 voxels is assumed, and the range is what
+/// The image's own blur is not known: a Gaussian of 0.55 voxels is assumed, and the range is what
 /// 1.3 and 0.75 times that blur would give (study of segmentation, section 5: at the resolution
-/// of a breast MRI skin under 2 mm is read by its blur). `depth` from body_mask.h; `where`: voxels
-/// of the breast's skin layer that may be used, to at least 8 mm deep and 4 mm outside.
+/// of a breast MRI skin under 2 mm is read by its blur). `where`: voxels near the breast's skin
+/// that may be used, to at least 5.5 mm deep and 3 mm outside.
 SkinThickness measure_skin(const Volume<float>& image, const Volume<std::uint8_t>& body,
                            const Volume<std::uint8_t>& where);
 

@@ -106,9 +106,9 @@ void label_tissue(const HalfBreast& half, const BreastFrame& frame,
       value = lesions.values[v];
       s.fractions.values[v] = {0, 0, 1};
     } else {
-      value = half.depth.values[v] < skin ? label::skin
-              : gland > 0.5F              ? label::fibroglandular
-                                          : label::fat;
+      value = half.skin_depth.values[v] < skin ? label::skin
+              : gland > 0.5F                   ? label::fibroglandular
+                                               : label::fat;
       s.fractions.values[v] = {1 - gland, gland, 0};
     }
   }

@@ -39,7 +39,8 @@ WallStage find_wall(const BodyStage& body, double stiffness) {
       for (int i = 0; i < corrected.size.x(); ++i)
         corrected(i, j, k) *= bias.correction(corrected.position(i, j, k));
   });
-  const double fat = subcutaneous_fat(corrected, body.depth, body.frame);
+  const double fat =
+      subcutaneous_fat(corrected, body.depth, body.frame, body.contrast.fat_suppressed);
   for (float& value : corrected.values) value /= static_cast<float>(fat);
   stage.contrast.muscle = muscle_over_fat(bias, std::log(fat), body.contrast.fat_suppressed);
   constexpr double ray_smoothing_mm = 0.8;  // about a voxel: noise falls, the edge stays

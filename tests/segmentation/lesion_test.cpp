@@ -1,0 +1,99 @@
+#include "segmentation/lesion.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "segmentation/random_walker.h"
+
+namespace mammotwin {
+namespace {
+
+/// A ball of 3.2 in gland of 1.8 on the left and fat of 1 on the right, with a bright vessel
+/// through it; noise of 3.5 %.
+struct Scene {
+  Eigen::Vector3d centre{1, 2, -3};
+  double radius = 7;
+  Volume<float> image{{70, 70, 70}, Eigen::Vector3d::Ones(), {-35, -35, -35}, 0};
+  Volume<std::uint8_t> truth = image.like<std::uint8_t>(0), allowed = image.like<std::uint8_t>(1);
+
+  explicit Scene(bool brighter = true) {
+    std::mt19937 random(5);
+    std::normal_distribution<float> noise(0, 0.035F);
+    for (int k = 0; k < 70; ++k)
+      for (int j = 0; j < 70; ++j)
+        for (int i = 0; i < 70; ++i) {
+          const Eigen::Vector3d x = image.position(i, j, k);
+          truth(i, j, k) = (x - centre).norm() < radius;
+          const bool vessel = std::hypot(x.x() - 1, x.y() - 2) < 1.5;
+          float value = x.x() < -2 ? 1.8F : 1.0F;
+          if (truth(i, j, k) || vessel) value = 3.2F;
+          image(i, j, k) = (brighter ? value : (truth(i, j, k) ? 0.42F : 1.0F)) + noise(random);
+        }
+  }
+
+  double dice(const FoundLesion& found) const {
+    double both = 0, sum = 0;
+    for (int k = 0; k < 70; ++k)
+      for (int j = 0; j < 70; ++j)
+        for (int i = 0; i < 70; ++i) sum += truth(i, j, k);
+    for (int k = 0; k < found.mask.size.z(); ++k)
+      for (int j = 0; j < found.mask.size.y(); ++j)
+        for (int i = 0; i < found.mask.size.x(); ++i)
+          if (found.mask(i, j, k)) {
+            ++sum;
+            both += truth(i + found.low.x(), j + found.low.y(), k + found.low.z());
+          }
+    return 2 * both / sum;
+  }
+};
+
+TEST(Lesion, StopsAtItsEdgeAndDropsTheVessel) {
+  const Scene scene;
+  const FoundLesion found =
+      find_lesion(scene.image, scene.allowed, scene.centre + Eigen::Vector3d(3, -2, 1.5), {});
+  EXPECT_GT(scene.dice(found), 0.9);
+  EXPECT_GT(found.agreement, 0.8);
+  EXPECT_NEAR(found.brightness, 3.2, 0.05);
+  EXPECT_FALSE(found.is_sphere);
+}
+
+TEST(Lesion, RandomWalkerAgrees) {
+  const Scene scene;
+  LesionSearch search;
+  search.random_walker = true;
+  EXPECT_GT(scene.dice(find_lesion(scene.image, scene.allowed, scene.centre, search)), 0.85);
+}
+
+TEST(Lesion, DarkOneInFatIsFound) {
+  const Scene scene(false);
+  LesionSearch search;
+  search.brighter = false;
+  const FoundLesion found = find_lesion(scene.image, scene.allowed, scene.centre, search);
+  EXPECT_GT(scene.dice(found), 0.9);
+  EXPECT_NEAR(found.brightness, 0.42, 0.05);
+}
+
+TEST(Lesion, WhereNothingStandsOutABallIsTaken) {
+  Scene scene;
+  for (float& value : scene.image.values) value = 1;
+  const FoundLesion found = find_lesion(scene.image, scene.allowed, {10, 10, 10}, {});
+  EXPECT_TRUE(found.is_sphere);
+}
+
+TEST(RandomWalker, SplitsAStepAtTheStep) {
+  Volume<float> image({20, 5, 5}, Eigen::Vector3d::Ones(), Eigen::Vector3d::Zero(), 0);
+  auto seeds = image.like<std::uint8_t>(walker_free);
+  for (int k = 0; k < 5; ++k)
+    for (int j = 0; j < 5; ++j) {
+      for (int i = 0; i < 8; ++i) image(i, j, k) = 1;  // the step is nearer to the inside seed
+      seeds(0, j, k) = walker_inside;
+      seeds(19, j, k) = walker_outside;
+    }
+  const auto inside = random_walk(image, image.like<std::uint8_t>(1), seeds, 1);
+  EXPECT_TRUE(inside(7, 2, 2));
+  EXPECT_FALSE(inside(8, 2, 2));
+}
+
+}  // namespace
+}  // namespace mammotwin

@@ -1,0 +1,131 @@
+#include <fstream>
+
+#include "segmentation/segment.h"
+#include "segmentation/segmentation_file.h"
+#include "tests/segmentation/message.h"
+#include "tests/segmentation/phantom.h"
+
+namespace mammotwin {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path write_phantom(const fs::path& folder, const Phantom& phantom) {
+  write_image(folder / "mri.nrrd", phantom.image());
+  return folder / "mri.nrrd";
+}
+
+SegmentInput input_for(const fs::path& mri, const Phantom& phantom,
+                       const Eigen::Vector3d& off = Eigen::Vector3d(2, -2, 2)) {
+  SegmentInput input;
+  input.mri = mri;
+  input.lesions = {{"L1", phantom.lesion + off, {}, {}, {}, {}}};
+  return input;
+}
+
+class SegmentMri : public testing::TestWithParam<bool> {};
+
+TEST_P(SegmentMri, FindsThePartsOfThePhantom) {
+  const ScratchFolder folder("phantom");
+  Phantom phantom;
+  phantom.fat_suppressed = GetParam();
+  phantom.shading = 0.7;  // fat falls to half from front to back
+  const SegmentResult result = segment(input_for(write_phantom(folder.path, phantom), phantom), {});
+  const Segmentation& s = result.segmentation;
+  EXPECT_EQ(result.quality.contrast, GetParam() ? "fat-suppressed" : "not fat-suppressed");
+  EXPECT_EQ(s.region.side, Side::left);
+  EXPECT_NEAR(s.region.x_min, 0, 4) << "the valley is at x = 0";
+
+  // Labels against the closed form, away from the surfaces by a voxel, in the region.
+  std::size_t wrong = 0, all = 0, wrong_gland = 0, gland = 0;
+  for (int k = 0; k < s.labels.size.z(); ++k)
+    for (int j = 0; j < s.labels.size.y(); ++j)
+      for (int i = 0; i < s.labels.size.x(); ++i) {
+        const Eigen::Vector3d x = s.labels.position(i, j, k);
+        if (!s.region.contains(x) || x.y() > 90) continue;
+        const double d = phantom.depth(x), w = phantom.before_wall(x);
+        if (std::abs(d) < 2 || std::abs(w) < 2) continue;
+        const bool breast = d > 0 && w > 0;
+        wrong += label::is_breast(s.labels(i, j, k)) != breast;
+        ++all;
+        if (!breast || (x - phantom.gland).norm() > phantom.gland_radius - 2 ||
+            (x - phantom.lesion).norm() < phantom.lesion_radius + 2)
+          continue;
+        wrong_gland += s.labels(i, j, k) != label::fibroglandular;
+        ++gland;
+      }
+  // Nine voxels in ten thousand may be wrong: corners where skin meets the cut plane.
+  EXPECT_LT(static_cast<double>(wrong), 0.003 * static_cast<double>(all));
+  EXPECT_LT(static_cast<double>(wrong_gland), 0.02 * static_cast<double>(gland));
+
+  for (std::size_t v = 0; v < s.labels.values.size(); ++v) {
+    const Fractions& f = s.fractions.values[v];
+    ASSERT_NEAR(f.fat + f.fibroglandular + f.lesion, label::is_breast(s.labels.values[v]), 1e-6);
+  }
+  EXPECT_NEAR(s.nipple_in_lps.x(), 75, 4);
+  EXPECT_NEAR(s.nipple_in_lps.y(), -25, 2);
+  EXPECT_NEAR(s.nipple_in_lps.z(), 0, 4);
+  ASSERT_EQ(s.lesions.size(), 1U);
+  EXPECT_LT((s.lesions[0].centroid_in_lps - phantom.lesion).norm(), 1);
+  const double truth_ml = 4.0 / 3 * 3.14159 * std::pow(phantom.lesion_radius, 3) / 1000;
+  EXPECT_NEAR(s.lesions[0].volume_ml, truth_ml, 0.3 * truth_ml);
+}
+
+INSTANTIATE_TEST_SUITE_P(Contrasts, SegmentMri, testing::Bool(), [](const auto& info) {
+  return info.param ? "FatSuppressed" : "NotFatSuppressed";
+});
+
+TEST(SegmentOfAnMri, RefusesALesionOutsideTheBreast) {
+  const ScratchFolder folder("outside");
+  const Phantom phantom{.voxel_mm = 3};
+  SegmentInput input = input_for(write_phantom(folder.path, phantom), phantom);
+  input.side = Side::left;
+  for (const Eigen::Vector3d& x :
+       {Eigen::Vector3d(75, -45, 0), Eigen::Vector3d(75, 100, 0), Eigen::Vector3d(-88, 20, 18)}) {
+    input.lesions[0].point_in_lps = x;
+    expect_mentions(message_of([&] { segment(input, {}); }),
+                    {"mri.nrrd", "lesion L1", "outside the left breast", "LPS"});
+  }
+}
+
+TEST(SegmentOfAnMri, RefusesAnUnclearSide) {
+  const ScratchFolder folder("noside");
+  const Phantom phantom{.voxel_mm = 3};
+  SegmentInput input = input_for(write_phantom(folder.path, phantom), phantom);
+  input.lesions.push_back({"L2", phantom.right_base, {}, {}, {}, {}});
+  expect_mentions(message_of([&] { segment(input, {}); }), {"side is not clear", "patient.toml"});
+}
+
+TEST(SegmentOfAnMri, RefusesAnImageWithoutBreasts) {
+  const ScratchFolder folder("flat");
+  Phantom phantom{.voxel_mm = 3};
+  phantom.semi_axes = {52, 5, 60};  // under the coat
+  SegmentInput input = input_for(write_phantom(folder.path, phantom), phantom);
+  expect_mentions(message_of([&] { segment(input, {}); }), {"mri.nrrd", "no breast found"});
+}
+
+TEST(SegmentOfAnMri, RefusesABreastCutInFront) {
+  const ScratchFolder folder("cut");
+  Phantom phantom{.voxel_mm = 3};
+  phantom.semi_axes.y() = 120;  // the image begins 20 mm behind its tip
+  SegmentInput input = input_for(write_phantom(folder.path, phantom), phantom);
+  expect_mentions(message_of([&] { segment(input, {}); }), {"cut by the field of view in front"});
+}
+
+TEST(SegmentOfAnMri, IsTheSameTwiceAndTellsItsProgress) {
+  const ScratchFolder folder("twice");
+  const Phantom phantom{.voxel_mm = 3};
+  const SegmentInput input = input_for(write_phantom(folder.path, phantom), phantom);
+  std::vector<double> fractions;
+  const SegmentResult a = segment(
+      input, {}, [&](double fraction, const std::string&) { fractions.push_back(fraction); });
+  const SegmentResult b = segment(input, {});
+  EXPECT_EQ(a.segmentation.labels.values, b.segmentation.labels.values);
+  EXPECT_EQ(a.image.values, b.image.values);
+  EXPECT_TRUE(std::is_sorted(fractions.begin(), fractions.end()));
+  EXPECT_EQ(fractions.front(), 0);
+  EXPECT_EQ(fractions.back(), 1);
+}
+
+}  // namespace
+}  // namespace mammotwin
