@@ -17,7 +17,8 @@ constexpr double widest_degrees = 75, step_degrees = 1.5;
 constexpr double row_mm = 2, axis_behind_mm = 110, beyond_slices_mm = 25;
 constexpr double least_radius_mm = 30;
 constexpr int depths = 210;  // of 1 mm
-constexpr int inside_mm = 7, outside_mm = 6, edge_mm = 2, below_skin_mm = 4, max_jump_mm = 4;
+constexpr int inside_mm = 7, outside_mm = 6, edge_mm = 2, blur_mm = 1, below_skin_mm = 4,
+              max_jump_mm = 4;
 constexpr float forbidden = 10;
 
 /// Log intensities along one ray, and how far it stays in the body.
@@ -100,17 +101,19 @@ class WallCost {
     const RunningSum logs(ray.log_intensity), muscle(likelihood), darks(dark);
     const int last = ray.exit - below_skin_mm;
     for (int d = 0; d < depths; ++d) {
-      if (d < edge_mm || d > last) {
+      if (d < edge_mm + blur_mm || d > last) {
         cost[d] = forbidden;
         continue;
       }
       const double inside = muscle.mean(d - inside_mm, d);
       const double outside = muscle.mean(d, std::min(d + outside_mm, ray.exit - 2));
       const double region = (outside - inside) / strongest_;
-      const double step = logs.mean(d, d + edge_mm) - logs.mean(d - edge_mm, d);
+      const double step = logs.mean(d + blur_mm, d + blur_mm + edge_mm) -
+                          logs.mean(d - blur_mm - edge_mm, d - blur_mm);
       const double edge = std::clamp(-step / log_muscle_, -1.0, 1.0);
       const double dark_mm = darks.sum(d + 1, ray.exit - below_skin_mm);
-      cost[d] = static_cast<float>(0.5 * region - 2 * edge + dark_mm / 10);
+      const double dark_inside = darks.mean(d - inside_mm, d);
+      cost[d] = static_cast<float>(0.5 * region - 2 * edge + dark_mm / 10 + dark_inside);
     }
   }
 

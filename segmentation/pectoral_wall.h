@@ -36,8 +36,9 @@ struct WallContrast {
 ///
 /// Cost of a radius: 0.5 times a region term (fat in the 6 mm outside, muscle in the 7 mm inside,
 /// by log-likelihood), minus 2 times the signed edge (outward: darker where muscle is brighter
-/// than fat), plus dark tissue in front of it (per 10 mm); not within 4 mm of the skin. The
-/// study of segmentation measured that each term is needed.
+/// than fat; 1 to 3 mm to either side), plus dark tissue in front of it (per 10 mm), plus the dark
+/// share of the 7 mm inside (else the lung's sharper edge wins); not within 4 mm of the skin. The
+/// study of segmentation measured that the first three terms are needed.
 PectoralWall find_pectoral_wall(const Volume<float>& corrected, const Volume<std::uint8_t>& body,
                                 const BreastFrame& frame, const WallContrast& contrast,
                                 double stiffness);
