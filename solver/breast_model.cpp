@@ -15,6 +15,8 @@ namespace {
 
 using Faces = std::vector<std::pair<int, int>>;
 
+constexpr double kSettledPressure = 1;  // x modulus; 4 left tangents indefinite on real breasts
+constexpr int kContactPoints = 8;  // a face of 27 mm passes 3 mm through an edge between 5 x 5 points
 constexpr double kWallPenalty = 1000;  // x modulus/size: 10 kPa moves the wall by about 0.05 mm
 
 void check(bool good, const std::string& message) {
@@ -115,14 +117,14 @@ void hold_cut_faces(const CompressionProblem& problem, BreastModel& breast) {
 }
 
 void add_contact(const CompressionProblem& problem, BreastModel& breast) {
-  constexpr double settled_pressure = 4;  // shear moduli; at 60 % compression tissue presses with 3
   breast.contact = std::make_shared<PlateContact>();
-  breast.contact->curvature_pressure = settled_pressure * breast.largest_modulus;
+  breast.contact->points1d = kContactPoints;
+  breast.contact->curvature_pressure = kSettledPressure * breast.largest_modulus;
   breast.contact_faces = faces_labelled(problem.mesh, FaceLabel::skin);
   const Faces cut = faces_labelled(problem.mesh, FaceLabel::cut);
   breast.contact_faces.insert(breast.contact_faces.end(), cut.begin(), cut.end());
   for (const auto& [e, face] : breast.contact_faces)
-    breast.model->add_surface_potential(e, face, breast.contact);
+    breast.model->add_surface_potential(e, face, breast.contact, breast.contact->points1d);
 }
 
 void tie_nodes(const MeshFile& mesh, DofMap& dofs) {
@@ -142,7 +144,11 @@ BreastModel make_breast_model(const CompressionProblem& problem, const SolidOpti
   check(!breast.wall_faces.empty(),
         "nothing holds the breast: no face of the mesh is labelled chest_wall");
   breast.model = std::make_unique<Model>(mesh, material_field(problem), solid);
-  breast.model->body_force = problem.density * problem.gravity;
+  if (!problem.gravity.isZero())
+    breast.model->set_body_force(
+        [weight = (problem.density * problem.gravity).eval()](const Eigen::Vector3d&) {
+          return weight;
+        });
   for (int e = 0; e < mesh.num_elements(); ++e)
     for (int q = 0; q < kPoints; ++q)
       breast.largest_modulus = std::max(

@@ -21,6 +21,7 @@ namespace mammotwin {
 
 namespace {
 
+constexpr double kStepGrowth = 1.5;
 constexpr double kNewtonPerMilli = 1e-3;  // mN to N
 constexpr double kCm2PerMm2 = 1e-2;
 
@@ -56,11 +57,12 @@ class Compression {
   ContactFigures figures(const State& state, PlateNumber plate) const;
   double paddle_force(const State& state) const;
   NewtonReport equilibrate(double fraction, State& state);
-  NewtonReport finish(State& state);
-  void correct_thickness(State& state, NewtonReport& report);
+  void finish(State& state);
+  bool better(State& state, const std::function<NewtonReport(State&)>& attempt);
   void record(double fraction, const State& state, const NewtonReport& newton);
   double energy_force(const State& state);
   void summarise(const State& state);
+  void judge(const LoadSteppingReport& load);
   double wall_gap(const State& state) const;
 
   const CompressionProblem& problem_;
@@ -134,41 +136,45 @@ double Compression::paddle_force(const State& state) const {
 
 NewtonReport Compression::equilibrate(double fraction, State& state) {
   place(fraction);
-  NewtonReport report =
-      solve_contact(newton_, *breast_.contact, breast_.penalty_unit(), penalties_, state);
-  if (report.usable() && fraction == 1) {
-    const NewtonReport last = finish(state);
-    const int iterations = report.iterations + last.iterations;
-    const int indefinite = report.indefinite + last.indefinite;
-    report = last;
-    report.iterations = iterations;
-    report.indefinite = indefinite;
-  }
-  return report;
+  return solve_contact(newton_, *breast_.contact, breast_.penalty_unit(), penalties_, state);
 }
 
-/// Closes the gap, then moves the paddle until the thickness is the one asked.
-NewtonReport Compression::finish(State& state) {
-  NewtonReport report = close_gap(
-      newton_, *breast_.contact, options_.gap_tolerance,
-      [&](const State& s) { return penetration(s); },
-      penalties_.newton, state);
-  if (report.usable()) correct_thickness(state, report);
-  return report;
-}
-
-void Compression::correct_thickness(State& state, NewtonReport& report) {
-  constexpr int most_rounds = 4;  // the error falls by the penetration's share each time
-  for (int round = 0; round < most_rounds && report.usable(); ++round) {
+/// At the end of the way: closes the gap, then moves the paddle until the thickness is the one
+/// asked. A state that cannot be bettered stays as it is; summarise() says how good that is.
+void Compression::finish(State& state) {
+  constexpr int most_rounds = 4;
+  better(state, [&](State& trial) {
+    return close_gap(
+        newton_, *breast_.contact, options_.gap_tolerance,
+        [&](const State& s) { return penetration(s); }, penalties_.newton, trial);
+  });
+  for (int round = 0; round < most_rounds; ++round) {
     const double error = frame_.extent(state.x) - problem_.plates.thickness;
     if (std::abs(error) <= options_.thickness_tolerance) return;
-    move_paddle(placed_.paddle_height - error);
-    const NewtonReport again = resettle(newton_, *breast_.contact, penalties_.newton, state);
-    report.iterations += again.iterations;
-    report.indefinite += again.indefinite;
-    report.converged = again.converged;
-    report.reason = again.reason;
+    const bool good = better(state, [&](State& trial) {
+      move_paddle(placed_.paddle_height - error);
+      return resettle(newton_, *breast_.contact, penalties_.newton, trial);
+    });
+    if (!good) return;
   }
+}
+
+/// Keeps what `attempt` does to the state, plates and penalty only if it succeeds.
+bool Compression::better(State& state, const std::function<NewtonReport(State&)>& attempt) {
+  State trial = state;
+  const PlacedPlates placed = placed_;
+  const double penalty = breast_.contact->penalty;
+  const NewtonReport report = attempt(trial);
+  report_.newton_iterations += report.iterations;
+  report_.indefinite_matrices += report.indefinite;
+  if (report.usable()) {
+    state = std::move(trial);
+    return true;
+  }
+  placed_ = placed;
+  breast_.contact->plates = {placed_.support, placed_.paddle};
+  breast_.contact->penalty = penalty;
+  return false;
 }
 
 void Compression::record(double fraction, const State& state, const NewtonReport& newton) {
@@ -181,7 +187,7 @@ void Compression::record(double fraction, const State& state, const NewtonReport
 
 /// Central difference of the total potential over the paddle's height.
 double Compression::energy_force(const State& state) {
-  constexpr double nudge = 0.02;  // [mm]: large beside rounding, small beside the force's curve
+  constexpr double nudge = 1e-3;  // [mm]: small beside penetrations, so that contact stays
   const double height = placed_.paddle_height;
   double energy[2];
   for (int side = 0; side < 2; ++side) {
@@ -201,7 +207,7 @@ double Compression::wall_gap(const State& state) const {
   for (const auto& [e, number] : breast_.wall_faces) {
     const auto x = breast_.model->coefficients(state.x, e);
     for (const Face& face : breast_.model->faces(e))
-      for (int q = 0; face.face() == number && q < Face::kPoints; ++q)
+      for (int q = 0; face.face() == number && q < face.num_points(); ++q)
         largest = std::max(largest, std::abs(breast_.wall->gap(face.deformed(x, q).head<3>()).gap));
   }
   return largest;
@@ -226,28 +232,41 @@ void Compression::summarise(const State& state) {
   report_.J_within_half = within / double(kPoints * breast_.model->num_elements());
 }
 
+void Compression::judge(const LoadSteppingReport& load) {
+  constexpr double most_error = 0.1, most_penetration = 0.1;  // [mm]: what "reached" means
+  const double error = std::abs(report_.thickness_mm - problem_.plates.thickness);
+  if (!load.complete())
+    report_.reason = load.reason;
+  else if (error > most_error)
+    report_.reason = "the thickness stays " + in_mm(error) + " off";
+  else if (report_.max_penetration_mm > most_penetration)
+    report_.reason = "a point stays " + in_mm(report_.max_penetration_mm) + " inside a plate";
+  else
+    report_.status = CompressionStatus::converged;
+  if (!report_.usable())
+    report_.reason = "stopped at " + in_mm(report_.thickness_mm) + " of " +
+                     in_mm(problem_.plates.thickness) + ": " + report_.reason;
+}
+
 CompressionResult Compression::run() {
   const auto begin = std::chrono::steady_clock::now();
   State state = breast_.model->rest();
   place(0);
   const LoadSteppingReport load = step_load(
-      state, {options_.first_step, options_.smallest_step, options_.max_iterations},
+      state, {options_.first_step, options_.smallest_step, options_.max_iterations, kStepGrowth},
       [&](double fraction, State& s) { return equilibrate(fraction, s); },
       [&](double fraction, const State& s, const NewtonReport& n) { record(fraction, s, n); });
   report_.steps = load.steps;
   report_.cutbacks = load.cutbacks;
-  report_.newton_iterations = load.iterations;
-  report_.indefinite_matrices = load.indefinite;
-  if (load.complete()) {
-    report_.status = CompressionStatus::converged;
-    summarise(state);
-    report_.energy_force_N = energy_force(state);
-  } else {
+  report_.newton_iterations += load.iterations;
+  report_.indefinite_matrices += load.indefinite;
+  if (load.complete())
+    finish(state);
+  else
     place(load.reached);
-    summarise(state);
-    report_.reason = "stopped at " + in_mm(report_.thickness_mm) + " of " +
-                     in_mm(problem_.plates.thickness) + ": " + load.reason;
-  }
+  summarise(state);
+  judge(load);
+  if (report_.usable()) report_.energy_force_N = energy_force(state);
   report_.seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   if (progress_) progress_(1, "compressed to " + in_mm(report_.thickness_mm));

@@ -10,7 +10,7 @@ namespace {
 
 void add_face(const Face& face, const SolidElement::Coefficients& x, const PlateContact& contact,
               int plate, ContactFigures& figures) {
-  for (int q = 0; q < Face::kPoints; ++q) {
+  for (int q = 0; q < face.num_points(); ++q) {
     const auto y = face.deformed(x, q);
     const Gap gap = contact.plates[plate].gap(y.head<3>());
     if (gap.gap >= 0) continue;
@@ -31,7 +31,8 @@ ContactFigures contact_figures(const Model& model, const State& state, const Pla
   for (const auto& [e, number] : faces) {
     const auto x = model.coefficients(state.x, e);
     for (const Face& face : model.faces(e))
-      if (face.face() == number) add_face(face, x, contact, plate, figures);
+      if (face.face() == number && face.points1d() == contact.points1d)
+        add_face(face, x, contact, plate, figures);
   }
   return figures;
 }

@@ -77,9 +77,17 @@ NewtonReport close_gap(Newton& newton, PlateContact& contact, double gap_toleran
   for (int round = 0; round < most_rounds; ++round) {
     const double excess = penetration(state) / gap_tolerance;
     if (excess <= 1) return total;
-    contact.penalty *= std::clamp(1.2 * excess, least_growth, most_growth);
-    add(total, resettle(newton, contact, options, state));
-    if (!total.usable()) return total;
+    const double growth = std::clamp(1.2 * excess, least_growth, most_growth);
+    contact.penalty *= growth;
+    State trial = state;
+    const double penalty = contact.penalty;
+    add(total, resettle(newton, contact, options, trial));
+    if (!total.usable()) {  // the gap of the round before is what there is
+      contact.penalty = penalty / growth;
+      total.converged = true;
+      return total;
+    }
+    state = std::move(trial);
   }
   return total;
 }

@@ -26,7 +26,8 @@ NewtonReport solve_contact(Newton& newton, PlateContact& contact, double unit,
 NewtonReport resettle(Newton& newton, PlateContact& contact, const NewtonOptions& options,
                       State& state);
 
-/// Raises the penalty further until the largest penetration is at most `gap_tolerance` [mm].
+/// Raises the penalty further until the largest penetration is at most `gap_tolerance` [mm] or a
+/// stiffer one finds no equilibrium; the last good state and penalty stay.
 /// Multipliers (augmented Lagrangian) were tried instead: on coarse faces that cannot follow a
 /// plate's rounding they grow without closing the gap.
 NewtonReport close_gap(Newton& newton, PlateContact& contact, double gap_tolerance,

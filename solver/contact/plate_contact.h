@@ -21,6 +21,7 @@ class PlateContact : public SurfacePotential {
  public:
   std::vector<Plate> plates;
   double penalty = 1;  ///< ε [kPa/mm]
+  int points1d = 5;    ///< Gauss points a side on the faces in contact
   double curvature_pressure = std::numeric_limits<double>::infinity();  ///< [kPa]
 
   double pressure(double gap) const { return gap < 0 ? -penalty * gap : 0; }  ///< t [kPa]

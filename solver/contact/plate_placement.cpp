@@ -57,7 +57,7 @@ void for_face_samples(const MeshFile& mesh, Visit visit) {
 }
 
 Eigen::Vector3d volume_centroid(const HermiteMesh& mesh) {
-  const auto rule = gauss_rule<4>();
+  const auto rule = gauss_rule(4);
   Eigen::Vector3d moment = Eigen::Vector3d::Zero();
   double volume = 0;
   for (int e = 0; e < mesh.num_elements(); ++e)

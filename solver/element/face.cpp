@@ -5,6 +5,8 @@
 
 #include <Eigen/Geometry>
 
+#include <cassert>
+
 namespace mammotwin {
 
 namespace {
@@ -28,33 +30,50 @@ double orientation(int face) {
 
 }  // namespace
 
-const std::array<Face::Table, 3>& Face::tables() {
-  static const std::array<Table, 3> tables = [] {
-    std::array<Table, 3> t;
-    const auto rule = gauss_rule<kPoints1d>();
-    for (int q = 0; q < kPoints; ++q) {
-      const double s = rule.points[q % kPoints1d], r = rule.points[q / kPoints1d];
+struct Face::Table {
+  using Values = Eigen::Matrix<double, Eigen::Dynamic, kFunctions, Eigen::RowMajor>;
+  std::array<Values, 3> slots;  ///< value, and the derivatives along the face's two directions
+  std::vector<double> weights;
+
+  explicit Table(int n) {
+    const auto [points, weights1d] = gauss_rule(n);
+    for (auto& slot : slots) slot.resize(n * n, kFunctions);
+    for (int q = 0; q < n * n; ++q) {
+      const double s = points[q % n], r = points[q / n];
       const auto h1 = hermite_values(s), h2 = hermite_values(r);
       const auto s1 = hermite_first_derivatives(s), s2 = hermite_first_derivatives(r);
       for (int a = 0; a < kFunctions; ++a) {
-        t[0](q, a) = h1[a & 3] * h2[a >> 2];
-        t[1](q, a) = s1[a & 3] * h2[a >> 2];
-        t[2](q, a) = h1[a & 3] * s2[a >> 2];
+        slots[0](q, a) = h1[a & 3] * h2[a >> 2];
+        slots[1](q, a) = s1[a & 3] * h2[a >> 2];
+        slots[2](q, a) = h1[a & 3] * s2[a >> 2];
       }
+      weights.push_back(weights1d[q % n] * weights1d[q / n]);
     }
-    return t;
+  }
+};
+
+const Face::Table& Face::table(int points1d) {
+  constexpr int most = 10;
+  static const std::vector<Table> tables = [] {
+    std::vector<Table> all;
+    for (int n = 1; n <= most; ++n) all.emplace_back(n);
+    return all;
   }();
-  return tables;
+  assert(points1d >= 4 && points1d <= most);
+  return tables[points1d - 1];
 }
 
-Face::Face(int element, int face, const SolidElement::Coefficients& X)
-    : element_(element), face_(face), functions_(face_functions(face)) {
-  const auto rule = gauss_rule<kPoints1d>();
-  for (int q = 0; q < kPoints; ++q) {
+Face::Face(int element, int face, const SolidElement::Coefficients& X, int points1d)
+    : element_(element),
+      face_(face),
+      points1d_(points1d),
+      functions_(face_functions(face)),
+      points_(points1d * points1d) {
+  for (int q = 0; q < num_points(); ++q) {
     const auto Y = deformed(X, q);
     const Eigen::Vector3d A1 = Y.segment<3>(3), A2 = Y.segment<3>(6);
     const Eigen::Vector3d area_vector = orientation(face) * A1.cross(A2);
-    const double weight = rule.weights[q % kPoints1d] * rule.weights[q / kPoints1d];
+    const double weight = table(points1d).weights[q];
     points_[q] = {Y.head<3>(), A1, A2, area_vector.normalized(), weight * area_vector.norm()};
   }
 }
@@ -66,23 +85,24 @@ double Face::area() const {
 }
 
 Eigen::Matrix<double, 9, 1> Face::deformed(const SolidElement::Coefficients& x, int q) const {
+  const auto& N = table(points1d_).slots;
   Eigen::Matrix<double, 9, 1> y = Eigen::Matrix<double, 9, 1>::Zero();
   for (int slot = 0; slot < 3; ++slot)
     for (int a = 0; a < kFunctions; ++a)
-      y.segment<3>(3 * slot) += tables()[slot](q, a) * x.row(functions_[a]).transpose();
+      y.segment<3>(3 * slot) += N[slot](q, a) * x.row(functions_[a]).transpose();
   return y;
 }
 
 void Face::add(const SurfacePotential& potential, const SolidElement::Coefficients& x,
                bool with_tangent, ElementSystem& system) const {
   const auto [first, end] = potential.slots();
-  const auto& N = tables();
+  const auto& N = table(points1d_).slots;
   SurfaceResponse response;
   Eigen::Matrix<double, kFunctions, 3> residual = Eigen::Matrix<double, kFunctions, 3>::Zero();
   Eigen::Matrix<double, 3 * kFunctions, 3 * kFunctions> tangent;
   tangent.setZero();
   bool touched = false;
-  for (int q = 0; q < kPoints; ++q) {
+  for (int q = 0; q < num_points(); ++q) {
     if (!potential.respond(deformed(x, q), points_[q], with_tangent ? 2 : 1, response)) continue;
     touched = true;
     const double area = points_[q].area;

@@ -8,20 +8,20 @@
 
 namespace mammotwin {
 
-/// One face of an element with a 5 x 5 Gauss rule: 16 functions carry its shape.
+/// One face of an element with an n x n Gauss rule: 16 functions carry its shape.
 ///
 /// Faces are numbered ξ₁ = 0, ξ₁ = 1, ξ₂ = 0, ξ₂ = 1, ξ₃ = 0, ξ₃ = 1.
 class Face {
  public:
-  static constexpr int kPoints1d = 5;  // 4 to 6 serve; 8 bring contact chatter (solver/README.md)
-  static constexpr int kPoints = kPoints1d * kPoints1d;
   static constexpr int kFunctions = 16;
 
-  /// X: the reference shape of the element.
-  Face(int element, int face, const SolidElement::Coefficients& X);
+  /// X: the reference shape of the element; points1d = n, 4 to 10.
+  Face(int element, int face, const SolidElement::Coefficients& X, int points1d);
 
   int element() const { return element_; }
   int face() const { return face_; }
+  int points1d() const { return points1d_; }
+  int num_points() const { return static_cast<int>(points_.size()); }
   const SurfacePoint& point(int q) const { return points_[q]; }
   double area() const;  ///< reference [mm²]
 
@@ -36,12 +36,12 @@ class Face {
   int function(int a) const { return functions_[a]; }
 
  private:
-  using Table = Eigen::Matrix<double, kPoints, kFunctions>;
-  static const std::array<Table, 3>& tables();  ///< value and the two derivatives
+  struct Table;  ///< values and derivatives of the functions at the points of a rule
+  static const Table& table(int points1d);
 
-  int element_, face_;
+  int element_, face_, points1d_;
   std::array<int, kFunctions> functions_;
-  std::array<SurfacePoint, kPoints> points_;
+  std::vector<SurfacePoint> points_;
 };
 
 /// The two element directions of a face in ascending order.

@@ -9,7 +9,7 @@ namespace {
 
 /// Legendre polynomial of degree n at x and its derivative (Bonnet's recursion).
 std::pair<double, double> legendre(int n, double x) {
-  double previous = 1, value = x;
+  double previous = 1, value = x;  // n >= 1
   for (int k = 2; k <= n; ++k) {
     const double next = ((2 * k - 1) * x * value - (k - 1) * previous) / k;
     previous = value;
@@ -20,11 +20,10 @@ std::pair<double, double> legendre(int n, double x) {
 
 }  // namespace
 
-template <int n>
-GaussRule<n> gauss_rule() {
+GaussRule gauss_rule(int n) {
   constexpr double pi = 3.14159265358979323846;
   constexpr int newton_steps = 10;  // quadratic from a guess good to 1e-2
-  GaussRule<n> rule;
+  GaussRule rule{std::vector<double>(n), std::vector<double>(n)};
   for (int q = 0; q < n; ++q) {
     double x = -std::cos(pi * (q + 0.75) / (n + 0.5));
     for (int step = 0; step < newton_steps; ++step) {
@@ -37,9 +36,5 @@ GaussRule<n> gauss_rule() {
   }
   return rule;
 }
-
-template GaussRule<4> gauss_rule<4>();
-template GaussRule<5> gauss_rule<5>();
-template GaussRule<6> gauss_rule<6>();
 
 }  // namespace mammotwin

@@ -1,17 +1,15 @@
 #pragma once
 
-#include <array>
+#include <vector>
 
 namespace mammotwin {
 
 /// Gauss-Legendre points and weights on [0, 1]; exact for polynomials of degree 2n - 1.
-template <int n>
 struct GaussRule {
-  std::array<double, n> points, weights;
+  std::vector<double> points, weights;
 };
 
-/// The n-point rule for n = 4, 5 or 6; found by Newton on the Legendre polynomial.
-template <int n>
-GaussRule<n> gauss_rule();
+/// The rule of n points, found by Newton on the Legendre polynomial.
+GaussRule gauss_rule(int n);
 
 }  // namespace mammotwin

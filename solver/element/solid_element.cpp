@@ -218,9 +218,11 @@ Eigen::MatrixXd SolidElement::pressure_compliance() const {
   return M;
 }
 
-Eigen::Matrix<double, kFunctions, 1> SolidElement::integrated_functions() const {
-  Eigen::Matrix<double, kFunctions, 1> sum = Eigen::Matrix<double, kFunctions, 1>::Zero();
-  for (int q = 0; q < kPoints; ++q) sum += weights_[q] * functions_at(point_xi(q));
+SolidElement::Coefficients SolidElement::integrate(
+    const std::function<Eigen::Vector3d(const Eigen::Vector3d&)>& f) const {
+  Coefficients sum = Coefficients::Zero();
+  for (int q = 0; q < kPoints; ++q)
+    sum += weights_[q] * functions_at(point_xi(q)) * f(point_position(q)).transpose();
   return sum;
 }
 

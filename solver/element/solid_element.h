@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 
 #include <array>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -62,8 +63,8 @@ class SolidElement {
   /// ∫ψψᵀ/κ, whose inverse eliminates the pressures.
   Eigen::MatrixXd pressure_compliance() const;
 
-  /// ∫ φₐ dV, the weights of a body force.
-  Eigen::Matrix<double, kFunctions, 1> integrated_functions() const;
+  /// ∫ φₐ f dV for a field f of the reference position: the load of a body force.
+  Coefficients integrate(const std::function<Eigen::Vector3d(const Eigen::Vector3d&)>& f) const;
 
   /// μ-weighted scalar Laplacian ∫ μ ∇φₐ·∇φ_b dV, the metric of a regularised step.
   Eigen::Matrix<double, kFunctions, kFunctions> laplacian() const;

@@ -3,15 +3,17 @@
 #include "fitting/mesh/hermite_basis.h"
 #include "solver/element/gauss.h"
 
+#include <algorithm>
+
 namespace mammotwin {
 
 namespace {
 
 HermiteTable make_table() {
   HermiteTable table;
-  const auto rule = gauss_rule<kPoints1d>();
-  table.points = rule.points;
-  table.weights = rule.weights;
+  const auto rule = gauss_rule(kPoints1d);
+  std::copy(rule.points.begin(), rule.points.end(), table.points.begin());
+  std::copy(rule.weights.begin(), rule.weights.end(), table.weights.begin());
   for (int q = 0; q < kPoints1d; ++q) {
     const auto values = hermite_values(rule.points[q]);
     const auto slopes = hermite_first_derivatives(rule.points[q]);

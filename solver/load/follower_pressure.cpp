@@ -19,14 +19,17 @@ bool FollowerPressure::respond(const Eigen::Matrix<double, 9, 1>& y, const Surfa
   const Eigen::Vector3d x = y.segment<3>(0), a1 = y.segment<3>(3), a2 = y.segment<3>(6);
   const Eigen::Vector3d reference = point.A1.cross(point.A2);
   // Pressure pushes inwards, so its potential is +p times the volume behind the face.
-  const double scale = pressure / 3 * (reference.dot(point.normal) > 0 ? 1 : -1) / reference.norm();
-  response.energy = scale * x.dot(a1.cross(a2));
-  response.gradient << scale * a1.cross(a2), scale * a2.cross(x), scale * x.cross(a1);
+  const double scale = pressure * (reference.dot(point.normal) > 0 ? 1 : -1) / reference.norm();
+  const double along = axis.dot(x);
+  const Eigen::Vector3d d1 = a2.cross(axis), d2 = axis.cross(a1);  // ∂ e·(a₁ x a₂)/∂a₁, ∂a₂
+  const double swept = axis.dot(a1.cross(a2));
+  response.energy = scale * along * swept;
+  response.gradient << scale * swept * axis, scale * along * d1, scale * along * d2;
   if (order < 2) return true;
   response.hessian.setZero();
-  response.hessian.block<3, 3>(0, 3) = -scale * skew(a2);
-  response.hessian.block<3, 3>(0, 6) = scale * skew(a1);
-  response.hessian.block<3, 3>(3, 6) = -scale * skew(x);
+  response.hessian.block<3, 3>(0, 3) = scale * axis * d1.transpose();
+  response.hessian.block<3, 3>(0, 6) = scale * axis * d2.transpose();
+  response.hessian.block<3, 3>(3, 6) = -scale * along * skew(axis);
   response.hessian.block<3, 3>(3, 0) = response.hessian.block<3, 3>(0, 3).transpose();
   response.hessian.block<3, 3>(6, 0) = response.hessian.block<3, 3>(0, 6).transpose();
   response.hessian.block<3, 3>(6, 3) = response.hessian.block<3, 3>(3, 6).transpose();

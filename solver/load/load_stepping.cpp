@@ -6,7 +6,7 @@ namespace mammotwin {
 
 LoadSteppingReport step_load(State& state, const LoadSteppingOptions& options,
                              const Equilibrate& equilibrate, const StepDone& step_done) {
-  constexpr double growth = 1.5, cut = 0.5;
+  constexpr double cut = 0.5;
   LoadSteppingReport report;
   double step = options.first_step;
   while (!report.complete()) {
@@ -25,7 +25,7 @@ LoadSteppingReport step_load(State& state, const LoadSteppingOptions& options,
       report.reached = target;
       ++report.steps;
       step_done(target, state, newton);
-      step = std::min(step * growth, 1 - report.reached);
+      step = std::min(step * options.growth, 1 - report.reached);
       continue;
     }
     ++report.cutbacks;

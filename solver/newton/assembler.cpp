@@ -13,6 +13,8 @@ namespace mammotwin {
 
 namespace {
 
+constexpr double kSmallStrain = 1e-3;  // below it balance is absolute: rest has no flow
+
 using Residual = Eigen::Matrix<double, kUnknowns, 1>;
 
 /// 0.3 MB: one for each thread, not one for each call.
@@ -44,6 +46,10 @@ Assembler::Assembler(const Model& model, const DofMap& dofs)
   for (int e = 0; e < model.num_elements(); ++e)
     pressure_factors_.push_back(inverse_factor(model.element(e).pressure_compliance()));
   eliminations_.resize(model.num_elements());
+  for (int e = 0; e < model.num_elements(); ++e)
+    smallest_flow_ += std::pow(kSmallStrain * model.element(e).material(0).shear_modulus() *
+                                   std::pow(model.element(e).volume(), 2.0 / 3), 2);
+  smallest_flow_ = std::sqrt(smallest_flow_);
   values_.resize(pattern_.rows.size());
 }
 
@@ -59,7 +65,7 @@ Balance Assembler::summarise(const std::vector<Balance>& parts) const {
     sum.max_J = std::max(sum.max_J, part.max_J);
     sum.constraint = std::max(sum.constraint, part.constraint);
   }
-  sum.flow = std::sqrt(sum.flow);
+  sum.flow = std::hypot(std::sqrt(sum.flow), smallest_flow_);
   return sum;
 }
 

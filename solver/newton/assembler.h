@@ -15,7 +15,7 @@ struct Balance {
   double energy = 0;           ///< total potential [mN mm]; infinite where an element is inverted
   double min_J = 1, max_J = 1;
   double deformed_volume = 0;  ///< [mm³]
-  double flow = 0;             ///< √Σ|element residual|² [mN]: what the residual is small beside
+  double flow = 0;             ///< √Σ|element residual|², at least that of a strain of 1e-3 [mN]
   double constraint = 0;       ///< largest |∫ψ (J − 1 − p/κ)| / element volume [-]
   Eigen::VectorXd residual;    ///< ∂Π/∂x per equation [mN]
 };
@@ -66,6 +66,7 @@ class Assembler {
   std::vector<Elimination> eliminations_;
   std::vector<Eigen::Matrix<double, kFunctions, kFunctions>> laplacians_;  ///< made when needed
   std::vector<double> values_;
+  double smallest_flow_ = 0;
   Eigen::VectorXd right_hand_side_;
 };
 

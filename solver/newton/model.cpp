@@ -43,20 +43,27 @@ Model::Model(const HermiteMesh& reference, const MaterialField& field, const Sol
     for (int q = 0; q < kPoints; ++q)
       materials[q] = field(element.point_position(q), element.point_weight(q));
     element.set_materials(materials, options);
-    integrated_functions_.push_back(element.integrated_functions());
     elements_.push_back(std::move(element));
   }
 }
 
-void Model::add_surface_potential(int e, int face, std::shared_ptr<const SurfacePotential> p) {
+void Model::add_surface_potential(int e, int face, std::shared_ptr<const SurfacePotential> p,
+                                  int points1d) {
   auto& faces = faces_[e];
-  auto found = std::find_if(faces.begin(), faces.end(),
-                            [&](const Face& f) { return f.face() == face; });
+  auto found = std::find_if(faces.begin(), faces.end(), [&](const Face& f) {
+    return f.face() == face && f.points1d() == points1d;
+  });
   if (found == faces.end()) {
-    faces.emplace_back(e, face, gather(reference_, reference_.nodes(), e));
+    faces.emplace_back(e, face, gather(reference_, reference_.nodes(), e), points1d);
     found = faces.end() - 1;
   }
   potentials_[e].push_back({static_cast<int>(found - faces.begin()), std::move(p)});
+}
+
+void Model::set_body_force(
+    const std::function<Eigen::Vector3d(const Eigen::Vector3d& X)>& force) {
+  loads_.clear();
+  for (const SolidElement& element : elements_) loads_.push_back(element.integrate(force));
 }
 
 State Model::rest() const {
@@ -80,11 +87,9 @@ void Model::evaluate(int e, const State& state, bool with_tangent, ElementSystem
   if (!std::isfinite(system.energy)) return;  // J <= 0: nothing else is defined
   for (const auto& [face, potential] : potentials_[e])
     faces_[e][face].add(*potential, x, with_tangent, system);
-  for (int i = 0; i < 3; ++i) {
-    if (body_force[i] == 0) continue;
-    system.energy -= body_force[i] * integrated_functions_[e].dot(x.col(i));
-    system.residual.segment<kFunctions>(kFunctions * i) -= body_force[i] * integrated_functions_[e];
-  }
+  if (loads_.empty()) return;
+  system.energy -= loads_[e].cwiseProduct(x).sum();
+  system.residual -= loads_[e].reshaped();
 }
 
 }  // namespace mammotwin

@@ -38,11 +38,13 @@ class Model {
   const SolidElement& element(int e) const { return elements_[e]; }
   const std::vector<Face>& faces(int e) const { return faces_[e]; }
 
-  /// Puts a potential on a face; several may share one. The model keeps it alive.
-  void add_surface_potential(int element, int face, std::shared_ptr<const SurfacePotential> p);
+  /// Puts a potential on a face with points1d x points1d Gauss points; several may share one. The
+  /// model keeps it alive.
+  void add_surface_potential(int element, int face, std::shared_ptr<const SurfacePotential> p,
+                             int points1d = 5);
 
-  /// Force per reference volume [mN/mm³]: density times gravity.
-  Eigen::Vector3d body_force = Eigen::Vector3d::Zero();
+  /// Force per reference volume [mN/mm³], such as density times gravity.
+  void set_body_force(const std::function<Eigen::Vector3d(const Eigen::Vector3d& X)>& force);
 
   State rest() const;  ///< reference shape, no pressure
   double volume() const;
@@ -59,7 +61,7 @@ class Model {
   };
   HermiteMesh reference_;
   std::vector<SolidElement> elements_;
-  std::vector<Eigen::Matrix<double, kFunctions, 1>> integrated_functions_;
+  std::vector<SolidElement::Coefficients> loads_;  ///< of the body force; empty: none
   std::vector<std::vector<Face>> faces_;
   std::vector<std::vector<FacePotential>> potentials_;
 };

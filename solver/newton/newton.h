@@ -12,7 +12,7 @@ struct NewtonOptions {
   int max_iterations = 40;
   double tolerance = 1e-7;             ///< |residual| <= tolerance * flow
   double constraint_tolerance = 1e-6;  ///< largest relative volume error left by the pressures
-  double max_shift = 10;  ///< Laplacian shifts tried on an indefinite matrix before giving up [-]
+  double max_shift = 1000;  ///< Laplacian shifts tried on an indefinite matrix before giving up [-]
 };
 
 struct NewtonReport {

@@ -122,7 +122,7 @@ TEST(Newton, IsBitwiseTheSameAtAnyNumberOfThreads) {
     const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
     HermiteMesh mesh = distorted(box_mesh({30, 30, 30}, {3, 3, 3}), 0.8, 11);
     Model model = gel(mesh);
-    model.body_force = {0, 0, -0.05};
+    model.set_body_force(uniform_force({0, 0, -0.05}));
     DofMap dofs(mesh);
     for (int node = 0; node < 16; ++node)
       for (int dof = 24 * node; dof < 24 * node + 24; ++dof) dofs.prescribe(dof);
@@ -141,7 +141,7 @@ TEST(Newton, IsBitwiseTheSameAtAnyNumberOfThreads) {
 TEST(Newton, ReportsWhatIsNotInEquilibrium) {
   const HermiteMesh mesh = box_mesh({10, 10, 10}, {1, 1, 1});
   Model model = gel(mesh);
-  model.body_force = {0, 0, -1};  // nothing holds it
+  model.set_body_force(uniform_force({0, 0, -1}));  // nothing holds it
   DofMap dofs(mesh);
   dofs.number(mesh);
   State state = model.rest();

@@ -126,6 +126,11 @@ inline void hold_plane(const HermiteMesh& mesh, int axis, double value, DofMap& 
     for (int dof : face_dofs(mesh, e, face, axis)) dofs.prescribe(dof);
 }
 
+inline std::function<Eigen::Vector3d(const Eigen::Vector3d&)> uniform_force(
+    const Eigen::Vector3d& force) {
+  return [force](const Eigen::Vector3d&) { return force; };
+}
+
 inline Model::MaterialField uniform(std::shared_ptr<const Material> material) {
   return [material](const Eigen::Vector3d&, double) { return material; };
 }

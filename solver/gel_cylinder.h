@@ -1,0 +1,52 @@
+#pragma once
+
+#include "fitting/mesh/mesh_file.h"
+#include "solver/newton/newton.h"
+
+#include <string>
+#include <vector>
+
+namespace mammotwin {
+
+/// The paper's gel cylinder (paper, section III), squeezed in four ways:
+///   lateral       lying on its side between frictionless plates
+///   plane_strain  the same with its end faces held in their planes
+///   axial         standing, frictionless plates: a homogeneous state with a closed form. Past the
+///                 first bifurcation (stretch 0.680), so arithmetic, not an experiment
+///   bonded        standing, end faces stuck to the plates
+enum class CylinderCase { lateral, plane_strain, axial, bonded };
+
+struct CylinderExperiment {
+  CylinderCase how = CylinderCase::lateral;
+  double diameter = 29, length = 40;  ///< [mm]
+  double c1 = 3;                      ///< [kPa]
+  double thickness = 17;              ///< between the plates in the end [mm]
+  int refinement = 2;                 ///< elements along half the square's side, at least 1
+  int contact_points = 5;             ///< Gauss points a side on faces in contact, 4 to 10
+  double penalty = 100;               ///< x shear modulus / element size
+  double gap_tolerance = 0.001;       ///< largest penetration [mm]; 0: the penalty as given
+  int steps = 1;                      ///< load steps
+};
+
+struct CylinderFigures {
+  bool usable = false;
+  std::string reason;
+  double force_N = 0;                 ///< of the whole cylinder
+  double half_width_middle_mm = 0;    ///< deformed, at half length
+  double half_width_end_mm = 0;       ///< the same at the end
+  double half_length_axis_mm = 0;
+  double penetration_mm = 0;
+  double plate_work_mJ = 0;           ///< trapezoidal rule over the steps, whole cylinder
+  double stored_energy_mJ = 0;        ///< of the whole cylinder, contact's part included
+  double min_J = 1, max_J = 1;
+  int dof = 0, elements = 0, iterations = 0;
+  double seconds = 0, cpu_seconds = 0;
+  MeshFile before{HermiteMesh({}, {}), {}, {}, {}, {}, {}};  ///< the eighth that is solved
+  MeshFile after{HermiteMesh({}, {}), {}, {}, {}, {}, {}};
+};
+
+/// Solves an eighth of the cylinder (three planes of symmetry).
+/// Throws std::invalid_argument where a length is not positive or a count out of range.
+CylinderFigures squeeze_cylinder(const CylinderExperiment& experiment);
+
+}  // namespace mammotwin
