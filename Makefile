@@ -4,6 +4,7 @@ DATA ?= sample_data
 RESULTS ?= results
 PREFIX ?= /usr/local
 CASES ?= ../shared/cases
+SYNTHETIC ?= 20
 BIN := build/release/bin
 # Taken as they stand: nothing in them is expanded by make, and recipes see them only as "$$P".
 override P := $(value P)
@@ -16,11 +17,12 @@ override ENGINE := $(value ENGINE)
 override CONFIG := $(value CONFIG)
 override PREFIX := $(value PREFIX)
 override CASES := $(value CASES)
-export P DATA RESULTS FORCE BIN SEED PATIENTS JOBS ONLY ENGINE CONFIG PREFIX CASES
+override SYNTHETIC := $(value SYNTHETIC)
+export P DATA RESULTS FORCE BIN SEED PATIENTS JOBS ONLY ENGINE CONFIG PREFIX CASES SYNTHETIC
 unexport MAKEFLAGS MAKEOVERRIDES
 
 .PHONY: help patient segment fit compress register report synthesize cohort verify-results build \
-        evaluate-fitting \
+        evaluate-segmentation evaluate-fitting \
         install test clean
 .DEFAULT_GOAL := help
 
@@ -32,6 +34,8 @@ help:
 	@echo 'make cohort            every patient of DATA (or PATIENTS="042 043"): cohort.tsv, failed.tsv,'
 	@echo '                       cohort.html; JOBS=4 at a time, ONLY=failed, ENGINE=slurm, CONFIG=file'
 	@echo 'make verify-results P=042   are all files still those that were written?'
+	@echo 'make evaluate-segmentation  segments SYNTHETIC=20 synthetic patients:'
+	@echo '                       RESULTS/evaluation/segmentation.json'
 	@echo 'make evaluate-fitting  fits every breast of CASES=folder: RESULTS/evaluation/fitting.json'
 	@echo 'make install PREFIX=/usr/local   programs, manual pages, completion, libraries'
 	@echo 'make test              all tests'
@@ -46,6 +50,9 @@ patient segment fit compress register report synthesize: build
 
 cohort: build
 	@pipeline/cohort/run_cohort.sh
+
+evaluate-segmentation: build
+	@"$$BIN/mammotwin-evaluate-segmentation" "$$RESULTS/evaluation/segmentation.json" --synthetic "$$SYNTHETIC"
 
 evaluate-fitting: build
 	@"$$BIN/mammotwin-evaluate-fitting" "$$CASES" "$$RESULTS/evaluation/fitting.json"

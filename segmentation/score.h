@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "segmentation/tissue.h"
+
+namespace mammotwin {
+
+/// Overlap of two masks on one grid: 2 |a and b| / (|a| + |b|); empty if both are.
+std::optional<double> dice(const Volume<std::uint8_t>& a, const Volume<std::uint8_t>& b);
+
+/// Distances between two surfaces [mm], from each voxel of one to the nearest of the other, both
+/// ways together.
+struct SurfaceDistance {
+  double mean = 0, median = 0, p95 = 0, largest = 0;
+};
+/// Empty if either surface is.
+std::optional<SurfaceDistance> surface_distance(const Volume<std::uint8_t>& a,
+                                                const Volume<std::uint8_t>& b);
+
+/// How near a segmentation comes to the truth, inside the true region. What either lacks is empty.
+struct SegmentationScore {
+  std::optional<double> breast_dice, skin_dice, fibroglandular_dice;
+  std::optional<SurfaceDistance> chest_wall, skin_surface;
+  std::optional<double> lesion_dice, lesion_centroid_mm;  ///< the worst of the lesions
+  double nipple_mm = 0;
+};
+
+/// `truth` carries labels (both sides or one), region, lesions in label order and nipple; its
+/// fractions are not looked at. The found labels are read at the truth's voxel centres. The
+/// chest wall is scored away from the region's edges by 5 mm.
+SegmentationScore score_segmentation(const Segmentation& truth, const Segmentation& found);
+
+}  // namespace mammotwin
