@@ -9,6 +9,8 @@ find_dependency(nlohmann_json)
 find_dependency(GDCM)
 find_dependency(CGAL)
 find_dependency(OpenMP)
-find_dependency(VTK)
-find_dependency(ITK)
+# The components that the stages' own CMakeLists.txt ask for; all of VTK and ITK would need Qt.
+find_dependency(VTK COMPONENTS CommonCore CommonDataModel CommonExecutionModel FiltersCore IOXML)
+find_dependency(ITK COMPONENTS ITKCommon ITKIOImageBase ITKIONRRD ITKIONIFTI ITKIOMeta ITKIOPNG
+  ITKBiasCorrection ITKSmoothing ITKThresholding ITKConnectedComponents)
 include(${CMAKE_CURRENT_LIST_DIR}/MammotwinTargets.cmake)
