@@ -1,18 +1,22 @@
 // register: compressed meshes + view geometry -> lesions on the CC and MLO detectors.
 
 #include "pipeline/frame/stage.h"
+#include "pipeline/registered_view.h"
 #include "registration/lesion_table.h"
 #include "registration/markups.h"
-#include "registration/project_lesions.h"
 #include "segmentation/segmentation_file.h"
 
 #include <cstdio>
+#include <iostream>
 
 namespace mammotwin {
 namespace {
 
 struct Arguments {
-  std::filesystem::path segmentation, fractions, cc, mlo, lesions;
+  std::filesystem::path segmentation, fractions, cc, mlo, lesions, landmarks;
+
+  /// Where segment has left the MRI; a patient that came as labels has none.
+  std::filesystem::path mri() const { return segmentation.parent_path() / "mri.nrrd"; }
 };
 
 void declare(StageDeclaration& stage, Arguments& args) {
@@ -23,10 +27,17 @@ void declare(StageDeclaration& stage, Arguments& args) {
   stage.product("lesions", args.lesions, "table of lesions to write (.csv; .mrk.json beside it)");
   for (const char* view : {"cc", "mlo"})
     stage.options_from(std::string("views.") + view + ".detector.", false);
+  stage.app()
+      .add_option("--landmarks", args.landmarks,
+                  "points found in MRI and mammograms (.csv): print how far predictions are off")
+      ->check(CLI::ExistingFile);
 }
 
-StagePlan plan(const Arguments&, const Patient&) {
-  return {{}, {"views.cc.detector.", "views.mlo.detector."}};
+StagePlan plan(const Arguments& args, const Patient&) {
+  StagePlan plan{{}, {"views.cc.detector.", "views.mlo.detector."}};
+  if (std::filesystem::exists(args.mri())) plan.inputs.push_back(args.mri());
+  if (!args.landmarks.empty()) plan.inputs.push_back(args.landmarks);
+  return plan;
 }
 
 std::vector<Landmark> landmarks_of(const Segmentation& segmentation) {
@@ -34,17 +45,6 @@ std::vector<Landmark> landmarks_of(const Segmentation& segmentation) {
   for (const Lesion& lesion : segmentation.lesions)
     landmarks.push_back({lesion.id, lesion.centroid_in_lps});
   return landmarks;
-}
-
-ViewProjection read_view(const std::string& name, const std::filesystem::path& path,
-                         const ViewSettings& settings) {
-  const MeshFile file = read_mesh_file(path);
-  const auto prone = file.configurations.find("prone");
-  if (prone == file.configurations.end())
-    throw std::runtime_error(path.string() + ": has no configuration \"prone\"; was it made by compress?");
-  const CompressedView view = compressed_view(name, path.filename().string(), file.metadata);
-  return {HermiteMesh(prone->second, file.mesh.elements()), file.mesh, view,
-          settings.detector(name, view.side)};
 }
 
 /// A lesion that the mesh does not hold has no position that could be trusted.
@@ -56,11 +56,6 @@ void require_inside(const ProjectedLandmark& lesion) {
                 "look at the chest wall and at the lesion's place in the report",
                 lesion.landmark.id.c_str(), lesion.outside_mm, kLesionOutsideLimit_mm);
   throw std::runtime_error(text);
-}
-
-nlohmann::json detector_json(const Detector& detector) {
-  return {{"source_distance_mm", detector.source_distance_mm},
-          {"support_gap_mm", detector.support_gap_mm}};
 }
 
 class Registration {
@@ -75,21 +70,29 @@ class Registration {
     quality_["lesions"] = landmarks_.size();
   }
 
-  void add(const std::string& name, const ViewProjection& view) {
+  void add(const RegisteredView& registered) {
+    const ViewProjection& view = registered.projection;
     const ProjectedLandmark nipple = view.project(nipple_);
     for (const Landmark& landmark : landmarks_) {
       const ProjectedLandmark lesion = view.project(landmark);
       require_inside(lesion);
+      if (lesion.on_detector.x() < 0)
+        reasons_.push_back("lesion " + landmark.id + " lies behind the detector's edge in " +
+                           view.view().name + ": that mammogram would not show it");
       rows_.push_back(view_row(stage_.patient.name(), view.view(), lesion, nipple));
     }
-    write_points(name, [&](const Landmark& l) { return view.project(l).compressed_in_lps; });
-    quality_["detectors"][name] = detector_json(view.detector());
+    write_points(view.view().name,
+                 [&](const Landmark& l) { return view.project(l).compressed_in_lps; });
+    quality_["detectors"][view.view().name] = detector_json(view.detector());
   }
+
+  nlohmann::json& quality() { return quality_; }
 
   Outcome finish() {
     write_lesion_table(stage_.products.write_main(), rows_);
-    if (!landmarks_.empty()) return {Status::ok, {}, quality_};
-    return {Status::look, {"patient.toml names no lesion, so there is nothing to predict"}, quality_};
+    if (landmarks_.empty())
+      reasons_.push_back("patient.toml names no lesion, so there is nothing to predict");
+    return {reasons_.empty() ? Status::ok : Status::look, reasons_, quality_};
   }
 
  private:
@@ -105,16 +108,26 @@ class Registration {
   std::vector<Landmark> landmarks_;
   Landmark nipple_;
   std::vector<LesionRow> rows_;
+  std::vector<std::string> reasons_;
   nlohmann::json quality_ = nlohmann::json::object();
 };
 
 Outcome run(const Arguments& args, StageRun& stage) {
   stage.progress(0, "reading");
-  Registration registration(read_segmentation(args.segmentation, args.fractions), stage);
-  stage.progress(0.3, "CC");
-  registration.add("cc", read_view("cc", args.cc, stage.patient.cc));
-  stage.progress(0.6, "MLO");
-  registration.add("mlo", read_view("mlo", args.mlo, stage.patient.mlo));
+  const Segmentation segmentation = read_segmentation(args.segmentation, args.fractions);
+  std::optional<Volume<float>> mri;
+  if (std::filesystem::exists(args.mri())) mri = read_image_file(args.mri());
+  const RegisteredView views[] = {read_registered_view("cc", args.cc, stage.patient.cc),
+                                  read_registered_view("mlo", args.mlo, stage.patient.mlo)};
+  Registration registration(segmentation, stage);
+  double done = 0.1;
+  for (const RegisteredView& view : views) {
+    stage.progress(done, view.projection.view().name);
+    registration.add(view);
+    write_view_files(view, segmentation, mri, stage.products, registration.quality());
+    done += 0.4;
+  }
+  if (!args.landmarks.empty()) std::cout << landmark_errors(args.landmarks, views[0], views[1]);
   return registration.finish();
 }
 

@@ -92,8 +92,7 @@ Figure compressed_figure(const PatientResults& results, const ViewResult& view,
   draw_contents(left, results, here, faces, projection, lesion);
   draw_plates(picture, left, view.view.thickness_mm);
   draw_contents(right, results, here, faces, projection, lesion);
-  picture.line({right.at({0, window.min().y(), at.z()}), right.at({0, window.max().y(), at.z()})},
-               {palette::plate, 1.2, {4, 3}});
+  right.edge_line({0, window.min().y(), at.z()}, {0, window.max().y(), at.z()});
   left.title("Across the plates");
   right.title("Along the plates, from the tube");
   left.sides("wall", "", "paddle", "support", false);

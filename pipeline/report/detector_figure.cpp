@@ -25,7 +25,25 @@ DetectorImage shown(const PatientResults& results, const ViewResult& view) {
                                 view.detector, kPixel_mm));
 }
 
-Section detector_section(const DetectorImage& image, Side side) {
+/// Lesions that lie behind the edge, where no mammogram shows them.
+std::vector<std::string> behind_edge(const PatientResults& results, const ViewProjection& projection) {
+  std::vector<std::string> names;
+  for (const Landmark& lesion : results.lesions())
+    if (projection.project(lesion).on_detector.x() < 0) names.push_back(lesion.id);
+  return names;
+}
+
+/// From behind the edge if a mark lies there or its ring reaches over it.
+double left_of_window(const PatientResults& results, const ViewProjection& projection) {
+  double left = 0;
+  for (const Landmark& lesion : results.lesions()) {
+    const ProjectedLandmark p = projection.project(lesion);
+    left = std::min({left, p.on_detector.x() - kMargin_mm, p.baseline_on_detector.x() - kMargin_mm});
+  }
+  return left;
+}
+
+Section detector_section(const DetectorImage& image, Side side, double left) {
   const Eigen::Vector2d last =
       image.first + image.spacing_mm * Eigen::Vector2d(image.columns, image.rows);
   Section s;
@@ -33,7 +51,7 @@ Section detector_section(const DetectorImage& image, Side side) {
   s.right = {0, side == Side::right};  // chest walls meet in the middle, as mammograms are hung
   s.down = {1, true};
   s.window = Eigen::AlignedBox3d(
-      Eigen::Vector3d(0, image.first.y() - kMargin_mm, 0),
+      Eigen::Vector3d(left, image.first.y() - kMargin_mm, 0),
       Eigen::Vector3d(last.x() + kMargin_mm, last.y() + kMargin_mm, 0));
   return s;
 }
@@ -45,6 +63,7 @@ Raster raster_of(const DetectorImage& image, const Section& section) {
     const int i = static_cast<int>(std::lround(index.x()));
     const int j = static_cast<int>(std::lround(index.y()));
     const bool inside = i >= 0 && j >= 0 && i < image.columns && j < image.rows;
+    if (x.x() < 0) return palette::grid;
     const double g = 0.04 + 0.96 * (inside ? image.at(i, j) : 0);
     return {g, g, g};
   });
@@ -75,10 +94,12 @@ std::string described(const PatientResults& results, const ViewProjection& proje
 Figure detector_figure(const PatientResults& results, const ViewResult& view) {
   const ViewProjection projection(results.prone->mesh, view.file.mesh, view.view, view.detector);
   const DetectorImage image = shown(results, view);
-  const Section section = detector_section(image, view.view.side);
+  const Section section =
+      detector_section(image, view.view.side, left_of_window(results, projection));
   Picture picture(section.width_mm() * kScale, section.height_mm() * kScale + 20);
   Panel panel(picture, section, 0, 18, kScale);
   panel.image(raster_of(image, section));
+  panel.edge_line({0, section.window.min().y(), 0}, {0, section.window.max().y(), 0});
   draw_landmarks(panel, results, projection);
   const bool right = view.view.side == Side::right;
   const bool oblique = std::abs(view.view.angle_deg) > 15;
@@ -87,11 +108,14 @@ Figure detector_figure(const PatientResults& results, const ViewResult& view) {
   panel.scale_bar(20, palette::paper);
   const std::string name = (right ? "R-" : "L-") + title_of_view(view.view.name);
   panel.title(name);
+  std::string hidden;
+  for (const std::string& lesion : behind_edge(results, projection))
+    hidden += " Lesion " + lesion + " lies behind the detector's edge: a mammogram would not show it.";
   return {picture,
           name + " on the detector, simulated from the compressed model (cone beam, source at " +
               word::number(view.detector.source_distance_mm, 0) +
-              " mm). Ring: lesion by the model; cross: without physics; triangle: nipple.",
-          "Simulated " + name + " mammogram." + described(results, projection)};
+              " mm). Ring: lesion by the model; cross: without physics; triangle: nipple." + hidden,
+          "Simulated " + name + " mammogram." + described(results, projection) + hidden};
 }
 
 }  // namespace mammotwin

@@ -24,12 +24,14 @@ std::vector<Curve> curves_of(const PatientResults& results) {
   for (const auto& [view, colour] : views) {
     const nlohmann::json* sidecar = results.sidecar(std::string(view) + ".vtu");
     if (!sidecar || !sidecar->contains("quality")) continue;
-    const nlohmann::json history = (*sidecar)["quality"].value("history", nlohmann::json::array());
     Curve curve{title_of_view(view), colour, {}};
-    for (const nlohmann::json& step : history)
+    const nlohmann::json& quality = (*sidecar)["quality"];
+    if (quality.contains("free_thickness_mm") && quality["free_thickness_mm"].is_number())
+      curve.points.emplace_back(quality["free_thickness_mm"].get<double>(), 0.0);
+    for (const nlohmann::json& step : quality.value("history", nlohmann::json::array()))
       if (step.is_object() && step.contains("thickness_mm") && step.contains("force_N"))
         curve.points.emplace_back(step["thickness_mm"].get<double>(), step["force_N"].get<double>());
-    if (!curve.points.empty()) curves.push_back(std::move(curve));
+    if (curve.points.size() > 1) curves.push_back(std::move(curve));
   }
   return curves;
 }

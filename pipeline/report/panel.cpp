@@ -21,6 +21,10 @@ void Panel::pieces(const std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>
   picture_.unclip();
 }
 
+void Panel::edge_line(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
+  picture_.line({at(from), at(to)}, {palette::plate, 1.2, {4, 3}});
+}
+
 void Panel::frame() {
   picture_.outline({{x_, y_}, {x_ + width(), y_}, {x_ + width(), y_ + height()}, {x_, y_ + height()}},
                    {palette::quiet, 0.6});

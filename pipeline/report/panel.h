@@ -26,6 +26,7 @@ class Panel {
   void image(const Raster& raster) { picture_.image(raster, x_, y_, width(), height()); }
   void pieces(const std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>>& pieces,
               const Stroke& stroke);
+  void edge_line(const Eigen::Vector3d& from, const Eigen::Vector3d& to);  ///< the detector's edge
   void frame();
   /// Words at the middle of each side: left, right, top, bottom.
   void sides(const std::string& left, const std::string& right, const std::string& top,
