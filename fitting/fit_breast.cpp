@@ -2,9 +2,9 @@
 
 #include "fitting/fit_quality.h"
 #include "fitting/fit_samples.h"
-#include "fitting/label_surface.h"
 #include "fitting/mesh/jacobian_bound.h"
 #include "fitting/newton_step.h"
+#include "fitting/skin_to_fit.h"
 
 #include <algorithm>
 #include <optional>
@@ -14,8 +14,6 @@ namespace mammotwin {
 
 namespace {
 
-constexpr double surface_sigma_mm = 1;    // of the mask, before the surface that is fitted
-constexpr double surface_spacing_mm = 2;  // of that surface's grid
 // Elements below these get emphasis.
 constexpr double wanted_scaled_jacobian = 0.15;
 constexpr double wanted_determinant = 0.03;  // of the mean
@@ -42,25 +40,6 @@ void require_breast(const Segmentation& s) {
                              " voxels of tissue; expected at least " +
                              std::to_string(smallest_breast_voxels) +
                              " (is it the right side, and does the segmentation show a breast?)");
-}
-
-/// The skin to fit: smoothed, on a coarser grid, its body closed as little as makes it a disc.
-TriangleSurface skin_to_fit(const Segmentation& s, const ChestWall& wall) {
-  std::string reason;
-  for (int closing : {2, 3, 5}) {
-    const Volume<float> solid = solid_from_labels(s.labels, s.region, wall.height, {closing});
-    const TriangleSurface skin =
-        skin_surface(resampled(smoothed(solid, surface_sigma_mm), surface_spacing_mm), s.region);
-    reason = why_not_a_square(skin, s.region);
-    if (reason.empty()) return skin;
-  }
-  throw std::runtime_error("fit: the skin surface cannot be laid on a square: " + reason +
-                           "; look at the segmentation for holes, or for a breast that the "
-                           "field of view or the region's planes cut");
-}
-
-TriangleSurface skin_as_labelled(const Segmentation& s, const ChestWall& wall) {
-  return skin_surface(solid_from_labels(s.labels, s.region, wall.height, {}), s.region);
 }
 
 /// Weights of one part of the fit.
@@ -154,20 +133,21 @@ std::optional<HermiteMesh> fit_slab(const Slab& slab, const HermiteMesh& start, 
   return fit.mesh();
 }
 
-void judge(const FitReport& r, std::string& status, std::vector<std::string>& reasons) {
+void judge(FitReport& r) {
   const auto look = [&](bool bad, const std::string& reason) {
-    if (bad) reasons.push_back(reason);
+    if (bad) r.reasons.push_back(reason);
   };
   look(std::max(r.skin_rms_mesh_to_data_mm, r.skin_rms_data_to_mesh_mm) > 1,
        "The mesh's skin is more than 1 mm (RMS) off the labels'.");
   look(r.covered_fraction < 0.97, "Less than 97 % of the breast's voxels lie in the mesh.");
   look(r.covered_lesions < 0.99, "Part of a lesion lies outside the mesh.");
   look(r.chest_wall_rms_mm > 2, "The mesh's chest wall is more than 2 mm (RMS) off the muscle.");
-  status = reasons.empty() ? "ok" : "look";
+  r.status = r.reasons.empty() ? "ok" : "look";
 }
 
-void measure(MeshFile& file, const Segmentation& s, const ChestWall& wall, FitReport& r) {
-  const TriangleSurface labelled = skin_as_labelled(s, wall);
+void measure(MeshFile& file, const Segmentation& s, const BreastRegion& region,
+             const ChestWall& wall, FitReport& r) {
+  const TriangleSurface labelled = skin_as_labelled(s, region, wall);
   const SurfaceDistances skin =
       surface_distances(file.mesh, file.faces, FaceLabel::skin, labelled);
   file.fields["skin_distance_mm"] = skin_distance_field(file, labelled);
@@ -183,7 +163,7 @@ void measure(MeshFile& file, const Segmentation& s, const ChestWall& wall, FitRe
   const Coverage covered = coverage(file.mesh, s.labels, s.region);
   r.covered_fraction = covered.breast;
   r.covered_lesions = covered.lesions;
-  judge(r, r.status, r.reasons);
+  judge(r);
 }
 
 }  // namespace
@@ -197,26 +177,27 @@ FitResult fit_breast(const Segmentation& s, const FitOptions& options,
   };
   tell(0, "finding skin and chest wall");
   const ChestWall wall = find_chest_wall(s.labels, s.region);
-  const TriangleSurface skin = skin_to_fit(s, wall);
+  const SkinToFit skin = find_skin_to_fit(s, wall);
   tell(0.1, "flattening the skin");
-  const FlatSkin flat = flatten(skin, s.region);
+  const FlatSkin flat = flatten(skin.surface, skin.region);
   const Slab slab{options.elements};
-  const HermiteMesh start = straight_start(slab, skin, flat, wall.height, s.region);
+  const HermiteMesh start = straight_start(slab, skin.surface, flat, wall.height, skin.region);
 
   FitResult result{{HermiteMesh({}, {}), {}, {}, {}, {}, {}}, {}};
   result.report.elements = options.elements;
-  FitTarget target(slab, skin, flat, wall.height);
+  FitTarget target(slab, skin.surface, flat, wall.height);
+  if (!skin.doubt.empty()) result.report.reasons.push_back(skin.doubt);
   const auto mesh = fit_slab(slab, start, target, options, result.report, progress);
   if (!mesh) {
     result.report.status = "not_converged";
-    result.report.reasons = {"No mesh was found whose elements are all valid; look at the "
-                             "segmentation's skin and chest wall, or try other element counts."};
+    result.report.reasons.push_back("No mesh was found whose elements are all valid; look at the "
+                             "segmentation's skin and chest wall, or try other element counts.");
     return result;
   }
   result.mesh.mesh = *mesh;
   result.mesh.faces = slab_faces(slab);
   tell(0.9, "measuring the fit");
-  measure(result.mesh, s, wall, result.report);
+  measure(result.mesh, s, skin.region, wall, result.report);
   tell(1, "done");
   return result;
 }

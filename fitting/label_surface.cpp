@@ -156,33 +156,6 @@ float trilinear(const Volume<float>& v, const Eigen::Vector3d& index) {
   return static_cast<float>(value);
 }
 
-TriangleSurface isosurface(const Volume<float>& volume) {
-  vtkNew<vtkImageData> image;
-  image->SetDimensions(volume.size.x(), volume.size.y(), volume.size.z());
-  image->SetSpacing(volume.spacing.x(), volume.spacing.y(), volume.spacing.z());
-  image->SetOrigin(volume.origin.x(), volume.origin.y(), volume.origin.z());
-  image->AllocateScalars(VTK_FLOAT, 1);
-  std::copy(volume.values.begin(), volume.values.end(),
-            static_cast<float*>(image->GetScalarPointer()));
-  vtkNew<vtkFlyingEdges3D> contour;
-  contour->SetInputData(image);
-  contour->SetValue(0, 0.5);
-  contour->ComputeNormalsOff();
-  contour->ComputeScalarsOff();
-  contour->Update();
-  vtkPolyData* poly = contour->GetOutput();
-  TriangleSurface surface;
-  for (vtkIdType p = 0; p < poly->GetNumberOfPoints(); ++p)
-    surface.vertices.emplace_back(poly->GetPoint(p));
-  vtkNew<vtkIdList> ids;
-  for (vtkIdType t = 0; t < poly->GetNumberOfPolys(); ++t) {
-    poly->GetPolys()->GetCellAtId(t, ids);
-    surface.triangles.push_back({static_cast<int>(ids->GetId(0)), static_cast<int>(ids->GetId(1)),
-                                 static_cast<int>(ids->GetId(2))});
-  }
-  return surface;
-}
-
 }  // namespace
 
 Volume<float> solid_from_labels(const Volume<std::uint8_t>& labels, const BreastRegion& region,
@@ -216,14 +189,38 @@ Volume<float> resampled(const Volume<float>& volume, double spacing_mm) {
   return result;
 }
 
-TriangleSurface skin_surface(const Volume<float>& solid, const BreastRegion& region) {
-  // Vertices this near a plane are moved onto it: a twentieth of a voxel.
-  const double snap = solid.spacing.minCoeff() / 20;
-  TriangleSurface surface = isosurface(solid);
-  surface = clip(surface, 0, region.x_min, true, snap);
-  surface = clip(surface, 0, region.x_max, false, snap);
-  surface = clip(surface, 2, region.z_min, true, snap);
-  return largest_part(clip(surface, 2, region.z_max, false, snap));
+TriangleSurface solid_boundary(const Volume<float>& volume) {
+  vtkNew<vtkImageData> image;
+  image->SetDimensions(volume.size.x(), volume.size.y(), volume.size.z());
+  image->SetSpacing(volume.spacing.x(), volume.spacing.y(), volume.spacing.z());
+  image->SetOrigin(volume.origin.x(), volume.origin.y(), volume.origin.z());
+  image->AllocateScalars(VTK_FLOAT, 1);
+  std::copy(volume.values.begin(), volume.values.end(),
+            static_cast<float*>(image->GetScalarPointer()));
+  vtkNew<vtkFlyingEdges3D> contour;
+  contour->SetInputData(image);
+  contour->SetValue(0, 0.5);
+  contour->ComputeNormalsOff();
+  contour->ComputeScalarsOff();
+  contour->Update();
+  vtkPolyData* poly = contour->GetOutput();
+  TriangleSurface surface;
+  for (vtkIdType p = 0; p < poly->GetNumberOfPoints(); ++p)
+    surface.vertices.emplace_back(poly->GetPoint(p));
+  vtkNew<vtkIdList> ids;
+  for (vtkIdType t = 0; t < poly->GetNumberOfPolys(); ++t) {
+    poly->GetPolys()->GetCellAtId(t, ids);
+    surface.triangles.push_back({static_cast<int>(ids->GetId(0)), static_cast<int>(ids->GetId(1)),
+                                 static_cast<int>(ids->GetId(2))});
+  }
+  return surface;
+}
+
+TriangleSurface cropped(const TriangleSurface& surface, const BreastRegion& region, double snap) {
+  TriangleSurface part = clip(surface, 0, region.x_min, true, snap);
+  part = clip(part, 0, region.x_max, false, snap);
+  part = clip(part, 2, region.z_min, true, snap);
+  return largest_part(clip(part, 2, region.z_max, false, snap));
 }
 
 }  // namespace mammotwin

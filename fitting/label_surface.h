@@ -22,7 +22,11 @@ Volume<float> smoothed(const Volume<float>& volume, double sigma_mm);
 /// The same field on a grid of about the given spacing, trilinear.
 Volume<float> resampled(const Volume<float>& volume, double spacing_mm);
 
-/// Where the solid ends, by marching cubes at 1/2, cut at the region's planes.
-TriangleSurface skin_surface(const Volume<float>& solid, const BreastRegion& region);
+/// Where the solid ends: marching cubes at 1/2.
+TriangleSurface solid_boundary(const Volume<float>& solid);
+
+/// The largest part of a surface inside the region's planes; vertices within `snap` [mm] of a
+/// plane are moved onto it.
+TriangleSurface cropped(const TriangleSurface& surface, const BreastRegion& region, double snap);
 
 }  // namespace mammotwin

@@ -2,6 +2,8 @@
 
 #include "fitting/mesh/bezier.h"
 #include "fitting/mesh/jacobian_bound.h"
+#include "fitting/flatten.h"
+#include "fitting/skin_to_fit.h"
 #include "tests/fitting/dome.h"
 
 #include <gtest/gtest.h>
@@ -114,7 +116,30 @@ TEST(FitBreast, RefusesSkinThatIsNoDisc) {
         if (std::abs(x.z()) < 6 && x.x() > 0 && x.y() > -56 && x.y() < -46)
           s.labels(i, j, k) = label::fat;
       }
+  s.lesions.push_back({"1", {36, -5, 0}, 0.1});  // so that the region's edge must stay
   EXPECT_NE(refusal(s).find("cannot be laid on a square"), std::string::npos);
+}
+
+TEST(SkinToFit, LeavesOutARaggedEdgeAndSaysSo) {
+  Segmentation s = dome_breast();
+  // A flap that hangs over the upper edge and touches it twice: an arch 20 mm wide and 24 high.
+  for (int k = 0; k < s.labels.size.z(); ++k)
+    for (int j = 0; j < s.labels.size.y(); ++j)
+      for (int i = 0; i < s.labels.size.x(); ++i) {
+        const Eigen::Vector3d x = s.labels.position(i, j, k);
+        if (x.z() < 37 || std::abs(x.x()) > 30 || x.y() < -52) continue;
+        const bool under_the_arch = std::abs(x.x()) < 22 && x.y() > -44;
+        if (!under_the_arch && x.y() <= 0) s.labels(i, j, k) = label::fat;
+      }
+  const SkinToFit skin = find_skin_to_fit(s, find_chest_wall(s.labels, s.region));
+  EXPECT_EQ(why_not_a_square(skin.surface, skin.region), "");
+  EXPECT_NE(skin.doubt.find("upper edge"), std::string::npos) << skin.doubt;
+  EXPECT_LT(skin.region.z_max, s.region.z_max - 2);
+  EXPECT_EQ(skin.region.z_min, s.region.z_min);
+
+  Lesion lesion{"1", {0, -5, 40}, 0.1};
+  s.lesions.push_back(lesion);
+  EXPECT_THROW(find_skin_to_fit(s, find_chest_wall(s.labels, s.region)), std::runtime_error);
 }
 
 TEST(FitBreast, RefusesOptionsOutOfRange) {

@@ -1,0 +1,95 @@
+#include "fitting/skin_to_fit.h"
+
+#include "fitting/flatten.h"
+#include "fitting/label_surface.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <stdexcept>
+
+namespace mammotwin {
+
+namespace {
+
+constexpr double sigma_mm = 1;
+constexpr double spacing_mm = 2;
+constexpr double snap_mm = 0.1;  // a twentieth of the spacing
+constexpr std::array<int, 3> closings = {2, 3, 5};                 // voxels
+constexpr std::array<double, 7> pulls = {3, 6, 9, 12, 15, 18, 21};  // [mm]
+constexpr double lesion_margin_mm = 3;
+
+/// Edges named by bits: x_min, x_max, z_min, z_max.
+BreastRegion pulled_in(BreastRegion r, int edges, double by) {
+  if (edges & 1) r.x_min += by;
+  if (edges & 2) r.x_max -= by;
+  if (edges & 4) r.z_min += by;
+  if (edges & 8) r.z_max -= by;
+  return r;
+}
+
+double radius_mm(const Lesion& lesion) {
+  constexpr double pi = 3.14159265358979;
+  return std::cbrt(3 * 1000 * lesion.volume_ml / (4 * pi));
+}
+
+bool holds_lesions(const BreastRegion& r, const std::vector<Lesion>& lesions) {
+  return std::all_of(lesions.begin(), lesions.end(), [&](const Lesion& lesion) {
+    const Eigen::Vector3d& x = lesion.centroid_in_lps;
+    const double reach = radius_mm(lesion) + lesion_margin_mm;
+    return x.x() - reach > r.x_min && x.x() + reach < r.x_max && x.z() - reach > r.z_min &&
+           x.z() + reach < r.z_max;
+  });
+}
+
+/// Sets of edges, those with fewest first.
+std::vector<int> edge_sets() {
+  std::vector<int> sets;
+  for (int edges = 1; edges < 16; ++edges) sets.push_back(edges);
+  std::stable_sort(sets.begin(), sets.end(), [](int a, int b) {
+    return std::popcount(static_cast<unsigned>(a)) < std::popcount(static_cast<unsigned>(b));
+  });
+  return sets;
+}
+
+std::string doubt_of(int edges, double by) {
+  std::string names;
+  constexpr std::array<const char*, 4> edge_names = {"right", "left", "lower", "upper"};
+  for (int e = 0; e < 4; ++e)
+    if (edges >> e & 1) names += (names.empty() ? "" : " and ") + std::string(edge_names[e]);
+  return "The labels' skin is too ragged at the breast's " + names + " edge; the mesh ends " +
+         std::to_string(static_cast<int>(by)) + " mm inside it there.";
+}
+
+}  // namespace
+
+SkinToFit find_skin_to_fit(const Segmentation& s, const ChestWall& wall) {
+  TriangleSurface boundary;
+  std::string reason;
+  for (int closing : closings) {
+    const Volume<float> solid = solid_from_labels(s.labels, s.region, wall.height, {closing});
+    boundary = solid_boundary(resampled(smoothed(solid, sigma_mm), spacing_mm));
+    const TriangleSurface skin = cropped(boundary, s.region, snap_mm);
+    reason = why_not_a_square(skin, s.region);
+    if (reason.empty()) return {skin, s.region, ""};
+  }
+  const TriangleSurface around = cropped(boundary, s.region, snap_mm);
+  for (double by : pulls)
+    for (int edges : edge_sets()) {
+      const BreastRegion region = pulled_in(s.region, edges, by);
+      if (!holds_lesions(region, s.lesions)) continue;
+      const TriangleSurface skin = cropped(around, region, snap_mm);
+      if (why_not_a_square(skin, region).empty()) return {skin, region, doubt_of(edges, by)};
+    }
+  throw std::runtime_error("fit: the skin surface cannot be laid on a square: " + reason +
+                           "; look at the segmentation for holes, or for a breast that the "
+                           "field of view or the region's planes cut");
+}
+
+TriangleSurface skin_as_labelled(const Segmentation& s, const BreastRegion& region,
+                                 const ChestWall& wall) {
+  const Volume<float> solid = solid_from_labels(s.labels, region, wall.height, {});
+  return cropped(solid_boundary(solid), region, s.labels.spacing.minCoeff() / 20);
+}
+
+}  // namespace mammotwin

@@ -1,0 +1,27 @@
+#pragma once
+
+#include "fitting/chest_wall.h"
+#include "fitting/triangle_surface.h"
+
+#include <string>
+
+namespace mammotwin {
+
+/// The skin that a slab is fitted to: smoothed (Gaussian of 1 mm), on a grid of 2 mm.
+struct SkinToFit {
+  TriangleSurface surface;
+  BreastRegion region;  ///< smaller than the segmentation's where its edge had to be left out
+  std::string doubt;    ///< a sentence that says so; empty otherwise
+};
+
+/// Closes the body as little as makes its skin a disc with four corners. Where that does not help
+/// (ragged labels at the end of the field of view), edges of the region are pulled in by up to
+/// 21 mm, as few and as little as will do, but never past a lesion. Throws std::runtime_error if
+/// nothing helps.
+SkinToFit find_skin_to_fit(const Segmentation& segmentation, const ChestWall& wall);
+
+/// The skin as labelled: neither closed nor smoothed.
+TriangleSurface skin_as_labelled(const Segmentation& segmentation, const BreastRegion& region,
+                                 const ChestWall& wall);
+
+}  // namespace mammotwin
