@@ -19,6 +19,8 @@ constexpr double kMargin_mm = 12;   // round the breast
 /// Grey values are shown between these fractions of the voxels in the window.
 constexpr double kDarkest = 0.01, kBrightest = 0.995;
 
+constexpr Colour kDark{0.16, 0.17, 0.19};
+
 struct Window {
   float low = 0, high = 1;
 };
@@ -82,10 +84,16 @@ class Slices {
   }
 
   Colour grey(const Eigen::Vector3d& x) const {
-    if (!results_.mri) return {0.16, 0.17, 0.19};
+    if (!results_.mri) return kDark;
     const double value = (nearest(*results_.mri, x, 0.0f) - window_.low) / (window_.high - window_.low);
     const double g = std::clamp(value, 0.0, 1.0);
     return {g, g, g};
+  }
+
+  /// What the mesh is drawn on: the MRI, or dimmed labels where there is none.
+  Colour under_mesh(const Eigen::Vector3d& x) const {
+    if (results_.mri) return grey(x);
+    return palette::over(palette::with_alpha(labelled(x), 0.45), kDark);
   }
 
   Colour labelled(const Eigen::Vector3d& x) const {
@@ -144,13 +152,13 @@ Figure mri_figure(const PatientResults& results, const Landmark& lesion) {
     for (int i = 0; i < 3; ++i) {
       Panel panel(picture, sections[i], x, below * row + 16, scale);
       panel.image(sections[i].sample(slices.pixel_mm(), [&](const Eigen::Vector3d& p) {
-        return below ? slices.grey(p) : slices.labelled(p);
+        return below ? slices.under_mesh(p) : slices.labelled(p);
       }));
       if (below) slices.draw_mesh(panel);
       slices.draw_marks(panel);
       panel.sides(kWords[i].left, kWords[i].right, kWords[i].top, kWords[i].bottom, true);
       panel.scale_bar(20, palette::paper);
-      panel.title(std::string(kWords[i].name) + (below ? ", mesh" : ", labels"));
+      panel.title(std::string(kWords[i].name) + (!below ? ", labels" : results.prone ? ", mesh" : ", no mesh"));
       x += panel.width() + kGap;
     }
   }
@@ -159,9 +167,8 @@ Figure mri_figure(const PatientResults& results, const Landmark& lesion) {
                             word::mm(p.z()) + " mm";
   return {picture,
           "Prone " + std::string(results.mri ? "MRI" : "label map") + " through lesion " +
-              lesion.id + " (" + where +
-              "). Above: labels (skin, fat, fibroglandular, muscle, lesion). Below: the curves in "
-              "which the fitted mesh cuts the same slices.",
+              lesion.id + " (" + where + "). Above: labels (skin, fat, fibroglandular, muscle, lesion)." +
+              (results.prone ? " Below: the curves in which the fitted mesh cuts the same slices." : ""),
           "Axial, sagittal and coronal slices through lesion " + lesion.id + " at " + where +
               ", once with tissue labels and once with the mesh outline."};
 }

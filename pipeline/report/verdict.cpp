@@ -31,6 +31,11 @@ std::string stage_of(const StageRecord& record) {
   return record.sidecar.value("stage", record.product);
 }
 
+/// Messages often begin with their stage's name, which the page sets before them anyway.
+std::string without_prefix(const std::string& text, const std::string& stage) {
+  return text.starts_with(stage + ": ") ? text.substr(stage.size() + 2) : text;
+}
+
 json stage_row(const StageRecord& record) {
   const std::string status = record.sidecar.value("status", "unknown");
   const Grade* grade = grade_of(status);
@@ -56,7 +61,9 @@ json verdict_data(const PatientResults& results) {
     const Grade* grade = grade_of(record.sidecar.value("status", ""));
     if (grade && grade > worst) worst = grade;
     for (const json& reason : record.sidecar.value("reasons", json::array()))
-      if (reason.is_string()) reasons.push_back({{"stage", stage_of(record)}, {"text", reason}});
+      if (reason.is_string())
+        reasons.push_back({{"stage", stage_of(record)},
+                           {"text", without_prefix(reason.get<std::string>(), stage_of(record))}});
     stages.push_back(stage_row(record));
   }
   std::string status = worst->status, verdict = worst->verdict;
