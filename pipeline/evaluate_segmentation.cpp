@@ -45,6 +45,19 @@ PatientOptions options_of(int n) {
   return options;
 }
 
+/// Not every chest can carry every volume: the nearest larger one that this chest can is taken.
+SyntheticPatient make_possible(PatientOptions options) {
+  constexpr double larger = 1.15, largest_ml = 1500;
+  for (;;) {
+    try {
+      return make_patient(options);
+    } catch (const std::invalid_argument&) {
+      options.anatomy.volume_ml *= larger;
+      if (options.anatomy.volume_ml > largest_ml) throw;
+    }
+  }
+}
+
 SegmentInput input_of(const SyntheticPatient& patient, const std::filesystem::path& image) {
   SegmentInput input;
   input.mri = image;
@@ -78,7 +91,7 @@ nlohmann::json evaluate(int n, const std::filesystem::path& image) {
         "skin_surface_mean_mm", "nipple_mm", "lesion_dice", "lesion_centroid_mm"})
     row[key] = nullptr;
   try {
-    const SyntheticPatient patient = make_patient(options);
+    const SyntheticPatient patient = make_possible(options);
     write_scan(image, patient.scan.image);
     const auto start = std::chrono::steady_clock::now();
     const SegmentResult result = segment(input_of(patient, image), {});

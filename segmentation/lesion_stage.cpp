@@ -60,6 +60,12 @@ void judge(const FoundLesion& found, const PlacedSeed& seed, bool brighter,
                       "round the point was taken; give radius_mm or a label map");
     return;
   }
+  if (!brighter)
+    quality.doubt(SegmentStatus::look,
+                  "lesion " + seed.id +
+                      " was outlined without fat suppression and contrast agent, "
+                      "where it looks like gland: its extent rests on the fat around it; give "
+                      "radius_mm or a label map if it lies in gland");
   if (brighter && found.contrast() < least_contrast)
     quality.doubt(SegmentStatus::look, "lesion " + seed.id +
                                            " is less than 1.3 times as bright as "

@@ -27,7 +27,7 @@ TEST(OddInputs, EnhancedMultiframeIsRead) {
   EXPECT_EQ(mri.image.values.size(), 64U * 64 * 10);
 }
 
-TEST(RealMri, SeriesFolderIsReadWhole) {
+TEST(OddInputs, OrdinarySeriesIsReadWhole) {
   MAMMOTWIN_NEED_CASE(mimbcd_6e4da81a, "mimbcd_6e4da81a");
   const Mri mri = read_mri(mimbcd_6e4da81a / "mri");
   EXPECT_EQ(mri.image.size, Eigen::Vector3i(352, 352, 176));
