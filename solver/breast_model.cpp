@@ -15,7 +15,6 @@ namespace {
 
 using Faces = std::vector<std::pair<int, int>>;
 
-constexpr double kSettledPressure = 1;  // x modulus; 4 left tangents indefinite on real breasts
 constexpr int kContactPoints = 8;  // a face of 27 mm passes 3 mm through an edge between 5 x 5 points
 constexpr double kWallPenalty = 1000;  // x modulus/size: 10 kPa moves the wall by about 0.05 mm
 
@@ -119,7 +118,6 @@ void hold_cut_faces(const CompressionProblem& problem, BreastModel& breast) {
 void add_contact(const CompressionProblem& problem, BreastModel& breast) {
   breast.contact = std::make_shared<PlateContact>();
   breast.contact->points1d = kContactPoints;
-  breast.contact->curvature_pressure = kSettledPressure * breast.largest_modulus;
   breast.contact_faces = faces_labelled(problem.mesh, FaceLabel::skin);
   const Faces cut = faces_labelled(problem.mesh, FaceLabel::cut);
   breast.contact_faces.insert(breast.contact_faces.end(), cut.begin(), cut.end());

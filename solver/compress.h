@@ -75,7 +75,7 @@ struct CompressionOptions {
   double thickness_tolerance = 0.02; ///< |measured − asked| [mm] > 0
   double first_step = 1;             ///< of the way, in (0, 1]
   double smallest_step = 1.0 / 64;   ///< give up below this part of the way
-  int max_iterations = 400;          ///< Newton iterations in all
+  int max_iterations = 1000;          ///< Newton iterations in all
 };
 
 struct CompressionStep {

@@ -1,7 +1,6 @@
 #include "solver/contact/penalty_continuation.h"
 
 #include <algorithm>
-#include <limits>
 
 namespace mammotwin {
 
@@ -15,44 +14,26 @@ void add(NewtonReport& total, const NewtonReport& part) {
   total.indefinite = indefinite;
 }
 
-/// Newton without the part of the tangent that a curved plate's pressure gives, t ∂²gap/∂x²: far
-/// from equilibrium t is the violation's and not the tissue's, and makes the matrix indefinite at
-/// strains where nothing is unstable.
-NewtonReport without_curvature(Newton& newton, PlateContact& contact, const NewtonOptions& options,
-                               State& state) {
-  const double cap = contact.curvature_pressure;
-  contact.curvature_pressure = 0;
+/// Newton that leaves the plates' curvature out of a matrix that would be indefinite with it.
+NewtonReport solve(Newton& newton, PlateContact& contact, NewtonOptions options, State& state) {
+  options.stabilise = [&contact](bool on) { contact.with_curvature = !on; };
   const NewtonReport report = newton.solve(state, options);
-  contact.curvature_pressure = cap;
+  contact.with_curvature = true;
   return report;
 }
 
 /// Only has to come near.
 NewtonReport approach(Newton& newton, PlateContact& contact, NewtonOptions options, State& state) {
-  options.tolerance = 1e-3;
+  options.tolerance = 1e-2;
   options.constraint_tolerance = 1e-2;
-  return without_curvature(newton, contact, options, state);
+  return solve(newton, contact, options, state);
 }
 
 }  // namespace
 
 NewtonReport resettle(Newton& newton, PlateContact& contact, const NewtonOptions& options,
                       State& state) {
-  constexpr int few = 8;  // quadratic convergence from nearby takes 3 to 5
-  NewtonReport total = approach(newton, contact, options, state);
-  if (!total.usable()) return total;
-  NewtonOptions quick = options;
-  quick.max_iterations = few;
-  const double cap = contact.curvature_pressure;
-  contact.curvature_pressure = std::numeric_limits<double>::infinity();
-  State trial = state;
-  add(total, newton.solve(trial, quick));
-  contact.curvature_pressure = cap;
-  if (total.usable())
-    state = std::move(trial);
-  else  // linear convergence instead
-    add(total, without_curvature(newton, contact, options, state));
-  return total;
+  return solve(newton, contact, options, state);
 }
 
 NewtonReport solve_contact(Newton& newton, PlateContact& contact, double unit,

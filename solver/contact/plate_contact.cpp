@@ -1,7 +1,5 @@
 #include "solver/contact/plate_contact.h"
 
-#include <algorithm>
-
 namespace mammotwin {
 
 bool PlateContact::respond(const Eigen::Matrix<double, 9, 1>& y, const SurfacePoint&, int order,
@@ -20,8 +18,8 @@ bool PlateContact::respond(const Eigen::Matrix<double, 9, 1>& y, const SurfacePo
     response.energy += t * t / (2 * penalty);
     response.gradient.head<3>() -= t * gap.normal;
     if (order < 2) continue;
-    response.hessian.topLeftCorner<3, 3>() += penalty * gap.normal * gap.normal.transpose() -
-                                              std::min(t, curvature_pressure) * gap.hessian;
+    response.hessian.topLeftCorner<3, 3>() += penalty * gap.normal * gap.normal.transpose();
+    if (with_curvature) response.hessian.topLeftCorner<3, 3>() -= t * gap.hessian;
   }
   return touches;
 }

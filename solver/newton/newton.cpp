@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace mammotwin {
 
@@ -35,19 +36,38 @@ NewtonReport& stopped(NewtonReport& report, const char* reason) {
 Newton::Newton(const Model& model, const DofMap& dofs)
     : assembler_(model, dofs), cholesky_(assembler_.pattern(), dofs.node_of_equation()) {}
 
+bool Newton::factor(const State& state, const std::vector<HermiteMesh::Node>& pending,
+                    Balance& balance, NewtonReport& report) {
+  balance = assembler_.linearise(state, shift_, pending);
+  if (!std::isfinite(balance.energy)) return false;
+  if (cholesky_.factor(assembler_.matrix())) return true;
+  ++report.indefinite;
+  return false;
+}
+
+bool Newton::factor_exact(const State& state, const NewtonOptions& options,
+                          const std::vector<HermiteMesh::Node>& pending, Balance& balance,
+                          NewtonReport& report) {
+  const double shift = std::exchange(shift_, 0);
+  if (options.stabilise) options.stabilise(false);
+  if (factor(state, pending, balance, report)) return true;
+  if (options.stabilise) options.stabilise(true);
+  shift_ = shift;
+  return false;
+}
+
 bool Newton::factor_shifted(const State& state, const NewtonOptions& options,
                             const std::vector<HermiteMesh::Node>& pending, Balance& balance,
                             NewtonReport& report) {
   constexpr double first_shift = 0.05, growth = 4, decay = 0.25;
+  if (factor_exact(state, options, pending, balance, report)) return true;
   shift_ = shift_ * decay < first_shift / 2 ? 0 : shift_ * decay;
-  for (;;) {
-    balance = assembler_.linearise(state, shift_, pending);
-    if (!std::isfinite(balance.energy)) return false;
-    if (cholesky_.factor(assembler_.matrix())) return true;
-    ++report.indefinite;
+  if (shift_ == 0 && !options.stabilise) shift_ = first_shift;
+  while (std::isfinite(balance.energy) && shift_ <= options.max_shift) {
+    if (factor(state, pending, balance, report)) return true;
     shift_ = shift_ == 0 ? first_shift : shift_ * growth;
-    if (shift_ > options.max_shift) return false;
   }
+  return false;
 }
 
 Newton::Step Newton::solve_step(const State& state, const Balance& balance,

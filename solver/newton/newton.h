@@ -1,10 +1,11 @@
 #pragma once
 
-#include "solver/newton/assembler.h"
-#include "solver/newton/cholesky.h"
-
+#include <functional>
 #include <string>
 #include <vector>
+
+#include "solver/newton/assembler.h"
+#include "solver/newton/cholesky.h"
 
 namespace mammotwin {
 
@@ -12,20 +13,24 @@ struct NewtonOptions {
   int max_iterations = 40;
   double tolerance = 1e-7;             ///< |residual| <= tolerance * flow
   double constraint_tolerance = 1e-6;  ///< largest relative volume error left by the pressures
+  /// Leaves destabilising parts out of the model's tangent (true) or takes them in again (false);
+  /// may be empty. The residual stays exact, so only the speed of convergence changes.
+  std::function<void(bool)> stabilise;
   double max_shift = 1000;  ///< Laplacian shifts tried on an indefinite matrix before giving up [-]
 };
 
 struct NewtonReport {
   bool converged = false;
-  int iterations = 0;      ///< linear systems solved
-  int indefinite = 0;      ///< matrices met that were not positive definite
-  double residual = 0;     ///< relative to flow [-]
-  std::string reason;      ///< why not, in a sentence
+  int iterations = 0;   ///< linear systems solved
+  int indefinite = 0;   ///< matrices met that were not positive definite
+  double residual = 0;  ///< relative to flow [-]
+  std::string reason;   ///< why not, in a sentence
   bool usable() const { return converged; }
 };
 
 /// Newton's method on the mixed system with a line search along δx at the new pressures; a matrix
-/// that is not positive definite is shifted by the μ-weighted Laplacian until it is.
+/// that is not positive definite is stabilised, then shifted by the μ-weighted Laplacian until it
+/// is.
 class Newton {
  public:
   Newton(const Model& model, const DofMap& dofs);
@@ -46,6 +51,11 @@ class Newton {
     double slope;  ///< δx · residual at the new pressures
     Eigen::VectorXd solution;
   };
+  bool factor(const State& state, const std::vector<HermiteMesh::Node>& pending, Balance& balance,
+              NewtonReport& report);
+  bool factor_exact(const State& state, const NewtonOptions& options,
+                    const std::vector<HermiteMesh::Node>& pending, Balance& balance,
+                    NewtonReport& report);
   bool factor_shifted(const State& state, const NewtonOptions& options,
                       const std::vector<HermiteMesh::Node>& pending, Balance& balance,
                       NewtonReport& report);
