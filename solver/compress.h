@@ -97,7 +97,7 @@ struct CompressionReport {
   double free_thickness_mm = 0;    ///< the same of the uncompressed breast
   double force_N = 0;              ///< of the paddle, from contact
   double energy_force_N = 0;       ///< the same from the change of stored energy, a check
-  double contact_area_cm2 = 0;     ///< deformed, on the paddle
+  double contact_area_cm2 = 0;     ///< deformed, within 0.1 mm of the paddle
   double volume_change = 0;        ///< fraction
   double min_J = 1, max_J = 1;
   double J_within_half = 0;        ///< fraction of quadrature points with J in [0.5, 1.5]

@@ -119,6 +119,7 @@ class CylinderRun {
     return x_.how == CylinderCase::lateral || x_.how == CylinderCase::plane_strain;
   }
   bool bonded() const { return x_.how == CylinderCase::bonded; }
+  bool by_contact() const { return lying(); }  // standing, the flat plate's motion is prescribed
   double start() const { return lying() ? x_.diameter / 2 : x_.length / 2; }
   double height(double fraction) const { return start() + fraction * (x_.thickness / 2 - start()); }
   double end() const { return x_.length / 2; }
@@ -126,7 +127,7 @@ class CylinderRun {
   void hold_symmetry();
   void place_plate();
   NewtonReport equilibrate(double fraction, State& state);
-  NewtonReport pull_bonded(double fraction, State& state);
+  NewtonReport move_end(double fraction, State& state);
   double force(const State& state) const;
   CylinderFigures measure(const State& state) const;
 
@@ -144,30 +145,27 @@ class CylinderRun {
 void CylinderRun::hold_symmetry() {
   for (int axis = 0; axis < 3; ++axis) hold(mesh_, faces_in_plane(mesh_, axis, 0), axis, dofs_);
   const FaceList ends = faces_in_plane(mesh_, 2, end());
-  if (x_.how == CylinderCase::plane_strain) hold(mesh_, ends, 2, dofs_);
+  if (x_.how == CylinderCase::plane_strain || x_.how == CylinderCase::axial)
+    hold(mesh_, ends, 2, dofs_);
   if (bonded())
     for (int i = 0; i < 3; ++i) hold(mesh_, ends, i, dofs_);
 }
 
 void CylinderRun::place_plate() {
   penalties_.last = x_.penalty;
-  if (bonded()) return;
+  if (!by_contact()) return;
   contact_ = std::make_shared<PlateContact>();
   contact_->points1d = x_.contact_points;
-  const Eigen::Vector3d normal = lying() ? -Eigen::Vector3d::UnitY() : -Eigen::Vector3d::UnitZ();
+  const Eigen::Vector3d normal = -Eigen::Vector3d::UnitY();
   contact_->plates = {Plate{-start() * normal, normal, Eigen::Vector3d::UnitX(), 0, true}};
-  if (lying()) {
-    for (int e = 0; e < mesh_.num_elements(); ++e)
-      for (int face = 0; face < 6; ++face)
-        if (file_.faces[e][face] == FaceLabel::skin) contact_faces_.push_back({e, face});
-  } else {
-    contact_faces_ = faces_in_plane(mesh_, 2, end());
-  }
+  for (int e = 0; e < mesh_.num_elements(); ++e)
+    for (int face = 0; face < 6; ++face)
+      if (file_.faces[e][face] == FaceLabel::skin) contact_faces_.push_back({e, face});
   for (const auto& [e, face] : contact_faces_)
     model_->add_surface_potential(e, face, contact_, contact_->points1d);
 }
 
-NewtonReport CylinderRun::pull_bonded(double fraction, State& state) {
+NewtonReport CylinderRun::move_end(double fraction, State& state) {
   std::vector<HermiteMesh::Node> pending(mesh_.num_nodes(), HermiteMesh::Node::Zero());
   for (int i = 0; i < mesh_.num_nodes(); ++i)
     if (std::abs(mesh_.node(i)(2, 0) - end()) < kOnPlane)
@@ -176,7 +174,7 @@ NewtonReport CylinderRun::pull_bonded(double fraction, State& state) {
 }
 
 NewtonReport CylinderRun::equilibrate(double fraction, State& state) {
-  if (bonded()) return pull_bonded(fraction, state);
+  if (!by_contact()) return move_end(fraction, state);
   contact_->plates[0].point = -height(fraction) * contact_->plates[0].normal;
   const double size = std::cbrt(model_->volume() / mesh_.num_elements());
   NewtonReport report = solve_contact(*newton_, *contact_, 2 * x_.c1 / size, penalties_, state);
@@ -192,7 +190,7 @@ NewtonReport CylinderRun::equilibrate(double fraction, State& state) {
 }
 
 double CylinderRun::force(const State& state) const {
-  if (!bonded())
+  if (by_contact())
     return kWhole * contact_figures(*model_, state, *contact_, 0, contact_faces_).force.norm();
   double sum = 0;
   const auto residual = newton_->assembler().nodal_residual(state);

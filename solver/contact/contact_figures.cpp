@@ -8,12 +8,14 @@ namespace mammotwin {
 
 namespace {
 
+constexpr double kTouching = 0.1;  // [mm] a face wobbles by less about a plate that it lies on
+
 void add_face(const Face& face, const SolidElement::Coefficients& x, const PlateContact& contact,
               int plate, ContactFigures& figures) {
   for (int q = 0; q < face.num_points(); ++q) {
     const auto y = face.deformed(x, q);
     const Gap gap = contact.plates[plate].gap(y.head<3>());
-    if (gap.gap >= 0) continue;
+    if (gap.gap >= kTouching) continue;
     const SurfacePoint& point = face.point(q);
     const double stretch = y.segment<3>(3).cross(y.segment<3>(6)).norm() /
                            point.A1.cross(point.A2).norm();

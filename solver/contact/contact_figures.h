@@ -13,7 +13,7 @@ using FaceList = std::vector<std::pair<int, int>>;  ///< (element, face) with a 
 /// What one plate does to a state: sums over the quadrature points in contact.
 struct ContactFigures {
   Eigen::Vector3d force = Eigen::Vector3d::Zero();  ///< of the plate on the tissue [mN]
-  double area = 0;                                  ///< deformed area in contact [mm²]
+  double area = 0;         ///< deformed area within 0.1 mm of the plate [mm²]
   double penetration = 0;                           ///< largest [mm]
 };
 ContactFigures contact_figures(const Model& model, const State& state, const PlateContact& contact,
