@@ -47,6 +47,12 @@ struct ViewSettings {
   std::optional<int> columns, rows;
   std::optional<ImageEdge> chest_wall;
 
+  static ViewSettings at(double angle_deg) {
+    ViewSettings view;
+    view.angle_deg = angle_deg;
+    return view;
+  }
+
   /// Throws std::runtime_error if pixel spacing, columns and rows are given only in part.
   Detector detector(const std::string& view, Side side) const;
 };

@@ -62,7 +62,8 @@ void Patient::declare_segment(Settings& s) {
 }
 
 void Patient::declare_fit(Settings& s) {
-  s.integers("fit.elements", fit.elements, {1, 16}, "elements along x, z and from chest wall to skin");
+  s.integers("fit.elements", fit.elements, {1, 16},
+             "elements along x, z and from chest wall to skin");
   s.number("fit.smoothing", fit.smoothing, {1e-12, 1e-3}, "weight of the Sobolev term");
   s.number("fit.shape", fit.shape, {0.1, 10}, "weight of well-shaped elements against closeness");
 }
@@ -102,7 +103,9 @@ void Patient::read_lesions(const std::string& file, const json& list) {
   }
 }
 
-std::string Patient::name() const { return fs::absolute(file_).parent_path().filename().string(); }
+std::string Patient::name() const {
+  return file_.empty() ? "" : fs::absolute(file_).parent_path().filename().string();
+}
 
 fs::path Patient::resolve(const fs::path& path) const {
   return path.is_absolute() ? path : file_.parent_path() / path;

@@ -31,7 +31,7 @@ class Patient {
   /// is not TOML, has an unknown key (the nearest known one is named) or a value out of range.
   void read(const std::filesystem::path& file, const Settings& settings);
 
-  /// The patient's folder, as its name: "042".
+  /// The patient's folder, as its name: "042"; empty without a patient.toml.
   std::string name() const;
 
   /// Inputs of `segment` with paths resolved. Throws std::runtime_error where neither an MRI nor a
@@ -43,7 +43,7 @@ class Patient {
   SegmentOptions segment;
   FitOptions fit;
   CompressionSettings compression;
-  ViewSettings cc, mlo{.angle_deg = 45};
+  ViewSettings cc = ViewSettings::at(0), mlo = ViewSettings::at(45);
 
   /// "cc" or "mlo"; std::logic_error otherwise.
   const ViewSettings& view(const std::string& name) const;
