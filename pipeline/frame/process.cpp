@@ -36,12 +36,12 @@ double peak_memory_mb() {
 }
 
 std::string command_text(int argc, char** argv, const fs::path& folder) {
-  const fs::path base = fs::weakly_canonical(folder);
+  const fs::path base = fs::weakly_canonical(fs::absolute(folder));
   std::string text = fs::path(argv[0]).filename().string();
   for (int i = 1; i < argc; ++i) {
     const std::string argument = argv[i];
     text += " " + (names_a_path(argument)
-                       ? fs::weakly_canonical(argument).lexically_relative(base).string()
+                       ? fs::weakly_canonical(fs::absolute(argument)).lexically_relative(base).string()
                        : argument);
   }
   return text;

@@ -15,10 +15,11 @@ fs::path folder_of(const fs::path& product) {
   return product.has_parent_path() ? product.parent_path() : fs::path(".");
 }
 
+/// A relative path of which nothing exists yet would stay relative in weakly_canonical.
+fs::path whole(const fs::path& path) { return fs::weakly_canonical(fs::absolute(path)); }
+
 std::string relative_to(const fs::path& folder, const fs::path& path) {
-  return fs::weakly_canonical(path)
-      .lexically_relative(fs::weakly_canonical(folder))
-      .generic_string();
+  return whole(path).lexically_relative(whole(folder)).generic_string();
 }
 
 json provenance_json(const Provenance& p) {

@@ -57,6 +57,14 @@ TEST_F(SidecarTest, PathsAreRelative) {
   EXPECT_EQ(p.inputs[0]["path"], "in");
 }
 
+TEST_F(SidecarTest, PathsAreTheSameBeforeTheResultsFolderExists) {
+  const auto here = std::filesystem::current_path();
+  std::filesystem::current_path(folder_);
+  const auto p = make_provenance("fit", {}, {"in"}, "results/042/out");
+  std::filesystem::current_path(here);
+  EXPECT_EQ(p.inputs[0]["path"], "../../in");
+}
+
 TEST_F(SidecarTest, AFoldersChecksumSeesNamesAndBytes) {
   std::filesystem::create_directory(folder_ / "mri");
   write("mri/a", "1");
