@@ -32,7 +32,7 @@ class Products {
   std::vector<std::pair<std::string, std::filesystem::path>> pending_;
 };
 
-/// Writes text under a temporary name, flushes it to disk and renames it to `path`.
+/// Writes text under a temporary name and renames it to `path`.
 void write_text_atomically(const std::filesystem::path& path, const std::string& text);
 
 }  // namespace mammotwin
