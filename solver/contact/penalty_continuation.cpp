@@ -14,26 +14,22 @@ void add(NewtonReport& total, const NewtonReport& part) {
   total.indefinite = indefinite;
 }
 
-/// Newton that leaves the plates' curvature out of a matrix that would be indefinite with it.
-NewtonReport solve(Newton& newton, PlateContact& contact, NewtonOptions options, State& state) {
-  options.stabilise = [&contact](bool on) { contact.with_curvature = !on; };
-  const NewtonReport report = newton.solve(state, options);
-  contact.with_curvature = true;
-  return report;
-}
-
 /// Only has to come near.
 NewtonReport approach(Newton& newton, PlateContact& contact, NewtonOptions options, State& state) {
   options.tolerance = 1e-2;
   options.constraint_tolerance = 1e-2;
-  return solve(newton, contact, options, state);
+  return resettle(newton, contact, options, state);
 }
 
 }  // namespace
 
 NewtonReport resettle(Newton& newton, PlateContact& contact, const NewtonOptions& options,
                       State& state) {
-  return solve(newton, contact, options, state);
+  NewtonOptions with_fallback = options;
+  with_fallback.stabilise = [&contact](bool on) { contact.with_curvature = !on; };
+  const NewtonReport report = newton.solve(state, with_fallback);
+  contact.with_curvature = true;
+  return report;
 }
 
 NewtonReport solve_contact(Newton& newton, PlateContact& contact, double unit,

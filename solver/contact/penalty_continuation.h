@@ -22,7 +22,8 @@ struct PenaltyOptions {
 NewtonReport solve_contact(Newton& newton, PlateContact& contact, double unit,
                            const PenaltyOptions& options, State& state);
 
-/// Equilibrium near a state that already is one, after a small change of penalty or plates.
+/// Equilibrium near a state that already is one, after a small change of penalty or plates. The
+/// plates' curvature is left out of a matrix that would be indefinite with it.
 NewtonReport resettle(Newton& newton, PlateContact& contact, const NewtonOptions& options,
                       State& state);
 
