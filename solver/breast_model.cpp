@@ -5,9 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace mammotwin {
 
@@ -48,25 +48,44 @@ Faces faces_labelled(const MeshFile& mesh, FaceLabel label) {
   return faces;
 }
 
-/// Prone positions of the quadrature points, in the order in which a Model asks for tissue.
-std::vector<Eigen::Vector3d> prone_points(const CompressionProblem& problem) {
-  const HermiteMesh mesh(problem.prone.empty() ? problem.mesh.mesh.nodes() : problem.prone,
-                         problem.mesh.mesh.elements());
-  const auto& t = hermite_table().points;
-  std::vector<Eigen::Vector3d> points;
-  for (int e = 0; e < mesh.num_elements(); ++e)
-    for (int q = 0; q < kPoints; ++q)
-      points.push_back(mesh.position({e, {t[q & 3], t[q >> 2 & 3], t[q >> 4]}}));
-  return points;
+HermiteMesh prone_mesh(const CompressionProblem& problem) {
+  return problem.prone.empty() ? problem.mesh.mesh
+                               : HermiteMesh(problem.prone, problem.mesh.mesh.elements());
 }
 
-Model::MaterialField material_field(const CompressionProblem& problem) {
-  auto points = std::make_shared<std::vector<Eigen::Vector3d>>(prone_points(problem));
-  auto next = std::make_shared<std::size_t>(0);
-  return [&problem, points, next](const Eigen::Vector3d&, double volume) {
-    const Eigen::Vector3d& x = (*points)[(*next)++];
-    return mix(problem.laws.mixing, problem.tissue(x, volume), problem.laws.laws);
-  };
+SolidElement prone_element(const HermiteMesh& mesh, int e) {
+  SolidElement::Coefficients x;
+  for (int a = 0; a < kFunctions; ++a)
+    x.row(a) = mesh.node(mesh.corners(e)[corner_of_function(a)])
+                   .col(parameter_of_function(a))
+                   .transpose();
+  return SolidElement(x);
+}
+
+/// The breast as imaged: what is read at quadrature points must not depend on the shape that is the
+/// reference, or unloading and loading would not meet.
+struct ProneTissue {
+  std::vector<std::shared_ptr<const Material>> materials;  ///< in the order in which a Model asks
+  double volume = 0;                                       ///< [mm³]
+};
+
+ProneTissue prone_tissue(const CompressionProblem& problem, const HermiteMesh& mesh) {
+  ProneTissue tissue;
+  for (int e = 0; e < mesh.num_elements(); ++e) {
+    const SolidElement element = prone_element(mesh, e);
+    tissue.volume += element.volume();
+    for (int q = 0; q < kPoints; ++q)
+      tissue.materials.push_back(
+          mix(problem.laws.mixing,
+              problem.tissue(element.point_position(q), element.point_weight(q)),
+              problem.laws.laws));
+  }
+  return tissue;
+}
+
+Model::MaterialField in_turn(std::vector<std::shared_ptr<const Material>> materials) {
+  return [materials = std::move(materials), next = std::size_t{0}](
+             const Eigen::Vector3d&, double) mutable { return materials[next++]; };
 }
 
 void hold_clamped(const HermiteMesh& mesh, const Faces& faces, DofMap& dofs) {
@@ -88,13 +107,15 @@ void add_skin(const CompressionProblem& problem, Model& model) {
     model.add_surface_potential(e, face, skin);
 }
 
-void hold_chest_wall(const CompressionProblem& problem, BreastModel& breast) {
-  const HermiteMesh& mesh = problem.mesh.mesh;
+void hold_chest_wall(const CompressionProblem& problem, const HermiteMesh& prone,
+                     BreastModel& breast) {
   const auto& options = problem.boundary;
   if (options.chest_wall == ChestWall::clamped)
-    return hold_clamped(mesh, breast.wall_faces, *breast.dofs);
-  breast.wall = std::make_shared<WallSurface>(mesh, breast.wall_faces);
-  const auto hold = std::make_shared<WallHold>(breast.wall, kWallPenalty * breast.penalty_unit());
+    return hold_clamped(problem.mesh.mesh, breast.wall_faces, *breast.dofs);
+  breast.wall = std::make_shared<WallSurface>(prone, breast.wall_faces);
+  const auto hold = std::make_shared<WallHold>(
+      breast.wall, kWallPenalty * breast.penalty_unit(),
+      problem.prone.empty() ? WallRest::on_wall : WallRest::as_reference);
   const auto springs = std::make_shared<SpringBed>(options.chest_wall_spring);
   for (const auto& [e, face] : breast.wall_faces) {
     breast.model->add_surface_potential(e, face, hold);
@@ -141,7 +162,9 @@ BreastModel make_breast_model(const CompressionProblem& problem, const SolidOpti
   breast.wall_faces = faces_labelled(problem.mesh, FaceLabel::chest_wall);
   check(!breast.wall_faces.empty(),
         "nothing holds the breast: no face of the mesh is labelled chest_wall");
-  breast.model = std::make_unique<Model>(mesh, material_field(problem), solid);
+  const HermiteMesh prone = prone_mesh(problem);
+  const ProneTissue tissue = prone_tissue(problem, prone);
+  breast.model = std::make_unique<Model>(mesh, in_turn(tissue.materials), solid);
   if (!problem.gravity.isZero())
     breast.model->set_body_force(
         [weight = (problem.density * problem.gravity).eval()](const Eigen::Vector3d&) {
@@ -151,11 +174,11 @@ BreastModel make_breast_model(const CompressionProblem& problem, const SolidOpti
     for (int q = 0; q < kPoints; ++q)
       breast.largest_modulus = std::max(
           breast.largest_modulus, breast.model->element(e).material(q).shear_modulus());
-  breast.element_size = std::cbrt(breast.model->volume() / mesh.num_elements());
+  breast.element_size = std::cbrt(tissue.volume / mesh.num_elements());
   breast.dofs = std::make_unique<DofMap>(mesh);
   tie_nodes(problem.mesh, *breast.dofs);
   add_skin(problem, *breast.model);
-  hold_chest_wall(problem, breast);
+  hold_chest_wall(problem, prone, breast);
   hold_cut_faces(problem, breast);
   add_contact(problem, breast);
   breast.dofs->number(mesh);

@@ -59,7 +59,8 @@ struct BoundaryOptions {
 struct CompressionProblem {
   /// The shape that is free of stress, with face labels.
   MeshFile mesh{HermiteMesh({}, {}), {}, {}, {}, {}, {}};
-  std::vector<HermiteMesh::Node> prone;  ///< where tissue is sampled; empty: the mesh itself
+  /// The breast as imaged: where tissue is sampled and the chest wall stands; empty: the mesh.
+  std::vector<HermiteMesh::Node> prone;
   TissueSampler tissue;
   TissueLaws laws = TissueLaws::defaults();
   SkinOptions skin;

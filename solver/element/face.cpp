@@ -134,4 +134,38 @@ void Face::add(const SurfacePotential& potential, const SolidElement::Coefficien
               tangent(kFunctions * i + a, kFunctions * k + b);
 }
 
+/// The residual is area(A₁, A₂) times gradient(y; X, A₁, A₂): both factors change.
+void Face::add_reference(const SurfacePotential& potential, const SolidElement::Coefficients& x,
+                         ReferenceSystem& system) const {
+  const auto [first, end] = potential.slots();
+  const auto& N = table(points1d_).slots;
+  SurfaceResponse response;
+  response.gradient.setZero();
+  for (int q = 0; q < num_points(); ++q) {
+    const SurfacePoint& point = points_[q];
+    const auto y = deformed(x, q);
+    if (!potential.respond(y, point, 1, response)) continue;
+    const Eigen::Vector3d area_vector = point.A1.cross(point.A2);
+    const Eigen::Vector3d n = area_vector.normalized();
+    Eigen::Matrix<double, 9, 1> area_change;  // ∂ ln area/∂(X, A₁, A₂)
+    area_change << Eigen::Vector3d::Zero(), point.A2.cross(n), n.cross(point.A1);
+    area_change /= area_vector.norm();
+    const Eigen::Matrix<double, 9, 9> change =
+        point.area * (potential.reference_derivative(y, point) +
+                      response.gradient * area_change.transpose());
+    for (int s = first; s < end; ++s)
+      for (int r = 0; r < 3; ++r) {
+        const Eigen::Matrix<double, kFunctions, kFunctions> NN =
+            N[s].row(q).transpose() * N[r].row(q);
+        for (int b = 0; b < kFunctions; ++b)
+          for (int a = 0; a < kFunctions; ++a)
+            for (int k = 0; k < 3; ++k)
+              for (int i = 0; i < 3; ++i)
+                system.tangent(mammotwin::kFunctions * i + functions_[a],
+                               mammotwin::kFunctions * k + functions_[b]) +=
+                    change(3 * s + i, 3 * r + k) * NN(a, b);
+      }
+  }
+}
+
 }  // namespace mammotwin

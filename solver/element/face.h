@@ -32,6 +32,10 @@ class Face {
   void add(const SurfacePotential& potential, const SolidElement::Coefficients& x,
            bool with_tangent, ElementSystem& system) const;
 
+  /// Adds ∂residual/∂X of the potential, X the face's reference shape.
+  void add_reference(const SurfacePotential& potential, const SolidElement::Coefficients& x,
+                     ReferenceSystem& system) const;
+
   /// The element's function behind face function a.
   int function(int a) const { return functions_[a]; }
 

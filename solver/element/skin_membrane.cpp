@@ -58,4 +58,27 @@ bool SkinMembrane::respond(const Eigen::Matrix<double, 9, 1>& y, const SurfacePo
   return true;
 }
 
+// With B = A⁻¹ (reference metric) and δ its change: δB = −B δ B, and det A/det a changes by tr(B δ).
+Eigen::Matrix<double, 9, 9> SkinMembrane::reference_derivative(
+    const Eigen::Matrix<double, 9, 1>& y, const SurfacePoint& point) const {
+  Tangents a, A;
+  a << y.segment<3>(3), y.segment<3>(6);
+  A << point.A1, point.A2;
+  const Eigen::Matrix2d metric = a.transpose() * a, reference = A.transpose() * A;
+  const Eigen::Matrix2d G = reference.inverse(), inverse_metric = metric.inverse();
+  const double squared_thinning = reference.determinant() / metric.determinant();
+  Eigen::Matrix<double, 9, 9> derivative = Eigen::Matrix<double, 9, 9>::Zero();
+  for (int beta = 0; beta < 2; ++beta)
+    for (int i = 0; i < 3; ++i) {
+      Tangents dA = Tangents::Zero();
+      dA(i, beta) = 1;
+      const Eigen::Matrix2d change = dA.transpose() * A + A.transpose() * dA;
+      const double trace = G.cwiseProduct(change).sum();
+      const Tangents force = -2 * stiffness_ *
+                             (a * (G * change * G) + squared_thinning * trace * a * inverse_metric);
+      derivative.col(3 + 3 * beta + i).tail<6>() = force.reshaped();
+    }
+  return derivative;
+}
+
 }  // namespace mammotwin

@@ -19,6 +19,8 @@ class SkinMembrane : public SurfacePotential {
   Slots slots() const override { return kTangents; }
   bool respond(const Eigen::Matrix<double, 9, 1>& y, const SurfacePoint& point, int order,
                SurfaceResponse& response) const override;
+  Eigen::Matrix<double, 9, 9> reference_derivative(const Eigen::Matrix<double, 9, 1>& y,
+                                                   const SurfacePoint& point) const override;
 
  private:
   double stiffness_;  ///< h c₁ [kPa mm]

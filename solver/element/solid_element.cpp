@@ -62,18 +62,6 @@ Eigen::Matrix<double, kPoints, 8> legendre_products() {
   return psi;
 }
 
-/// Adds s ∂²J/∂F², which is linear in F.
-void add_cofactor_tangent(double s, const Eigen::Matrix3d& F, Tangent& A) {
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) {
-      const int i1 = (i + 1) % 3, i2 = (i + 2) % 3, j1 = (j + 1) % 3, j2 = (j + 2) % 3;
-      A(i + 3 * j, i1 + 3 * j1) += s * F(i2, j2);
-      A(i + 3 * j, i2 + 3 * j2) += s * F(i1, j1);
-      A(i + 3 * j, i1 + 3 * j2) -= s * F(i2, j1);
-      A(i + 3 * j, i2 + 3 * j1) -= s * F(i1, j2);
-    }
-}
-
 /// The fields of one evaluation at the Gauss points, in the layout of the kernels.
 struct PointFields {
   double flux[3][3 * kPoints];           ///< [i][64 J + q]: w P_ij ∂ξ_J/∂X_j

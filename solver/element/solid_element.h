@@ -34,6 +34,14 @@ struct ElementSystem {
   Eigen::Matrix<double, kUnknowns, 8> coupling;  ///< ∂residual/∂p
 };
 
+/// Derivatives of one element's residuals by its reference shape X, at fixed x: rows as in
+/// ElementSystem, columns the unknowns of X.
+struct ReferenceSystem {
+  Eigen::MatrixXd tangent{kUnknowns, kUnknowns};           ///< ∂residual/∂X, not symmetric
+  Eigen::Matrix<double, 8, kUnknowns> pressure_tangent;    ///< ∂pressure_residual/∂X
+  Eigen::Matrix<double, kUnknowns, 8> coupling;            ///< ∂residual/∂p
+};
+
 /// Mixed displacement-pressure element on a tri-cubic Hermite hexahedron:
 ///
 ///     Π(x, p) = ∫ W(F) + p (J − 1) − p²/(2κ) + γ/2 (J − 1)²  dV
@@ -59,6 +67,10 @@ class SolidElement {
   /// Fills `system` at deformed shape x and pressures p; tangent and coupling only if asked.
   void evaluate(const Coefficients& x, const double* p, bool with_tangent,
                 ElementSystem& system) const;
+
+  /// Fills `system` for the element under a constant force per reference volume [mN/mm³].
+  void evaluate_reference(const Coefficients& x, const double* p,
+                          const Eigen::Vector3d& body_force, ReferenceSystem& system) const;
 
   /// ∫ψψᵀ/κ, whose inverse eliminates the pressures.
   Eigen::MatrixXd pressure_compliance() const;

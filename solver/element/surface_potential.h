@@ -2,6 +2,8 @@
 
 #include <Eigen/Core>
 
+#include <stdexcept>
+
 namespace mammotwin {
 
 /// What a potential may know of a face's quadrature point besides where it is now.
@@ -35,6 +37,16 @@ class SurfacePotential {
   /// derivatives are wanted.
   virtual bool respond(const Eigen::Matrix<double, 9, 1>& y, const SurfacePoint& point, int order,
                        SurfaceResponse& response) const = 0;
+
+  /// ∂gradient/∂(X, A₁, A₂) with y and `area` fixed; column slots as those of y. Only unloading asks
+  /// (element/reference_tangent.cpp); throws std::logic_error where a potential cannot say.
+  virtual Eigen::Matrix<double, 9, 9> reference_derivative(const Eigen::Matrix<double, 9, 1>& y,
+                                                           const SurfacePoint& point) const;
 };
+
+inline Eigen::Matrix<double, 9, 9> SurfacePotential::reference_derivative(
+    const Eigen::Matrix<double, 9, 1>&, const SurfacePoint&) const {
+  throw std::logic_error("a load on the breast's surface cannot take part in unloading");
+}
 
 }  // namespace mammotwin

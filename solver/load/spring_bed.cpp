@@ -21,4 +21,11 @@ bool SpringBed::respond(const Eigen::Matrix<double, 9, 1>& y, const SurfacePoint
   return true;
 }
 
+Eigen::Matrix<double, 9, 9> SpringBed::reference_derivative(const Eigen::Matrix<double, 9, 1>&,
+                                                            const SurfacePoint&) const {
+  Eigen::Matrix<double, 9, 9> derivative = Eigen::Matrix<double, 9, 9>::Zero();
+  derivative.topLeftCorner<3, 3>() = -k_ * Eigen::Matrix3d::Identity();
+  return derivative;
+}
+
 }  // namespace mammotwin

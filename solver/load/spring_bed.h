@@ -16,6 +16,8 @@ class SpringBed : public SurfacePotential {
   Slots slots() const override { return kPosition; }
   bool respond(const Eigen::Matrix<double, 9, 1>& y, const SurfacePoint& point, int order,
                SurfaceResponse& response) const override;
+  Eigen::Matrix<double, 9, 9> reference_derivative(const Eigen::Matrix<double, 9, 1>& y,
+                                                   const SurfacePoint& point) const override;
 
  private:
   double k_;

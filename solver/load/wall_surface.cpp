@@ -141,15 +141,25 @@ Gap WallSurface::gap(const Eigen::Vector3d& x) const {
   return {g, n, dn * (dx.transpose() * dx).inverse() * dx.transpose()};
 }
 
-bool WallHold::respond(const Eigen::Matrix<double, 9, 1>& y, const SurfacePoint&, int order,
+bool WallHold::respond(const Eigen::Matrix<double, 9, 1>& y, const SurfacePoint& point, int order,
                        SurfaceResponse& response) const {
   const Gap gap = surface_->gap(y.head<3>());
-  response.energy = penalty_ / 2 * gap.gap * gap.gap;
-  response.gradient.head<3>() = penalty_ * gap.gap * gap.normal;
+  const double off = rest_ == WallRest::on_wall ? gap.gap : gap.gap - surface_->gap(point.X).gap;
+  response.energy = penalty_ / 2 * off * off;
+  response.gradient.head<3>() = penalty_ * off * gap.normal;
   if (order == 2)
     response.hessian.topLeftCorner<3, 3>() =
-        penalty_ * (gap.normal * gap.normal.transpose() + gap.gap * gap.hessian);
+        penalty_ * (gap.normal * gap.normal.transpose() + off * gap.hessian);
   return true;
+}
+
+Eigen::Matrix<double, 9, 9> WallHold::reference_derivative(const Eigen::Matrix<double, 9, 1>& y,
+                                                           const SurfacePoint& point) const {
+  Eigen::Matrix<double, 9, 9> derivative = Eigen::Matrix<double, 9, 9>::Zero();
+  if (rest_ == WallRest::as_reference)
+    derivative.topLeftCorner<3, 3>() = -penalty_ * surface_->gap(y.head<3>()).normal *
+                                       surface_->gap(point.X).normal.transpose();
+  return derivative;
 }
 
 }  // namespace mammotwin

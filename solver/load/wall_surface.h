@@ -39,21 +39,31 @@ class WallSurface {
   std::vector<Patch> patches_;
 };
 
-/// Holds points on a wall: energy = ε/2 gap², both ways (the breast neither lifts off the pectoral
-/// fascia nor enters it), free to slide along it.
+/// Where a point stands off the wall when nothing pulls at it.
+enum class WallRest {
+  on_wall,       ///< on it: the reference shape is the one that gave the wall
+  as_reference,  ///< as far as in the reference shape, where another shape gave the wall
+};
+
+/// Holds points on a wall: energy = ε/2 (gap − gap at rest)², both ways (the breast neither lifts
+/// off the pectoral fascia nor enters it), free to slide along it.
 class WallHold : public SurfacePotential {
  public:
   /// penalty ε [kPa/mm] > 0.
-  WallHold(std::shared_ptr<const WallSurface> surface, double penalty)
-      : surface_(std::move(surface)), penalty_(penalty) {}
+  WallHold(std::shared_ptr<const WallSurface> surface, double penalty,
+           WallRest rest = WallRest::on_wall)
+      : surface_(std::move(surface)), penalty_(penalty), rest_(rest) {}
 
   Slots slots() const override { return kPosition; }
   bool respond(const Eigen::Matrix<double, 9, 1>& y, const SurfacePoint& point, int order,
                SurfaceResponse& response) const override;
+  Eigen::Matrix<double, 9, 9> reference_derivative(const Eigen::Matrix<double, 9, 1>& y,
+                                                   const SurfacePoint& point) const override;
 
  private:
   std::shared_ptr<const WallSurface> surface_;
   double penalty_;
+  WallRest rest_;
 };
 
 }  // namespace mammotwin

@@ -27,6 +27,18 @@ inline Eigen::Matrix3d cofactor(const Eigen::Matrix3d& F) {
   return c;
 }
 
+/// Adds s ∂²J/∂F², which is linear in F.
+inline void add_cofactor_tangent(double s, const Eigen::Matrix3d& F, Material::Tangent& A) {
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) {
+      const int i1 = (i + 1) % 3, i2 = (i + 2) % 3, j1 = (j + 1) % 3, j2 = (j + 2) % 3;
+      A(i + 3 * j, i1 + 3 * j1) += s * F(i2, j2);
+      A(i + 3 * j, i2 + 3 * j2) += s * F(i1, j1);
+      A(i + 3 * j, i1 + 3 * j2) -= s * F(i2, j1);
+      A(i + 3 * j, i2 + 3 * j1) -= s * F(i1, j2);
+    }
+}
+
 /// Adds s ∂(−F⁻ᵀ)/∂F, that is s F⁻¹_jk F⁻¹_li at row i+3j, column k+3l.
 inline void add_inverse_tangent(double s, const Eigen::Matrix3d& F, Material::Tangent& A) {
   const Eigen::Matrix3d G = s * F.inverse();

@@ -92,4 +92,12 @@ void Model::evaluate(int e, const State& state, bool with_tangent, ElementSystem
   system.residual -= loads_[e].reshaped();
 }
 
+void Model::evaluate_reference(int e, const State& state, const Eigen::Vector3d& body_force,
+                               ReferenceSystem& system) const {
+  const auto x = gather(reference_, state.x, e);
+  elements_[e].evaluate_reference(x, state.pressure.data() + 8 * e, body_force, system);
+  for (const auto& [face, potential] : potentials_[e])
+    faces_[e][face].add_reference(*potential, x, system);
+}
+
 }  // namespace mammotwin

@@ -54,6 +54,11 @@ class Model {
   /// All terms of one element at a state.
   void evaluate(int e, const State& state, bool with_tangent, ElementSystem& system) const;
 
+  /// Derivatives of one element's residuals by the reference shape; `body_force` is the constant
+  /// one that was set.
+  void evaluate_reference(int e, const State& state, const Eigen::Vector3d& body_force,
+                          ReferenceSystem& system) const;
+
  private:
   struct FacePotential {
     int face_in_element;

@@ -1,0 +1,35 @@
+#pragma once
+
+#include "solver/newton/sparse_pattern.h"
+
+#include <Eigen/Core>
+
+#include <vector>
+
+namespace mammotwin {
+
+/// A square matrix without symmetry on the (symmetric) pattern of a mesh, and its solution by
+/// UMFPACK's LU, whose result does not depend on the number of threads.
+class GeneralMatrix {
+ public:
+  explicit GeneralMatrix(const SparsePattern& pattern);
+  ~GeneralMatrix();
+  GeneralMatrix(const GeneralMatrix&) = delete;
+  GeneralMatrix& operator=(const GeneralMatrix&) = delete;
+
+  void clear();
+  /// Adds an element's block; unknowns that are prescribed are left out.
+  void add(int element, const Eigen::MatrixXd& block);
+
+  /// False where the matrix is singular; `solution` is then of no use.
+  bool solve(const Eigen::VectorXd& right_hand_side, Eigen::VectorXd& solution) const;
+
+ private:
+  const SparsePattern& pattern_;
+  std::vector<int> starts_, rows_;
+  std::vector<std::vector<int>> positions_;  ///< per element, column by column; -1: left out
+  std::vector<double> values_;
+  void* symbolic_ = nullptr;  ///< UMFPACK's
+};
+
+}  // namespace mammotwin
