@@ -42,20 +42,20 @@ Plane tangent_plane(const Field& field, const Vector3d& x) {
   return plane;
 }
 
-Material material_of(Organ organ) {
+Substance substance_of(Organ organ) {
   switch (organ) {
     case Organ::rib:
-      return Material::rib;
+      return Substance::rib;
     case Organ::lung:
-      return Material::lung;
+      return Substance::lung;
     case Organ::heart:
-      return Material::heart;
+      return Substance::heart;
     case Organ::liver:
-      return Material::liver;
+      return Substance::liver;
     case Organ::muscle:
       break;
   }
-  return Material::muscle;
+  return Substance::muscle;
 }
 
 }  // namespace
@@ -66,10 +66,10 @@ Anatomy::Anatomy(const AnatomyOptions& o)
       glands_{make_gland(chest_, Side::left, o), make_gland(chest_, Side::right, o)},
       lesions_(place_lesions(chest_, o)) {}
 
-void Anatomy::add_sample(Mixture& mixture, const Vector3d& x, double outside, double wall,
-                         Material behind) const {
+void Anatomy::add_sample(VoxelMixture& mixture, const Vector3d& x, double outside, double wall,
+                         Substance behind) const {
   if (outside > 0) {
-    ++mixture[Material::air];
+    ++mixture[Substance::air];
     return;
   }
   if (wall <= 0) {
@@ -77,26 +77,26 @@ void Anatomy::add_sample(Mixture& mixture, const Vector3d& x, double outside, do
     return;
   }
   if (outside > -options_.skin_mm || chest_.nipple(x) < 0) {
-    ++mixture[Material::skin];
+    ++mixture[Substance::skin];
     return;
   }
   for (std::size_t n = 0; n < lesions_.size(); ++n)
     if (lesions_[n].contains(x)) {
-      ++mixture[Material::lesion];
+      ++mixture[Substance::lesion];
       mixture.lesion = static_cast<std::uint8_t>(n);
       return;
     }
   const bool gland = glands_[0](x) < 0 || glands_[1](x) < 0;
-  ++mixture[gland ? Material::fibroglandular : Material::fat];
+  ++mixture[gland ? Substance::fibroglandular : Substance::fat];
 }
 
-Mixture Anatomy::sample_voxel(const Vector3d& centre, double voxel_mm, int samples) const {
+VoxelMixture Anatomy::sample_voxel(const Vector3d& centre, double voxel_mm, int samples) const {
   const Plane outside = tangent_plane([&](const Vector3d& x) { return chest_.outside(x); }, centre);
   const Plane wall = tangent_plane([&](const Vector3d& x) { return chest_.chest_wall(x); }, centre);
-  Mixture mixture;
+  VoxelMixture mixture;
   const auto all = static_cast<std::uint8_t>(samples * samples * samples);
-  if (outside.value > voxel_mm) return mixture[Material::air] = all, mixture;
-  const Material behind = material_of(chest_.torso().organ(centre));
+  if (outside.value > voxel_mm) return mixture[Substance::air] = all, mixture;
+  const Substance behind = substance_of(chest_.torso().organ(centre));
   if (wall.value < -voxel_mm && outside.value < -voxel_mm) return mixture[behind] = all, mixture;
   for (int c = 0; c < samples; ++c)
     for (int b = 0; b < samples; ++b)
@@ -114,7 +114,7 @@ TissueMap Anatomy::sample(double voxel_mm, int samples) const {
   const Vector3d low(-half_width, chest_.front_y() - air_in_front_mm, -half_height_mm);
   const Vector3d high(half_width, back_y_mm, half_height_mm);
   const Vector3i size = ((high - low) / voxel_mm).cast<int>() + Vector3i::Ones();
-  TissueMap map{Volume<Mixture>(size, Vector3d::Constant(voxel_mm), low),
+  TissueMap map{Volume<VoxelMixture>(size, Vector3d::Constant(voxel_mm), low),
                 samples * samples * samples};
   tbb::parallel_for(0, size.z(), [&](int k) {
     for (int j = 0; j < size.y(); ++j)

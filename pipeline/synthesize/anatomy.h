@@ -25,11 +25,11 @@ class Anatomy {
   TissueMap sample(double voxel_mm, int samples) const;
 
   /// One of those voxels.
-  Mixture sample_voxel(const Eigen::Vector3d& centre, double voxel_mm, int samples) const;
+  VoxelMixture sample_voxel(const Eigen::Vector3d& centre, double voxel_mm, int samples) const;
 
  private:
-  void add_sample(Mixture& mixture, const Eigen::Vector3d& x, double outside, double wall,
-                  Material behind) const;
+  void add_sample(VoxelMixture& mixture, const Eigen::Vector3d& x, double outside, double wall,
+                  Substance behind) const;
 
   AnatomyOptions options_;
   Chest chest_;

@@ -10,18 +10,18 @@ namespace {
 
 using Eigen::Vector3d;
 
-std::uint8_t label_of(const Mixture& m) {
+std::uint8_t label_of(const VoxelMixture& m) {
   struct Candidate {
     int parts;
     std::uint8_t value;
   };
   const Candidate candidates[] = {
-      {m[Material::air], label::air},
+      {m[Substance::air], label::air},
       {m.behind(), label::muscle},
-      {m[Material::fat], label::fat},
-      {m[Material::fibroglandular], label::fibroglandular},
-      {m[Material::skin], label::skin},
-      {m[Material::lesion], static_cast<std::uint8_t>(label::lesion + m.lesion)}};
+      {m[Substance::fat], label::fat},
+      {m[Substance::fibroglandular], label::fibroglandular},
+      {m[Substance::skin], label::skin},
+      {m[Substance::lesion], static_cast<std::uint8_t>(label::lesion + m.lesion)}};
   return std::max_element(std::begin(candidates), std::end(candidates),
                           [](const Candidate& a, const Candidate& b) { return a.parts < b.parts; })
       ->value;
@@ -40,9 +40,9 @@ void for_region(const TissueMap& tissue, const BreastRegion& region, const Visit
 
 void measure_tissue(const TissueMap& tissue, Truth& truth) {
   double skin = 0, fat = 0, gland = 0, lesion = 0;
-  for_region(tissue, truth.region, [&](const Vector3d&, const Mixture& m) {
-    skin += m[Material::skin], fat += m[Material::fat];
-    gland += m[Material::fibroglandular], lesion += m[Material::lesion];
+  for_region(tissue, truth.region, [&](const Vector3d&, const VoxelMixture& m) {
+    skin += m[Substance::skin], fat += m[Substance::fat];
+    gland += m[Substance::fibroglandular], lesion += m[Substance::lesion];
   });
   const double ml = tissue.mixtures.voxel_volume() / tissue.parts_per_voxel / 1000;
   truth.skin_ml = skin * ml, truth.fat_ml = fat * ml, truth.fibroglandular_ml = gland * ml;
@@ -56,8 +56,8 @@ std::vector<Lesion> measure_lesions(const TissueMap& tissue, int count) {
   for (int k = 0; k < v.size.z(); ++k)
     for (int j = 0; j < v.size.y(); ++j)
       for (int i = 0; i < v.size.x(); ++i) {
-        const Mixture& m = v(i, j, k);
-        const int p = m[Material::lesion];
+        const VoxelMixture& m = v(i, j, k);
+        const int p = m[Substance::lesion];
         if (p == 0) continue;
         parts[m.lesion] += p;
         moments[m.lesion] += p * v.position(i, j, k);
@@ -117,11 +117,11 @@ Segmentation true_segmentation(const TissueMap& tissue, const Volume<std::uint8_
         std::uint8_t& value = s.labels(i, j, k);
         if ((truth.region.side == Side::left) != (x >= midline)) value = label::air;
         if (!label::is_breast(value)) continue;
-        const Mixture& m = tissue.mixtures(i, j, k);
-        const float soft = m[Material::skin] + m[Material::fat];
-        const float all = soft + m[Material::fibroglandular] + m[Material::lesion];
-        s.fractions(i, j, k) = {soft / all, m[Material::fibroglandular] / all,
-                                m[Material::lesion] / all};
+        const VoxelMixture& m = tissue.mixtures(i, j, k);
+        const float soft = m[Substance::skin] + m[Substance::fat];
+        const float all = soft + m[Substance::fibroglandular] + m[Substance::lesion];
+        s.fractions(i, j, k) = {soft / all, m[Substance::fibroglandular] / all,
+                                m[Substance::lesion] / all};
       }
   return s;
 }

@@ -66,17 +66,17 @@ Volume<float> signal_of(const TissueMap& tissue, const ScanOptions& o, std::uint
   Volume<float> signal = tissue.mixtures.like<float>();
   const bool patch = o.failed_suppression && o.contrast == Contrast::fat_suppressed;
   for_voxels(signal.size, [&](int i, int j, int k) {
-    const Mixture& m = tissue.mixtures(i, j, k);
-    if (m[Material::air] == tissue.parts_per_voxel) return;
+    const VoxelMixture& m = tissue.mixtures(i, j, k);
+    if (m[Substance::air] == tissue.parts_per_voxel) return;
     const Vector3d x = signal.position(i, j, k);
     double sum = 0;
-    for (int n = 0; n < num_materials; ++n) {
+    for (int n = 0; n < num_substances; ++n) {
       if (m.parts[n] == 0) continue;
-      const auto material = static_cast<Material>(n);
+      const auto material = static_cast<Substance>(n);
       double part = m.parts[n] * level[n];
-      if (material == Material::fat)
+      if (material == Substance::fat)
         part *= (1 + texture.fat(x)) * (patch ? unsuppressed(x - failed_patch) : 1);
-      else if (material == Material::fibroglandular)
+      else if (material == Substance::fibroglandular)
         part *= 1 + texture.gland(x);
       else
         part *= 1 + texture.other(x);
@@ -115,7 +115,7 @@ Volume<float> blur_along(const Volume<float>& in, const std::vector<float>& weig
 double shading_ratio(const Volume<float>& shading, const TissueMap& tissue) {
   std::vector<float> body;
   for (std::size_t n = 0; n < shading.values.size(); ++n)
-    if (tissue.mixtures.values[n][Material::air] == 0) body.push_back(shading.values[n]);
+    if (tissue.mixtures.values[n][Substance::air] == 0) body.push_back(shading.values[n]);
   if (body.empty()) return 1;
   const auto percentile = [&](double p) {
     const auto at = body.begin() + static_cast<std::ptrdiff_t>(p * (body.size() - 1));
@@ -127,7 +127,7 @@ double shading_ratio(const Volume<float>& shading, const TissueMap& tissue) {
 
 }  // namespace
 
-std::array<double, num_materials> intensities(const ScanOptions& o) {
+std::array<double, num_substances> intensities(const ScanOptions& o) {
   //      air skin fat  gland lesion                muscle rib  lung  heart liver
   if (o.contrast == Contrast::fat_suppressed)
     return {0, 2.0, 1.0, 1.8, 1.8 * o.lesion_to_gland, 1.55, 0.95, 0.25, 1.4, 1.3};

@@ -11,7 +11,7 @@ namespace mammotwin {
 
 /// Intensities by material, fat = 1. Source: simulator of the project's segmentation study, whose
 /// fat-suppressed column was compared with two real patients; the lesion is set by an option.
-std::array<double, num_materials> intensities(const ScanOptions& options);
+std::array<double, num_substances> intensities(const ScanOptions& options);
 
 /// Radius of the coil's loops [mm] that gave shading like that of real images (same study).
 double coil_radius_mm(Contrast contrast);

@@ -8,7 +8,7 @@
 namespace mammotwin {
 
 /// What a synthetic body is made of. All from `muscle` on lies behind the front of the muscle.
-enum class Material : std::uint8_t {
+enum class Substance : std::uint8_t {
   air,
   skin,
   fat,
@@ -20,26 +20,26 @@ enum class Material : std::uint8_t {
   heart,
   liver
 };
-inline constexpr int num_materials = 10;
+inline constexpr int num_substances = 10;
 
 /// The materials of one voxel, in sample points: `parts` sum to TissueMap::parts_per_voxel.
-struct Mixture {
-  std::array<std::uint8_t, num_materials> parts{};
+struct VoxelMixture {
+  std::array<std::uint8_t, num_substances> parts{};
   std::uint8_t lesion = 0;  ///< which lesion `parts[lesion]` belongs to, from 0
 
-  std::uint8_t& operator[](Material m) { return parts[static_cast<int>(m)]; }
-  std::uint8_t operator[](Material m) const { return parts[static_cast<int>(m)]; }
+  std::uint8_t& operator[](Substance m) { return parts[static_cast<int>(m)]; }
+  std::uint8_t operator[](Substance m) const { return parts[static_cast<int>(m)]; }
   /// Sample points behind the front of the muscle.
   int behind() const {
     int sum = 0;
-    for (int m = static_cast<int>(Material::muscle); m < num_materials; ++m) sum += parts[m];
+    for (int m = static_cast<int>(Substance::muscle); m < num_substances; ++m) sum += parts[m];
     return sum;
   }
 };
 
 /// Materials on a grid in LPS.
 struct TissueMap {
-  Volume<Mixture> mixtures;
+  Volume<VoxelMixture> mixtures;
   int parts_per_voxel = 1;
 };
 

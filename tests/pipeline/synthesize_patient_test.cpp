@@ -39,7 +39,7 @@ TEST(SyntheticPatient, AnotherSeedIsAnotherPatient) {
 
 TEST(SyntheticPatient, PartsOfEveryVoxelSumToOne) {
   const TissueMap& tissue = patient_7().tissue;
-  for (const Mixture& m : tissue.mixtures.values)
+  for (const VoxelMixture& m : tissue.mixtures.values)
     ASSERT_EQ(std::accumulate(m.parts.begin(), m.parts.end(), 0), tissue.parts_per_voxel);
 }
 
@@ -125,7 +125,7 @@ TEST(SyntheticPatient, SkinHasItsThickness) {
   constexpr int samples = 3;
   double skin = 0;
   for (double depth = -2; depth < 6; depth += step)
-    skin += step * anatomy.sample_voxel(on_skin - depth * normal, step, samples)[Material::skin] /
+    skin += step * anatomy.sample_voxel(on_skin - depth * normal, step, samples)[Substance::skin] /
             (samples * samples * samples);
   // The distance is of first order: an error of thickness^2 / (2 x 40 mm radius), 0.07 mm.
   EXPECT_NEAR(skin, 2.4, 0.1);
@@ -138,7 +138,7 @@ TEST(SyntheticPatient, WithoutFaultsEveryMaterialHasItsIntensity) {
   const auto level = intensities(o.scan);
   int pure = 0;
   for (std::size_t n = 0; n < p.tissue.mixtures.values.size(); ++n)
-    for (int m = 0; m < num_materials; ++m)
+    for (int m = 0; m < num_substances; ++m)
       if (p.tissue.mixtures.values[n].parts[m] == p.tissue.parts_per_voxel) {
         ASSERT_EQ(p.scan.image.values[n], std::lround(fat_grey * level[m]));
         ++pure;
@@ -153,7 +153,7 @@ TEST(SyntheticPatient, NoiseHasTheStrengthAskedFor) {
   double squares = 0;
   int count = 0;
   for (std::size_t n = 0; n < p.labels.values.size(); ++n)
-    if (p.tissue.mixtures.values[n][Material::air] == p.tissue.parts_per_voxel && n % 7 == 0)
+    if (p.tissue.mixtures.values[n][Substance::air] == p.tissue.parts_per_voxel && n % 7 == 0)
       squares += std::pow(p.scan.image.values[n], 2), ++count;
   // In air the squared Rician magnitude has the mean 2 sigma^2; rounding adds 1/12. Blur carries
   // some skin into the air next to it.
