@@ -89,7 +89,7 @@ void declare_compression(Settings& s, CompressionSettings& c) {
 
 void declare_view(Settings& s, const std::string& view, ViewSettings& v) {
   const std::string prefix = "views." + view + ".";
-  s.number(prefix + "thickness_mm", v.thickness_mm, {20, 120, "mm", "is it in cm?"},
+  s.number(prefix + "thickness_mm", v.thickness_mm, {10, 200, "mm", "is it in cm?"},
            "compressed thickness; default 0.45 of the free extent");
   s.number(prefix + "angle_deg", v.angle_deg, {-90, 90, "deg"},
            "positioner angle: the beam runs from superior-medial to inferior-lateral");

@@ -76,7 +76,7 @@ TEST_F(BadInput, AnUnknownKeyNamesTheNearestOne) {
 
 TEST_F(BadInput, AThicknessOfZeroIsRefusedWithItsRange) {
   dome("a", "[views.cc]\nthickness_mm = 0\n");
-  expect_refused("a", {"views.cc.thickness_mm is 0; expected 20 to 120 mm"});
+  expect_refused("a", {"views.cc.thickness_mm is 0; expected 10 to 200 mm"});
 }
 
 TEST_F(BadInput, AThicknessLargerThanTheBreastIsRefused) {
