@@ -4,7 +4,6 @@ DATA ?= sample_data
 RESULTS ?= results
 PREFIX ?= /usr/local
 CASES ?= ../shared/cases
-SYNTHETIC ?= 20
 BIN := build/release/bin
 # Taken as they stand: nothing in them is expanded by make, and recipes see them only as "$$P".
 override P := $(value P)
@@ -22,7 +21,7 @@ export P DATA RESULTS FORCE BIN SEED PATIENTS JOBS ONLY ENGINE CONFIG PREFIX CAS
 unexport MAKEFLAGS MAKEOVERRIDES
 
 .PHONY: help patient segment fit compress register report synthesize cohort verify-results build \
-        evaluate-segmentation evaluate-fitting \
+        evaluate-segmentation evaluate-fitting evaluate-compression \
         install test clean
 .DEFAULT_GOAL := help
 
@@ -37,6 +36,8 @@ help:
 	@echo 'make evaluate-segmentation  segments SYNTHETIC=20 synthetic patients:'
 	@echo '                       RESULTS/evaluation/segmentation.json'
 	@echo 'make evaluate-fitting  fits every breast of CASES=folder: RESULTS/evaluation/fitting.json'
+	@echo 'make evaluate-compression   compresses SYNTHETIC=200 drawn breasts and those of CASES=folder in'
+	@echo '                       both views: RESULTS/evaluation/compression.json; JOBS=2 at a time'
 	@echo 'make install PREFIX=/usr/local   programs, manual pages, completion, libraries'
 	@echo 'make test              all tests'
 	@echo 'make clean             removes build/ (results stay)'
@@ -52,10 +53,14 @@ cohort: build
 	@pipeline/cohort/run_cohort.sh
 
 evaluate-segmentation: build
-	@"$$BIN/mammotwin-evaluate-segmentation" "$$RESULTS/evaluation/segmentation.json" --synthetic "$$SYNTHETIC"
+	@"$$BIN/mammotwin-evaluate-segmentation" "$$RESULTS/evaluation/segmentation.json" $${SYNTHETIC:+--synthetic "$$SYNTHETIC"}
 
 evaluate-fitting: build
 	@"$$BIN/mammotwin-evaluate-fitting" "$$CASES" "$$RESULTS/evaluation/fitting.json"
+
+evaluate-compression: build
+	@"$$BIN/mammotwin-evaluate-compression" "$$RESULTS/evaluation/compression.json" --cases "$$CASES" \
+	  $${SYNTHETIC:+--synthetic "$$SYNTHETIC"} $${JOBS:+--jobs "$$JOBS"} $${ONLY:+--only "$$ONLY"}
 
 verify-results: build
 	@pipeline/cohort/verify_patient.sh

@@ -2,6 +2,7 @@
 
 #include "fitting/fit_breast.h"
 #include "fitting/tissue_volumes.h"
+#include "pipeline/evaluate/label_maps.h"
 #include "pipeline/fit_quality.h"
 #include "pipeline/frame/process.h"
 #include "pipeline/frame/products.h"
@@ -11,7 +12,6 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
-#include <algorithm>
 #include <chrono>
 #include <fstream>
 #include <iostream>
@@ -44,34 +44,13 @@ struct Case {
   SegmentInput input;
 };
 
-/// What the values of `label_maps` mean: the cases' README.
-LabelValues label_map_values() {
-  using enum ForeignTissue;
-  return {{0, air},    {1, fat},    {2, fibroglandular}, {3, skin},
-          {4, muscle}, {5, lesion}, {6, lesion},         {7, transition}};
-}
-
-std::vector<std::filesystem::path> sorted_entries(const std::filesystem::path& folder) {
-  std::vector<std::filesystem::path> entries;
-  if (std::filesystem::is_directory(folder))
-    for (const auto& entry : std::filesystem::directory_iterator(folder))
-      entries.push_back(entry.path());
-  std::sort(entries.begin(), entries.end());
-  return entries;
-}
-
 std::vector<Case> label_map_cases(const std::filesystem::path& cases) {
   std::vector<Case> found;
-  for (const auto& path : sorted_entries(cases / "label_maps")) {
-    const std::string file = path.filename().string();
-    if (!file.ends_with("_labels.nii.gz")) continue;
-    for (Side side : {Side::left, Side::right}) {
-      Case c{file.substr(0, file.find("_labels")), {}};
-      c.input.label_map = path;
-      c.input.label_values = label_map_values();
-      c.input.side = side;
-      found.push_back(c);
-    }
+  for (const LabelMapBreast& breast : label_map_breasts(cases)) {
+    Case& c = found.emplace_back(Case{breast.exam, {}});
+    c.input.label_map = breast.file;
+    c.input.label_values = label_map_values();
+    c.input.side = breast.side;
   }
   return found;
 }

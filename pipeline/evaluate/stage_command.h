@@ -1,0 +1,20 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace mammotwin {
+
+struct StageEnd {
+  int exit_code = 0;       ///< 128 + number where a signal ended it, as a shell says it
+  double cpu_seconds = 0;  ///< all its threads, user and system
+};
+
+/// Runs a command of this build, `mammotwin-<stage>` beside the running program, in a process of
+/// its own; what it says goes to the file `log`. It is ended after `most_cpu_seconds`. Throws
+/// std::runtime_error where no process can be made.
+StageEnd run_stage_command(const std::string& stage, const std::vector<std::string>& arguments,
+                           const std::filesystem::path& log, int most_cpu_seconds);
+
+}  // namespace mammotwin
