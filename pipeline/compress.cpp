@@ -96,6 +96,7 @@ Outcome run(const Arguments& args, StageRun& stage) {
   problem.laws = patient.compression.laws();
   problem.skin = patient.compression.skin;
   problem.boundary = patient.compression.boundary;
+  problem.friction = patient.compression.friction;
   problem.plates = plates_of(patient, view, axes, problem.mesh);
 
   const CompressionResult result = compress(problem, patient.compression.options, stage.progress);

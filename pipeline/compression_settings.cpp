@@ -83,6 +83,10 @@ void declare_compression(Settings& s, CompressionSettings& c) {
            "radius of the plates' edges at the chest wall");
   s.number("compress.wall_clearance_mm", c.wall_clearance_mm, {0, 60, "mm"},
            "from the chest wall to the plates' edges");
+  s.number("compress.friction_coefficient", c.friction.coefficient, {0, 1},
+           "Coulomb friction with the plates");
+  s.number("compress.friction_slip_mm", c.friction.slip, {0.001, 1, "mm"},
+           "slip up to which friction is elastic");
   s.number("compress.gap_tolerance_mm", c.options.gap_tolerance, {0.0001, 0.1, "mm"},
            "largest penetration of a plate");
 }

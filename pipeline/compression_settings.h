@@ -29,6 +29,7 @@ struct CompressionSettings {
   Mixing mixing = Mixing::geometric;
   SkinOptions skin;
   BoundaryOptions boundary;
+  FrictionOptions friction;
   CompressionOptions options;
   double plate_rounding_mm = PlateOptions{}.rounding;
   double wall_clearance_mm = PlateOptions{}.wall_clearance;

@@ -146,6 +146,15 @@ void add_contact(const CompressionProblem& problem, BreastModel& breast) {
     breast.model->add_surface_potential(e, face, breast.contact, breast.contact->points1d);
 }
 
+void add_friction(const CompressionProblem& problem, BreastModel& breast) {
+  const auto& options = problem.friction;
+  if (options.coefficient == 0) return;
+  breast.friction =
+      std::make_shared<PlateFriction>(breast.contact, options.coefficient, options.slip);
+  for (const auto& [e, face] : breast.contact_faces)
+    breast.model->add_surface_potential(e, face, breast.friction, breast.contact->points1d);
+}
+
 void tie_nodes(const MeshFile& mesh, DofMap& dofs) {
   for (const ParameterTie& tie : mesh.ties)
     for (int i = 0; i < 3; ++i)
@@ -181,6 +190,7 @@ BreastModel make_breast_model(const CompressionProblem& problem, const SolidOpti
   hold_chest_wall(problem, prone, breast);
   hold_cut_faces(problem, breast);
   add_contact(problem, breast);
+  add_friction(problem, breast);
   breast.dofs->number(mesh);
   return breast;
 }

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "solver/compress.h"
-#include "solver/contact/plate_contact.h"
+#include "solver/contact/plate_friction.h"
 #include "solver/load/wall_surface.h"
 #include "solver/newton/dof_map.h"
 
@@ -16,6 +16,7 @@ struct BreastModel {
   std::unique_ptr<Model> model;
   std::unique_ptr<DofMap> dofs;
   std::shared_ptr<PlateContact> contact;
+  std::shared_ptr<PlateFriction> friction;  ///< null if there is none
   std::shared_ptr<WallSurface> wall;  ///< null if the chest wall is clamped
   std::vector<std::pair<int, int>> contact_faces, wall_faces;  ///< (element, face)
   double largest_modulus = 0;  ///< of the tissue at the quadrature points [kPa]

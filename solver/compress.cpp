@@ -56,7 +56,11 @@ class Compression {
   enum PlateNumber { kSupport, kPaddle };
   ContactFigures figures(const State& state, PlateNumber plate) const;
   double paddle_force(const State& state) const;
+  void track_friction(const State& state);
+  void end_step(const State& state);
   NewtonReport equilibrate(double fraction, State& state);
+  NewtonReport squeeze(State& state);
+  NewtonReport shut(State& state);
   void finish(State& state);
   bool better(State& state, const std::function<NewtonReport(State&)>& attempt);
   void record(double fraction, const State& state, const NewtonReport& newton);
@@ -73,6 +77,7 @@ class Compression {
   Newton newton_;
   PlacedPlates start_, end_, placed_;
   PenaltyOptions penalties_;
+  PlateFriction::History sticking_;  ///< at the last good step
   CompressionReport report_;
 };
 
@@ -85,6 +90,7 @@ Compression::Compression(const CompressionProblem& problem, const CompressionOpt
       frame_(problem.mesh, problem.plates),
       newton_(*breast_.model, *breast_.dofs) {
   check_thickness();
+  if (breast_.friction) breast_.contact->follow = [this](const State& s) { track_friction(s); };
   const double half = problem.plates.thickness / 2;
   const double middle = frame_.centroid_height() + problem.plates.lift;
   const auto [low, high] = frame_.touching_heights();
@@ -122,7 +128,8 @@ void Compression::move_paddle(double height) {
 }
 
 ContactFigures Compression::figures(const State& state, PlateNumber plate) const {
-  return contact_figures(*breast_.model, state, *breast_.contact, plate, breast_.contact_faces);
+  return contact_figures(*breast_.model, state, *breast_.contact, plate, breast_.contact_faces,
+                         breast_.friction.get());
 }
 
 double Compression::penetration(const State& state) const {
@@ -134,26 +141,48 @@ double Compression::paddle_force(const State& state) const {
   return -problem_.plates.up.dot(figures(state, kPaddle).force) * kNewtonPerMilli;
 }
 
+void Compression::track_friction(const State& state) {
+  if (breast_.friction) breast_.friction->track(*breast_.model, state, breast_.contact_faces);
+}
+
+/// Fixes where points stick, for the next step and for those that fail.
+void Compression::end_step(const State& state) {
+  if (!breast_.friction) return;
+  breast_.friction->commit(*breast_.model, state, breast_.contact_faces);
+  sticking_ = breast_.friction->history();
+}
+
 NewtonReport Compression::equilibrate(double fraction, State& state) {
   place(fraction);
+  if (breast_.friction) breast_.friction->restore(sticking_);
+  return squeeze(state);
+}
+
+NewtonReport Compression::squeeze(State& state) {
   return solve_contact(newton_, *breast_.contact, breast_.penalty_unit(), penalties_, state);
+}
+
+NewtonReport Compression::shut(State& state) {
+  return close_gap(
+      newton_, *breast_.contact, options_.gap_tolerance,
+      [&](const State& s) { return penetration(s); }, penalties_.newton, state);
 }
 
 /// At the end of the way: closes the gap, then moves the paddle until the thickness is the one
 /// asked. A state that cannot be bettered stays as it is; summarise() says how good that is.
 void Compression::finish(State& state) {
   constexpr int most_rounds = 4;
-  better(state, [&](State& trial) {
-    return close_gap(
-        newton_, *breast_.contact, options_.gap_tolerance,
-        [&](const State& s) { return penetration(s); }, penalties_.newton, trial);
-  });
+  constexpr double far = 0.5;  // [mm]: a stiff penalty does not follow the paddle so far in one go
+  better(state, [&](State& trial) { return shut(trial); });
   for (int round = 0; round < most_rounds; ++round) {
     const double error = frame_.extent(state.x) - problem_.plates.thickness;
     if (std::abs(error) <= options_.thickness_tolerance) return;
     const bool good = better(state, [&](State& trial) {
       move_paddle(placed_.paddle_height - error);
-      return resettle(newton_, *breast_.contact, penalties_.newton, trial);
+      if (std::abs(error) <= far)
+        return resettle(newton_, *breast_.contact, penalties_.newton, trial);
+      const NewtonReport soft = squeeze(trial);
+      return soft.usable() ? then(soft, shut(trial)) : soft;
     });
     if (!good) return;
   }
@@ -169,15 +198,18 @@ bool Compression::better(State& state, const std::function<NewtonReport(State&)>
   report_.indefinite_matrices += report.indefinite;
   if (report.usable()) {
     state = std::move(trial);
+    track_friction(state);  // a round that failed inside the attempt may have left another's
     return true;
   }
   placed_ = placed;
   breast_.contact->plates = {placed_.support, placed_.paddle};
   breast_.contact->penalty = penalty;
+  track_friction(state);
   return false;
 }
 
 void Compression::record(double fraction, const State& state, const NewtonReport& newton) {
+  end_step(state);
   const Balance balance = newton_.balance(state);
   report_.history.push_back({frame_.extent(state.x), paddle_force(state), newton.iterations,
                              breast_.contact->penalty, balance.min_J, balance.max_J});
@@ -185,8 +217,10 @@ void Compression::record(double fraction, const State& state, const NewtonReport
     progress_(0.95 * fraction, "compressed to " + in_mm(report_.history.back().thickness_mm));
 }
 
-/// Central difference of the total potential over the paddle's height.
+/// Central difference of the total potential over the paddle's height, friction's part with it
+/// (contact pressures as they are: its potential knows no other).
 double Compression::energy_force(const State& state) {
+  breast_.contact->follow = {};
   constexpr double nudge = 1e-3;  // [mm]: small beside penetrations, so that contact stays
   const double height = placed_.paddle_height;
   double energy[2];
@@ -252,6 +286,7 @@ CompressionResult Compression::run() {
   const auto begin = std::chrono::steady_clock::now();
   State state = breast_.model->rest();
   place(0);
+  end_step(state);
   const LoadSteppingReport load = step_load(
       state, {options_.first_step, options_.smallest_step, options_.max_iterations, kStepGrowth},
       [&](double fraction, State& s) { return equilibrate(fraction, s); },

@@ -55,6 +55,12 @@ struct BoundaryOptions {
   double cut_face_depth = 50;  ///< [mm] > 0: spring = shear modulus / this, for `springs`
 };
 
+/// With the plates (contact/plate_friction.h).
+struct FrictionOptions {
+  double coefficient = 0;  ///< in [0, 1]; 0: none
+  double slip = 0.1;       ///< a point sticks until it slid so far [mm] > 0
+};
+
 /// One breast between two plates. The solver knows nothing of views: the plates say which way.
 struct CompressionProblem {
   /// The shape that is free of stress, with face labels.
@@ -65,6 +71,7 @@ struct CompressionProblem {
   TissueLaws laws = TissueLaws::defaults();
   SkinOptions skin;
   BoundaryOptions boundary;
+  FrictionOptions friction;
   PlateOptions plates;
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  ///< [mm/s²]
   double density = 1e-6;                              ///< [kg/mm³] > 0

@@ -11,7 +11,7 @@ namespace {
 constexpr double kTouching = 0.1;  // [mm] a face wobbles by less about a plate that it lies on
 
 void add_face(const Face& face, const SolidElement::Coefficients& x, const PlateContact& contact,
-              int plate, ContactFigures& figures) {
+              int plate, const PlateFriction* friction, ContactFigures& figures) {
   for (int q = 0; q < face.num_points(); ++q) {
     const auto y = face.deformed(x, q);
     const Gap gap = contact.plates[plate].gap(y.head<3>());
@@ -20,6 +20,8 @@ void add_face(const Face& face, const SolidElement::Coefficients& x, const Plate
     const double stretch = y.segment<3>(3).cross(y.segment<3>(6)).norm() /
                            point.A1.cross(point.A2).norm();
     figures.force += contact.pressure(gap.gap) * point.area * gap.normal;
+    if (friction)
+      figures.force += point.area * friction->traction(y.head<3>(), point, plate);
     figures.area += stretch * point.area;
     figures.penetration = std::max(figures.penetration, -gap.gap);
   }
@@ -28,13 +30,14 @@ void add_face(const Face& face, const SolidElement::Coefficients& x, const Plate
 }  // namespace
 
 ContactFigures contact_figures(const Model& model, const State& state, const PlateContact& contact,
-                               int plate, const FaceList& faces) {
+                               int plate, const FaceList& faces,
+                               const PlateFriction* friction) {
   ContactFigures figures;
   for (const auto& [e, number] : faces) {
     const auto x = model.coefficients(state.x, e);
     for (const Face& face : model.faces(e))
       if (face.face() == number && face.points1d() == contact.points1d)
-        add_face(face, x, contact, plate, figures);
+        add_face(face, x, contact, plate, friction, figures);
   }
   return figures;
 }

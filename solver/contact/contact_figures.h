@@ -1,6 +1,6 @@
 #pragma once
 
-#include "solver/contact/plate_contact.h"
+#include "solver/contact/plate_friction.h"
 #include "solver/newton/model.h"
 
 #include <utility>
@@ -10,13 +10,15 @@ namespace mammotwin {
 
 using FaceList = std::vector<std::pair<int, int>>;  ///< (element, face) with a surface potential
 
-/// What one plate does to a state: sums over the quadrature points in contact.
+/// What one plate does to a state: sums over the quadrature points in contact. friction: null if
+/// there is none.
 struct ContactFigures {
   Eigen::Vector3d force = Eigen::Vector3d::Zero();  ///< of the plate on the tissue [mN]
   double area = 0;         ///< deformed area within 0.1 mm of the plate [mm²]
   double penetration = 0;                           ///< largest [mm]
 };
 ContactFigures contact_figures(const Model& model, const State& state, const PlateContact& contact,
-                               int plate, const FaceList& faces);
+                               int plate, const FaceList& faces,
+                               const PlateFriction* friction = nullptr);
 
 }  // namespace mammotwin

@@ -6,29 +6,51 @@ namespace mammotwin {
 
 namespace {
 
-void add(NewtonReport& total, const NewtonReport& part) {
-  const int iterations = total.iterations + part.iterations;
-  const int indefinite = total.indefinite + part.indefinite;
-  total = part;
-  total.iterations = iterations;
-  total.indefinite = indefinite;
+void add(NewtonReport& total, const NewtonReport& part) { total = then(total, part); }
+
+NewtonReport settle(Newton& newton, PlateContact& contact, NewtonOptions options, State& state) {
+  options.stabilise = [&contact](bool on) { contact.with_curvature = !on; };
+  const NewtonReport report = newton.solve(state, options);
+  contact.with_curvature = true;
+  return report;
+}
+
+NewtonOptions loosened(NewtonOptions options, double tolerance) {
+  options.tolerance = std::max(options.tolerance, tolerance);
+  options.constraint_tolerance = std::max(options.constraint_tolerance, tolerance);
+  return options;
 }
 
 /// Only has to come near.
 NewtonReport approach(Newton& newton, PlateContact& contact, NewtonOptions options, State& state) {
-  options.tolerance = 1e-2;
-  options.constraint_tolerance = 1e-2;
-  return resettle(newton, contact, options, state);
+  return resettle(newton, contact, loosened(options, 1e-2), state);
 }
 
 }  // namespace
 
+NewtonReport then(const NewtonReport& first, NewtonReport second) {
+  second.iterations += first.iterations;
+  second.indefinite += first.indefinite;
+  return second;
+}
+
 NewtonReport resettle(Newton& newton, PlateContact& contact, const NewtonOptions& options,
                       State& state) {
-  NewtonOptions with_fallback = options;
-  with_fallback.stabilise = [&contact](bool on) { contact.with_curvature = !on; };
-  const NewtonReport report = newton.solve(state, with_fallback);
-  contact.with_curvature = true;
+  if (!contact.follow) return settle(newton, contact, options, state);
+  constexpr double tolerance = 1e-5, reduction = 0.1, first = 1e-2;
+  constexpr int most_rounds = 20;
+  NewtonReport report = settle(newton, contact, loosened(options, first), state);
+  for (int round = 0; report.usable() && round < most_rounds; ++round) {
+    contact.follow(state);
+    const Balance balance = newton.balance(state);
+    const double left = balance.residual.norm() / balance.flow;
+    if (left <= std::max(options.tolerance, tolerance) &&
+        balance.constraint <= options.constraint_tolerance)
+      return report;
+    report = then(report, settle(newton, contact, loosened(options, reduction * left), state));
+  }
+  if (report.usable()) report.reason = "friction finds no equilibrium with the pressures it comes of";
+  report.converged = false;
   return report;
 }
 

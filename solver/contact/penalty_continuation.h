@@ -16,6 +16,9 @@ struct PenaltyOptions {
   NewtonOptions newton;
 };
 
+/// Two solves as one: the second's outcome, both's iterations.
+NewtonReport then(const NewtonReport& first, NewtonReport second);
+
 /// Equilibrium with the plates where they are: solved at a soft penalty, then at stiffer ones from
 /// there (paper, section 2.3; plain Newton at the last penalty cycles between active sets).
 /// `unit` = shear modulus / element size [kPa/mm]. Iterations are those of all penalties together.
@@ -23,7 +26,8 @@ NewtonReport solve_contact(Newton& newton, PlateContact& contact, double unit,
                            const PenaltyOptions& options, State& state);
 
 /// Equilibrium near a state that already is one, after a small change of penalty or plates. The
-/// plates' curvature is left out of a matrix that would be indefinite with it.
+/// plates' curvature is left out of a matrix that would be indefinite with it. With friction, until
+/// its pressures are the state's own to 1e-5 of the flow.
 NewtonReport resettle(Newton& newton, PlateContact& contact, const NewtonOptions& options,
                       State& state);
 

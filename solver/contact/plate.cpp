@@ -1,5 +1,7 @@
 #include "solver/contact/plate.h"
 
+#include <Eigen/Geometry>
+
 namespace mammotwin {
 
 namespace {
@@ -17,7 +19,21 @@ Gap rounded(double behind, double above, const Plate& plate) {
   return {distance - plate.rounding, n, t * t.transpose() / distance};
 }
 
+Eigen::Matrix3d axes_of(const Plate& plate) {
+  Eigen::Matrix3d axes;
+  axes << plate.depth, plate.normal.cross(plate.depth), plate.normal;
+  return axes;
+}
+
 }  // namespace
+
+Eigen::Vector3d Plate::to_local(const Eigen::Vector3d& x) const {
+  return axes_of(*this).transpose() * (x - point);
+}
+
+Eigen::Vector3d Plate::from_local(const Eigen::Vector3d& x_local) const {
+  return point + axes_of(*this) * x_local;
+}
 
 Gap Plate::gap(const Eigen::Vector3d& x) const {
   const double above = normal.dot(x - point);

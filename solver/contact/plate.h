@@ -28,6 +28,10 @@ struct Plate {
   bool endless = false;    ///< no edge: a half space
 
   Gap gap(const Eigen::Vector3d& x) const;
+
+  /// Coordinates in a frame that moves with the plate: along depth, sideways, along normal [mm].
+  Eigen::Vector3d to_local(const Eigen::Vector3d& x) const;
+  Eigen::Vector3d from_local(const Eigen::Vector3d& x_local) const;
 };
 
 }  // namespace mammotwin

@@ -1,11 +1,14 @@
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "solver/contact/plate.h"
 #include "solver/element/surface_potential.h"
 
 namespace mammotwin {
+
+struct State;
 
 /// Frictionless penalty contact with rigid plates (paper, eq. 8), per reference area:
 ///
@@ -21,6 +24,8 @@ class PlateContact : public SurfacePotential {
   double penalty = 1;          ///< ε [kPa/mm]
   int points1d = 5;            ///< Gauss points a side on the faces in contact
   bool with_curvature = true;  ///< t ∂²gap/∂x² in the tangent
+  /// Brings friction's pressures up to a state (PlateFriction::track); empty: no friction.
+  std::function<void(const State&)> follow;
 
   double pressure(double gap) const { return gap < 0 ? -penalty * gap : 0; }  ///< t [kPa]
 

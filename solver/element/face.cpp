@@ -63,7 +63,8 @@ const Face::Table& Face::table(int points1d) {
   return tables[points1d - 1];
 }
 
-Face::Face(int element, int face, const SolidElement::Coefficients& X, int points1d)
+Face::Face(int element, int face, const SolidElement::Coefficients& X, int points1d,
+           int first_index)
     : element_(element),
       face_(face),
       points1d_(points1d),
@@ -74,7 +75,8 @@ Face::Face(int element, int face, const SolidElement::Coefficients& X, int point
     const Eigen::Vector3d A1 = Y.segment<3>(3), A2 = Y.segment<3>(6);
     const Eigen::Vector3d area_vector = orientation(face) * A1.cross(A2);
     const double weight = table(points1d).weights[q];
-    points_[q] = {Y.head<3>(), A1, A2, area_vector.normalized(), weight * area_vector.norm()};
+    points_[q] = {Y.head<3>(), A1, A2, area_vector.normalized(), weight * area_vector.norm(),
+                  first_index + q};
   }
 }
 

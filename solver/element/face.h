@@ -15,8 +15,9 @@ class Face {
  public:
   static constexpr int kFunctions = 16;
 
-  /// X: the reference shape of the element; points1d = n, 4 to 10.
-  Face(int element, int face, const SolidElement::Coefficients& X, int points1d);
+  /// X: the reference shape of the element; points1d = n, 4 to 10; first_index: of its points.
+  Face(int element, int face, const SolidElement::Coefficients& X, int points1d,
+       int first_index = 0);
 
   int element() const { return element_; }
   int face() const { return face_; }

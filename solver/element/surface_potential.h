@@ -12,6 +12,7 @@ struct SurfacePoint {
   Eigen::Vector3d A1, A2;  ///< reference tangents ∂X/∂ξ of the face's two directions [mm]
   Eigen::Vector3d normal;  ///< outward unit normal of the reference shape
   double area;             ///< reference area of the point [mm²]
+  int index = 0;           ///< of the point among all of its model's
 };
 
 /// Energy per reference area as a function of y = (x, a₁, a₂): position and face tangents.

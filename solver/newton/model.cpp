@@ -54,7 +54,9 @@ void Model::add_surface_potential(int e, int face, std::shared_ptr<const Surface
     return f.face() == face && f.points1d() == points1d;
   });
   if (found == faces.end()) {
-    faces.emplace_back(e, face, gather(reference_, reference_.nodes(), e), points1d);
+    faces.emplace_back(e, face, gather(reference_, reference_.nodes(), e), points1d,
+                       num_surface_points_);
+    num_surface_points_ += points1d * points1d;
     found = faces.end() - 1;
   }
   potentials_[e].push_back({static_cast<int>(found - faces.begin()), std::move(p)});

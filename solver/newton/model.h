@@ -37,6 +37,7 @@ class Model {
   int num_elements() const { return reference_.num_elements(); }
   const SolidElement& element(int e) const { return elements_[e]; }
   const std::vector<Face>& faces(int e) const { return faces_[e]; }
+  int num_surface_points() const { return num_surface_points_; }  ///< of all faces in use
 
   /// Puts a potential on a face with points1d x points1d Gauss points; several may share one. The
   /// model keeps it alive.
@@ -69,6 +70,7 @@ class Model {
   std::vector<SolidElement::Coefficients> loads_;  ///< of the body force; empty: none
   std::vector<std::vector<Face>> faces_;
   std::vector<std::vector<FacePotential>> potentials_;
+  int num_surface_points_ = 0;
 };
 
 }  // namespace mammotwin

@@ -1,0 +1,113 @@
+#include "solver/contact/plate_friction.h"
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace mammotwin {
+
+namespace {
+
+using Eigen::Vector3d;
+
+template <class Visit>
+void for_points(const Model& model, const State& state, int points1d,
+                const std::vector<std::pair<int, int>>& faces, Visit visit) {
+  for (const auto& [e, number] : faces) {
+    const auto x = model.coefficients(state.x, e);
+    for (const Face& face : model.faces(e))
+      for (int q = 0; face.face() == number && face.points1d() == points1d && q < face.num_points();
+           ++q)
+        visit(face.point(q), face.deformed(x, q).template head<3>());
+  }
+}
+
+}  // namespace
+
+PlateFriction::PlateFriction(std::shared_ptr<const PlateContact> contact, double coefficient,
+                             double slip)
+    : contact_(std::move(contact)), coefficient_(coefficient), slip_(slip) {
+  if (!(coefficient > 0 && coefficient <= 1))
+    throw std::invalid_argument("friction coefficient is " + std::to_string(coefficient) +
+                                "; expected above 0 and at most 1");
+  if (!(std::isfinite(slip) && slip > 0))
+    throw std::invalid_argument("friction slip is " + std::to_string(slip) +
+                                " mm; expected a positive length");
+}
+
+const PlateFriction::Contact& PlateFriction::at(const SurfacePoint& point, int plate) const {
+  return history_[point.index * contact_->plates.size() + plate];
+}
+
+Vector3d PlateFriction::slip(const Vector3d& x, const Contact& contact, const Plate& plate) const {
+  const Vector3d moved = x - plate.from_local(contact.anchor);
+  return moved - contact.normal.dot(moved) * contact.normal;
+}
+
+void PlateFriction::track(const Model& model, const State& state,
+                          const std::vector<std::pair<int, int>>& faces) {
+  const std::size_t plates = contact_->plates.size();
+  history_.resize(model.num_surface_points() * plates);
+  for_points(model, state, contact_->points1d, faces, [&](const SurfacePoint& point, const Vector3d& x) {
+    for (std::size_t p = 0; p < plates; ++p) {
+      const Gap gap = contact_->plates[p].gap(x);
+      Contact& contact = history_[point.index * plates + p];
+      contact.normal = gap.normal;
+      contact.pressure = contact_->pressure(gap.gap);
+    }
+  });
+}
+
+void PlateFriction::commit(const Model& model, const State& state,
+                           const std::vector<std::pair<int, int>>& faces) {
+  const bool first = history_.empty();
+  track(model, state, faces);
+  const std::size_t plates = contact_->plates.size();
+  for_points(model, state, contact_->points1d, faces, [&](const SurfacePoint& point, const Vector3d& x) {
+    for (std::size_t p = 0; p < plates; ++p) {
+      const Plate& plate = contact_->plates[p];
+      Contact& contact = history_[point.index * plates + p];
+      const Vector3d s = slip(x, contact, plate);
+      if (first || contact.pressure == 0)
+        contact.anchor = plate.to_local(x);
+      else if (s.norm() > slip_)
+        contact.anchor = plate.to_local(x - slip_ * s.normalized());
+    }
+  });
+}
+
+Vector3d PlateFriction::traction(const Vector3d& x, const SurfacePoint& point, int plate) const {
+  const Contact& contact = at(point, plate);
+  if (contact.pressure == 0) return Vector3d::Zero();
+  const Vector3d s = slip(x, contact, contact_->plates[plate]);
+  return -coefficient_ * contact.pressure / std::max(s.norm(), slip_) * s;
+}
+
+bool PlateFriction::respond(const Eigen::Matrix<double, 9, 1>& y, const SurfacePoint& point,
+                            int order, SurfaceResponse& response) const {
+  bool touches = false;
+  for (std::size_t p = 0; p < contact_->plates.size(); ++p) {
+    const Contact& contact = at(point, static_cast<int>(p));
+    if (contact.pressure == 0) continue;
+    if (!touches) {
+      response.energy = 0;
+      response.gradient.head<3>().setZero();
+      response.hessian.topLeftCorner<3, 3>().setZero();
+    }
+    touches = true;
+    const double limit = coefficient_ * contact.pressure;
+    const Vector3d s = slip(y.head<3>(), contact, contact_->plates[p]);
+    const double length = s.norm(), stiffness = limit / std::max(length, slip_);
+    const bool slides = length > slip_;
+    response.energy += slides ? limit * (length - slip_ / 2) : stiffness * length * length / 2;
+    response.gradient.head<3>() += stiffness * s;
+    if (order < 2) continue;
+    auto hessian = response.hessian.topLeftCorner<3, 3>();
+    hessian += stiffness * (Eigen::Matrix3d::Identity() -
+                            contact.normal * contact.normal.transpose());
+    if (slides) hessian -= stiffness / (length * length) * s * s.transpose();
+  }
+  return touches;
+}
+
+}  // namespace mammotwin

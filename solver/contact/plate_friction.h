@@ -1,0 +1,69 @@
+#pragma once
+
+#include "solver/contact/plate_contact.h"
+#include "solver/newton/model.h"
+
+#include <Eigen/Core>
+
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace mammotwin {
+
+/// Coulomb friction with the plates, elastic up to a small slip, as an incremental potential per
+/// reference area:
+///
+///     energy = Σ_plates μ t h(|s|),   s = (I − n nᵀ)(x − anchor)
+///     h(s) = s²/(2δ) for s <= δ,  s − δ/2 beyond
+///
+/// t, n: contact pressure and plate normal of the last solution (track), so that the potential is
+/// convex and its tangent symmetric and semidefinite. Solving and tracking alternate until t and n
+/// are the state's own (resettle); each round leaves about μ of the error.
+/// anchor: the place on the plate where the point sticks, carried by the plate.
+///
+/// Approximations: a point that sticks creeps by up to δ (Wriggers, Computational Contact Mechanics,
+/// section 5.2); slip is counted along the chord of a load step, from where the point was at the end
+/// of the last one even if it came into contact later, so the path is followed to first order in
+/// the step. Tilting of the plate moves its anchors with it.
+class PlateFriction : public SurfacePotential {
+ public:
+  struct Contact {  ///< of one surface point with one plate
+    Eigen::Vector3d anchor = Eigen::Vector3d::Zero();  ///< in the plate's frame [mm]
+    Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+    double pressure = 0;                               ///< [kPa]
+  };
+  using History = std::vector<Contact>;  ///< all that a load step leaves to the next
+
+  /// Throws std::invalid_argument unless 0 < coefficient <= 1 and slip > 0. slip: δ [mm].
+  PlateFriction(std::shared_ptr<const PlateContact> contact, double coefficient, double slip);
+
+  /// Takes pressures and normals from a state.
+  void track(const Model& model, const State& state,
+             const std::vector<std::pair<int, int>>& faces);
+
+  /// Ends a load step: anchors of sliding points follow to within δ, those of free points all the
+  /// way. The first call, with the plates at their start, sets them.
+  void commit(const Model& model, const State& state,
+              const std::vector<std::pair<int, int>>& faces);
+
+  const History& history() const { return history_; }
+  void restore(History history) { history_ = std::move(history); }
+
+  /// Of a plate on a surface point at x [kPa].
+  Eigen::Vector3d traction(const Eigen::Vector3d& x, const SurfacePoint& point, int plate) const;
+
+  Slots slots() const override { return kPosition; }
+  bool respond(const Eigen::Matrix<double, 9, 1>& y, const SurfacePoint& point, int order,
+               SurfaceResponse& response) const override;
+
+ private:
+  const Contact& at(const SurfacePoint& point, int plate) const;
+  Eigen::Vector3d slip(const Eigen::Vector3d& x, const Contact& contact, const Plate& plate) const;
+
+  std::shared_ptr<const PlateContact> contact_;
+  double coefficient_, slip_;
+  History history_;  ///< by surface point, then plate
+};
+
+}  // namespace mammotwin
