@@ -27,6 +27,19 @@ Vector2d turned(const Vector2d& v, int quarter) {
   return w;
 }
 
+/// A place in [0, 1] and how fast it moves with the element coordinate.
+struct Place {
+  double at, rate;
+};
+
+/// Corner `i` of `n` elements whose size changes steadily by `grading` from the first to the last:
+/// (q^s − 1) / (q − 1) for s = i / n, smooth in s, so a graded mesh is as C¹ as an even one.
+Place graded(int i, int n, double grading) {
+  const double s = static_cast<double>(i) / n, log = std::log(grading);
+  if (log == 0) return {s, 1.0 / n};
+  return {std::expm1(s * log) / std::expm1(log), std::exp(s * log) * log / std::expm1(log) / n};
+}
+
 /// Builds the cross-section's nodes and quads, then the solid by extrusion.
 class CylinderBuilder {
  public:
@@ -77,7 +90,8 @@ class CylinderBuilder {
 
   /// Position, radial, side and mixed derivative in the patch at +x.
   PlaneNode ring_place(int r, int s) const {
-    const double rho = static_cast<double>(r) / n_.ring, t = -1 + 2.0 * s / n_.square;
+    const auto [rho, rate] = graded(r, n_.ring, n_.ring_grading);
+    const double t = -1 + 2.0 * s / n_.square;
     const double angle = t * std::numbers::pi / 4, arc = std::numbers::pi / 2 / n_.square;
     // The Hermite cubic with this end slope meets the circle at the middle of the arc.
     const double arc_slope = 4 * std::tan(arc / 4) * radius_;
@@ -88,8 +102,8 @@ class CylinderBuilder {
     // On the diagonals both patches take the mean of their slopes, so that they meet C¹.
     if (r > 0 && s == n_.square) flat_slope = (flat_slope + turned(flat_slope, 1)) / 2;
     if (r > 0 && s == 0) flat_slope = (flat_slope + turned(flat_slope, 3)) / 2;
-    return {(1 - rho) * flat + rho * round, (round - flat) / n_.ring,
-            (1 - rho) * flat_slope + rho * round_slope, (round_slope - flat_slope) / n_.ring};
+    return {(1 - rho) * flat + rho * round, (round - flat) * rate,
+            (1 - rho) * flat_slope + rho * round_slope, (round_slope - flat_slope) * rate};
   }
 
   PlaneNode turned_place(int q, int r, int s) const {
@@ -173,15 +187,15 @@ class CylinderBuilder {
 
   MeshFile extrude() const {
     const int layer = static_cast<int>(plane_.size());
-    const double step = length_ / n_.length;
     std::vector<HermiteMesh::Node> nodes;
     std::vector<ParameterTie> ties;
     for (int k = 0; k <= n_.length; ++k) {
+      const auto [z, rate] = graded(k, n_.length, n_.length_grading);
       for (const auto& p : plane_) {
         HermiteMesh::Node node = HermiteMesh::Node::Zero();
         for (int d = 0; d < 4; ++d) node.col(d).head<2>() = p[d];
-        node(2, 0) = k * step;
-        node(2, 4) = step;
+        node(2, 0) = z * length_;
+        node(2, 4) = rate * length_;
         nodes.push_back(node);
       }
       for (const auto& t : ties_)
@@ -222,6 +236,8 @@ MeshFile cylinder_mesh(double radius, double length, const CylinderElements& ele
     throw std::invalid_argument("cylinder_mesh: needs at least 1 element in every direction");
   if (elements.square_part <= 0 || elements.square_part >= 0.7)
     throw std::invalid_argument("cylinder_mesh: square_part must lie in (0, 0.7)");
+  if (elements.ring_grading <= 0 || elements.length_grading <= 0)
+    throw std::invalid_argument("cylinder_mesh: gradings must be positive");
   return CylinderBuilder(radius, length, elements).build();
 }
 
