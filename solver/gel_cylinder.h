@@ -1,7 +1,6 @@
 #pragma once
 
-#include "fitting/mesh/mesh_file.h"
-#include "solver/newton/newton.h"
+#include "solver/gel_cylinder_mesh.h"
 
 #include <string>
 #include <vector>
@@ -16,16 +15,26 @@ namespace mammotwin {
 ///   bonded        standing, end faces stuck to the plates
 enum class CylinderCase { lateral, plane_strain, axial, bonded };
 
+/// Elements of an even mesh of the cylinder's eighth, as `CylinderExperiment::elements` wants them:
+/// n along half the square's side, (n + 1) / 2 between square and mantle, n + 1 along the axis.
+CylinderElements even_elements(int n);
+
 struct CylinderExperiment {
   CylinderCase how = CylinderCase::lateral;
   double diameter = 29, length = 40;  ///< [mm]
   double c1 = 3;                      ///< [kPa]
   double thickness = 17;              ///< between the plates in the end [mm]
-  int refinement = 2;                 ///< elements along half the square's side, at least 1
+  CylinderPart part = CylinderPart::eighth;  ///< half: only lying
+  CylinderElements elements = even_elements(2);  ///< whole cross-section (square even), half length
   int contact_points = 5;             ///< Gauss points a side on faces in contact, 4 to 10
   double penalty = 100;               ///< x shear modulus / element size
   double gap_tolerance = 0.001;       ///< largest penetration [mm]; 0: the penalty as given
   int steps = 1;                      ///< load steps
+};
+
+/// What a load step ended with.
+struct CylinderStep {
+  double thickness_mm, force_N, half_width_middle_mm;
 };
 
 struct CylinderFigures {
@@ -40,12 +49,12 @@ struct CylinderFigures {
   double stored_energy_mJ = 0;        ///< of the whole cylinder, contact's part included
   double min_J = 1, max_J = 1;
   int dof = 0, elements = 0, iterations = 0;
-  double seconds = 0, cpu_seconds = 0;
-  MeshFile before{HermiteMesh({}, {}), {}, {}, {}, {}, {}};  ///< the eighth that is solved
+  double seconds = 0, cpu_seconds = 0;  ///< CPU time is that of all threads
+  std::vector<CylinderStep> history;
+  MeshFile before{HermiteMesh({}, {}), {}, {}, {}, {}, {}};  ///< the part that is solved
   MeshFile after{HermiteMesh({}, {}), {}, {}, {}, {}, {}};
 };
 
-/// Solves an eighth of the cylinder (three planes of symmetry).
 /// Throws std::invalid_argument where a length is not positive or a count out of range.
 CylinderFigures squeeze_cylinder(const CylinderExperiment& experiment);
 

@@ -10,7 +10,7 @@ namespace {
 TEST(EnergyBalance, WorkOfThePlatesIsStored) {
   CylinderExperiment experiment;
   experiment.how = CylinderCase::bonded;
-  experiment.refinement = 1;
+  experiment.elements = even_elements(1);
   experiment.thickness = 32;
   experiment.steps = 32;
   const auto f = squeeze_cylinder(experiment);
