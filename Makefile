@@ -21,7 +21,7 @@ export P DATA RESULTS FORCE BIN SEED PATIENTS JOBS ONLY ENGINE CONFIG PREFIX CAS
 unexport MAKEFLAGS MAKEOVERRIDES
 
 .PHONY: help patient segment fit compress register report synthesize cohort verify-results build \
-        evaluate-segmentation evaluate-fitting evaluate-compression \
+        evaluate-segmentation evaluate-fitting evaluate-compression validate \
         install test clean
 .DEFAULT_GOAL := help
 
@@ -38,6 +38,7 @@ help:
 	@echo 'make evaluate-fitting  fits every breast of CASES=folder: RESULTS/evaluation/fitting.json'
 	@echo 'make evaluate-compression   compresses SYNTHETIC=200 drawn breasts and those of CASES=folder in'
 	@echo '                       both views: RESULTS/evaluation/compression.json; JOBS=2 at a time'
+	@echo 'make validate          the gel cylinder against other codes: RESULTS/gel_cylinder/validation.json'
 	@echo 'make install PREFIX=/usr/local   programs, manual pages, completion, libraries'
 	@echo 'make test              all tests'
 	@echo 'make clean             removes build/ (results stay)'
@@ -61,6 +62,9 @@ evaluate-fitting: build
 evaluate-compression: build
 	@"$$BIN/mammotwin-evaluate-compression" "$$RESULTS/evaluation/compression.json" --cases "$$CASES" \
 	  $${SYNTHETIC:+--synthetic "$$SYNTHETIC"} $${JOBS:+--jobs "$$JOBS"} $${ONLY:+--only "$$ONLY"}
+
+validate: build
+	@"$$BIN/mammotwin-validate" sample_data/gel_cylinder "$$RESULTS/gel_cylinder/validation.json"
 
 verify-results: build
 	@pipeline/cohort/verify_patient.sh

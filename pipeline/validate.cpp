@@ -1,0 +1,75 @@
+// validate: the paper's gel cylinder, squeezed in four ways, against other codes -> validation.json, pictures.
+
+#include "pipeline/frame/process.h"
+#include "pipeline/frame/products.h"
+#include "pipeline/validation/gel_figures.h"
+#include "pipeline/validation/gel_table.h"
+
+#include <CLI/CLI.hpp>
+
+#include <iostream>
+
+namespace mammotwin {
+namespace {
+
+struct Arguments {
+  std::filesystem::path cases, result;
+};
+
+void declare(CLI::App& app, Arguments& args) {
+  app.add_option("cases", args.cases, "folder with lateral.toml, plane_strain.toml, ...")
+      ->required()
+      ->check(CLI::ExistingDirectory);
+  app.add_option("result", args.result, "validation.json to write; pictures go beside it")->required();
+}
+
+constexpr const char* kCases[] = {"lateral", "plane_strain", "axial", "bonded"};
+constexpr double kPixelsPerPoint = 2;
+
+void write_pictures(const GelResult& r, Products& products) {
+  const std::string& name = r.experiment.name;
+  if (r.study.size() > 1)
+    convergence_picture(r).write_png(products.write(name + "_convergence.png"), kPixelsPerPoint);
+  if (r.curve.size() > 1)
+    curve_picture(r).write_png(products.write(name + "_curve.png"), kPixelsPerPoint);
+  if (r.experiment.experiment.how == CylinderCase::lateral)
+    outline_picture(r).write_png(products.write("outlines.png"), kPixelsPerPoint);
+}
+
+int run(const Arguments& args) {
+  Products products(args.result);
+  nlohmann::json document = nlohmann::json::object();
+  std::vector<std::string> missed;
+  for (const std::string name : kCases) {
+    const GelCase experiment = read_gel_case(args.cases / (name + ".toml"));
+    const GelResult result =
+        run_gel_case(experiment, [](const std::string& text) { std::cerr << text << std::endl; });
+    document[name] = to_json(result);
+    std::cout << gel_table(result) << std::endl;
+    write_pictures(result, products);
+    for (const std::string& sentence : missed_targets(result)) missed.push_back(sentence);
+  }
+  write_text_atomically(products.write_main(), document.dump(1) + "\n");
+  products.commit();
+  for (const std::string& sentence : missed) std::cerr << "missed: " << sentence << "\n";
+  return missed.empty() ? 0 : 3;
+}
+
+}  // namespace
+}  // namespace mammotwin
+
+int main(int argc, char** argv) {
+  mammotwin::prepare_process(argv);
+  CLI::App app("Squeezes the paper's gel cylinder in four ways and compares with other codes");
+  mammotwin::Arguments args;
+  mammotwin::declare(app, args);
+  try {
+    app.parse(argc, argv);
+    return mammotwin::run(args);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) ? 2 : 0;
+  } catch (const std::exception& error) {
+    std::cerr << "validate: " << error.what() << std::endl;
+    return 1;
+  }
+}

@@ -1,0 +1,33 @@
+#pragma once
+
+#include "pipeline/validation/gel_case.h"
+
+#include <nlohmann/json.hpp>
+
+#include <functional>
+
+namespace mammotwin {
+
+/// What a case gave, on all its meshes.
+struct GelResult {
+  GelCase experiment;
+  CylinderFigures figures;             ///< recommended mesh, one load step
+  std::vector<CylinderFigures> study;  ///< coarse to fine
+  std::vector<CylinderStep> curve;     ///< recommended mesh, many load steps
+  std::optional<CylinderFigures> half; ///< half the cylinder, one plate
+};
+
+/// `say` is told what has been run.
+GelResult run_gel_case(const GelCase& experiment,
+                       const std::function<void(const std::string&)>& say);
+
+/// An entry of validation.json. Numbers that do not exist are null.
+nlohmann::json to_json(const GelResult& result);
+
+/// A sentence for each target that the recommended mesh misses, or that did not converge.
+std::vector<std::string> missed_targets(const GelResult& result);
+
+/// found / expected - 1; NaN where nothing is expected.
+double relative_error(double found, const std::optional<double>& expected);
+
+}  // namespace mammotwin
