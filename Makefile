@@ -21,7 +21,7 @@ export P DATA RESULTS FORCE BIN SEED PATIENTS JOBS ONLY ENGINE CONFIG PREFIX CAS
 unexport MAKEFLAGS MAKEOVERRIDES
 
 .PHONY: help patient segment fit compress register report synthesize cohort verify-results build \
-        evaluate-segmentation evaluate-fitting evaluate-compression validate \
+        evaluate-segmentation evaluate-fitting evaluate-compression evaluate-niftysim validate \
         install test clean
 .DEFAULT_GOAL := help
 
@@ -39,6 +39,7 @@ help:
 	@echo 'make evaluate-compression   compresses SYNTHETIC=200 drawn breasts and those of CASES=folder in'
 	@echo '                       both views: RESULTS/evaluation/compression.json; JOBS=2 at a time'
 	@echo 'make validate          the gel cylinder against other codes: RESULTS/gel_cylinder/validation.json'
+	@echo 'make evaluate-niftysim   a breast that NiftySim compressed, node by node: RESULTS/evaluation/niftysim.json'
 	@echo 'make install PREFIX=/usr/local   programs, manual pages, completion, libraries'
 	@echo 'make test              all tests'
 	@echo 'make clean             removes build/ (results stay)'
@@ -65,6 +66,9 @@ evaluate-compression: build
 
 validate: build
 	@"$$BIN/mammotwin-validate" sample_data/gel_cylinder "$$RESULTS/gel_cylinder/validation.json"
+
+evaluate-niftysim: build
+	@"$$BIN/mammotwin-evaluate-niftysim" "$$CASES/breast_ct_compression" "$$RESULTS/evaluation/niftysim.json"
 
 verify-results: build
 	@pipeline/cohort/verify_patient.sh

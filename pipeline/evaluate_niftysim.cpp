@@ -1,0 +1,70 @@
+// evaluate-niftysim: a breast that NiftySim compressed, compressed by our solver -> how far apart
+// its nodes end.
+
+#include <CLI/CLI.hpp>
+#include <iostream>
+
+#include "pipeline/evaluate/niftysim/comparison.h"
+#include "pipeline/frame/process.h"
+#include "pipeline/frame/products.h"
+
+namespace mammotwin {
+namespace {
+
+constexpr int kNotConverged = 3;
+
+struct Arguments {
+  std::filesystem::path folder, table, mesh;
+  NiftySimOptions options;
+  bool no_skin = false, free_roll = false;
+};
+
+void declare(CLI::App& app, Arguments& args) {
+  app.add_option("folder", args.folder, "with volmesh3-model.xml and volmesh3_compressed.vtk")
+      ->required()
+      ->check(CLI::ExistingDirectory);
+  app.add_option("table", args.table, "niftysim.json to write")->required();
+  app.add_option("--core", args.options.elements.core,
+                 "elements along x and y in the mesh's core, even [2 to 12]")
+      ->check(CLI::Range(2, 12))
+      ->capture_default_str();
+  app.add_option("--shell", args.options.elements.shell, "elements from core to skin [1 to 6]")
+      ->check(CLI::Range(1, 6))
+      ->capture_default_str();
+  app.add_option("--grad-div", args.options.grad_div, "gamma over mu [0 to 100]")
+      ->check(CLI::Range(0, 100))
+      ->capture_default_str();
+  app.add_flag("--no-skin", args.no_skin, "leave the skin's membrane out");
+  app.add_flag("--free-roll", args.free_roll, "do not hold the breast at NiftySim's roll");
+  app.add_option("--mesh", args.mesh, "compressed mesh to write (.vtu)");
+}
+
+int run(Arguments args) {
+  args.options.skin = !args.no_skin;
+  args.options.held_roll = !args.free_roll;
+  const NiftySimComparison result = compare_with_niftysim(args.folder, args.options);
+  std::filesystem::create_directories(std::filesystem::absolute(args.table).parent_path());
+  write_text_atomically(args.table, result.figures.dump(1) + "\n");
+  if (!args.mesh.empty()) write_mesh_file(args.mesh, result.compressed);
+  std::cerr << result.figures.dump(1) << std::endl;
+  return result.reason.empty() ? 0 : kNotConverged;
+}
+
+}  // namespace
+}  // namespace mammotwin
+
+int main(int argc, char** argv) {
+  mammotwin::prepare_process(argv);
+  CLI::App app("Compresses a breast as NiftySim did and compares the displacement of its nodes");
+  mammotwin::Arguments args;
+  mammotwin::declare(app, args);
+  try {
+    app.parse(argc, argv);
+    return mammotwin::run(args);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) ? 2 : 0;
+  } catch (const std::exception& error) {
+    std::cerr << "evaluate-niftysim: " << error.what() << std::endl;
+    return 1;
+  }
+}
