@@ -21,7 +21,8 @@ export P DATA RESULTS FORCE BIN SEED PATIENTS JOBS ONLY ENGINE CONFIG PREFIX CAS
 unexport MAKEFLAGS MAKEOVERRIDES
 
 .PHONY: help patient segment fit compress register report synthesize cohort verify-results build \
-        evaluate-segmentation evaluate-fitting evaluate-compression evaluate-niftysim validate \
+        evaluate-segmentation evaluate-fitting evaluate-compression evaluate-niftysim \
+        evaluate-victre validate \
         install test clean
 .DEFAULT_GOAL := help
 
@@ -40,6 +41,7 @@ help:
 	@echo '                       both views: RESULTS/evaluation/compression.json; JOBS=2 at a time'
 	@echo 'make validate          the gel cylinder against other codes: RESULTS/gel_cylinder/validation.json'
 	@echo 'make evaluate-niftysim   a breast that NiftySim compressed, node by node: RESULTS/evaluation/niftysim.json'
+	@echo 'make evaluate-victre   a phantom that FEBio compressed, its outline and tissue: RESULTS/evaluation/victre.json'
 	@echo 'make install PREFIX=/usr/local   programs, manual pages, completion, libraries'
 	@echo 'make test              all tests'
 	@echo 'make clean             removes build/ (results stay)'
@@ -69,6 +71,9 @@ validate: build
 
 evaluate-niftysim: build
 	@"$$BIN/mammotwin-evaluate-niftysim" "$$CASES/breast_ct_compression" "$$RESULTS/evaluation/niftysim.json"
+
+evaluate-victre: build
+	@"$$BIN/mammotwin-evaluate-victre" "$$CASES/victre" "$$RESULTS/evaluation/victre.json"
 
 verify-results: build
 	@pipeline/cohort/verify_patient.sh

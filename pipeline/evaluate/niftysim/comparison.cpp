@@ -50,20 +50,6 @@ Vector3d middle_of_base(const NiftySimModel& model) {
   return {(low.x() + high.x()) / 2, (low.y() + high.y()) / 2, 0};
 }
 
-/// The half ball on the breast: near the centre an ellipsoid's map, on the skin the skin.
-MeshFile fit_half_ball(const RoundSkin& skin, const HalfBallElements& elements) {
-  const Vector3d half(skin.radius(Vector3d::UnitX()), skin.radius(Vector3d::UnitY()),
-                      skin.radius(Vector3d::UnitZ()));
-  return half_ball_mesh(
-      [&](const Vector3d& p) -> Vector3d {
-        const double r2 = p.squaredNorm();
-        const Vector3d inner = half.cwiseProduct(p);
-        if (r2 == 0) return skin.centre();
-        return skin.centre() + (1 - r2) * inner + r2 * skin.radius(p) * p;
-      },
-      elements);
-}
-
 json distances(std::vector<double> values) {
   std::sort(values.begin(), values.end());
   double squares = 0;

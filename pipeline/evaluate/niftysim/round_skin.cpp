@@ -5,6 +5,8 @@
 
 namespace mammotwin {
 
+using Eigen::Vector3d;
+
 Eigen::VectorXd RoundSkin::harmonics(const Eigen::Vector3d& direction) const {
   const Eigen::Vector3d d = direction.normalized();
   const double polar = std::acos(std::clamp(d.z(), -1.0, 1.0)), azimuth = std::atan2(d.y(), d.x());
@@ -37,6 +39,19 @@ RoundSkin::RoundSkin(const Eigen::Vector3d& centre, const std::vector<Eigen::Vec
 
 double RoundSkin::radius(const Eigen::Vector3d& direction) const {
   return coefficients_.dot(harmonics(direction));
+}
+
+MeshFile fit_half_ball(const RoundSkin& skin, const HalfBallElements& elements) {
+  const Vector3d half(skin.radius(Vector3d::UnitX()), skin.radius(Vector3d::UnitY()),
+                      skin.radius(Vector3d::UnitZ()));
+  return half_ball_mesh(
+      [&](const Vector3d& p) -> Vector3d {
+        const double r2 = p.squaredNorm();
+        const Vector3d inner = half.cwiseProduct(p);
+        if (r2 == 0) return skin.centre();
+        return skin.centre() + (1 - r2) * inner + r2 * skin.radius(p) * p;
+      },
+      elements);
 }
 
 }  // namespace mammotwin

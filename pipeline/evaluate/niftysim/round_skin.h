@@ -3,6 +3,8 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "pipeline/evaluate/niftysim/half_ball_mesh.h"
+
 namespace mammotwin {
 
 /// Skin as a distance from a centre in every direction: real spherical harmonics up to a degree,
@@ -26,5 +28,9 @@ class RoundSkin {
   Eigen::VectorXd coefficients_;
   double rms_ = 0;
 };
+
+/// The half ball on such a breast, whose chest wall is the plane z = 0 through the centre: near the
+/// centre an ellipsoid's map, on the skin the skin.
+MeshFile fit_half_ball(const RoundSkin& skin, const HalfBallElements& elements);
 
 }  // namespace mammotwin
