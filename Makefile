@@ -20,7 +20,7 @@ override SYNTHETIC := $(value SYNTHETIC)
 export P DATA RESULTS FORCE BIN SEED PATIENTS JOBS ONLY ENGINE CONFIG PREFIX CASES SYNTHETIC
 unexport MAKEFLAGS MAKEOVERRIDES
 
-.PHONY: help patient segment fit compress register report synthesize cohort verify-results build \
+.PHONY: help patient segment fit unload compress register report synthesize cohort verify-results build \
         evaluate-segmentation evaluate-fitting evaluate-compression evaluate-niftysim \
         evaluate-victre validate \
         install test clean
@@ -28,7 +28,7 @@ unexport MAKEFLAGS MAKEOVERRIDES
 
 help:
 	@echo 'make patient P=042     MRI to lesion positions in CC and MLO, and a report'
-	@echo 'make segment|fit|compress|register|report P=042'
+	@echo 'make segment|fit|unload|compress|register|report P=042'
 	@echo '                       the same, up to and including that stage'
 	@echo 'make synthesize P=name SEED=1   a synthetic patient in DATA/name'
 	@echo 'make cohort            every patient of DATA (or PATIENTS="042 043"): cohort.tsv, failed.tsv,'
@@ -50,7 +50,7 @@ help:
 	@echo 'RESULTS=folder         where results go (default results)'
 	@echo 'FORCE=1                runs stages that are up to date, too'
 
-patient segment fit compress register report synthesize: build
+patient segment fit unload compress register report synthesize: build
 	@pipeline/run_patient.sh $@
 
 cohort: build

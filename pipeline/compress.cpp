@@ -2,10 +2,10 @@
 
 #include "solver/compress.h"
 
+#include "pipeline/breast_problem.h"
 #include "pipeline/compression_quality.h"
 #include "pipeline/frame/stage.h"
 #include "registration/view_frame.h"
-#include "segmentation/mean_fractions.h"
 #include "segmentation/segmentation_file.h"
 
 #include <Eigen/Geometry>
@@ -27,10 +27,11 @@ void declare(StageDeclaration& stage, Arguments& args) {
       ->check(CLI::IsMember({"cc", "mlo"}));
   stage.input("segmentation", args.segmentation, "tissue labels from segment (.seg.nrrd)");
   stage.input("fractions", args.fractions, "tissue fractions from segment (.nrrd)");
-  stage.input("mesh", args.mesh, "Hermite mesh from fit (.vtu)");
+  stage.input("mesh", args.mesh, "Hermite mesh from unload, or from fit (.vtu)");
   stage.product("compressed", args.compressed, "compressed mesh to write (.vtu)");
   stage.options_from("compress.", true);
   stage.options_from("materials.", false);
+  stage.options_from("unload.density", false);
   for (const char* key : {"thickness_mm", "angle_deg", "lift_mm"})
     for (const char* view : {"cc", "mlo"})
       stage.options_from(std::string("views.") + view + "." + key, false);
@@ -38,14 +39,9 @@ void declare(StageDeclaration& stage, Arguments& args) {
 
 StagePlan plan(const Arguments& args, const Patient&) {
   const std::string view = "views." + args.view + ".";
-  return {{}, {"compress.", "materials.", view + "thickness_mm", view + "angle_deg", view + "lift_mm"}};
-}
-
-TissueSampler sampler_of(const MeanFractions& mean) {
-  return [&mean](const Eigen::Vector3d& x_prone, double volume_mm3) {
-    const Fractions f = mean.at(x_prone, volume_mm3);
-    return std::array<double, 3>{f.fat, f.fibroglandular, f.lesion};
-  };
+  return {{},
+          {"compress.", "materials.", "unload.density", view + "thickness_mm", view + "angle_deg",
+           view + "lift_mm"}};
 }
 
 PlateOptions plates_of(const Patient& patient, const ViewSettings& view,
@@ -67,12 +63,13 @@ Eigen::Vector3d view_origin(const PlateOptions& options, const PlacedPlates& pla
          options.depth.cross(options.up) * placed.lateral_middle;
 }
 
-MeshFile compressed_file(const MeshFile& prone, const CompressionResult& result,
+MeshFile compressed_file(const MeshFile& reference, const CompressionResult& result,
                          const PlateOptions& plates, const Eigen::Matrix3d& axes, Side side,
                          double angle_deg) {
-  MeshFile file = prone;
-  file.configurations["prone"] = prone.mesh.nodes();
-  file.mesh = HermiteMesh(result.deformed, prone.mesh.elements());
+  MeshFile file = reference;
+  const bool was_unloaded = reference.configurations.contains("prone");
+  file.configurations[was_unloaded ? "unloaded" : "prone"] = reference.mesh.nodes();
+  file.mesh = HermiteMesh(result.deformed, reference.mesh.elements());
   const Eigen::Vector3d origin = view_origin(plates, result.plates);
   file.metadata["view_side"] = {side == Side::left ? 0.0 : 1.0};
   file.metadata["view_angle_deg"] = {angle_deg};
@@ -91,18 +88,20 @@ Outcome run(const Arguments& args, StageRun& stage) {
   const Eigen::Matrix3d axes = view_axes(side, view.angle_deg);
   const MeanFractions mean(segmentation.fractions);
 
-  CompressionProblem problem{.mesh = read_mesh_file(args.mesh)};
-  problem.tissue = sampler_of(mean);
-  problem.laws = patient.compression.laws();
-  problem.skin = patient.compression.skin;
-  problem.boundary = patient.compression.boundary;
+  const MeshFile mesh = read_mesh_file(args.mesh);
+  CompressionProblem problem = breast_problem(mesh, mean, patient.compression,
+                                              stiffness_factor_of(mesh, patient.compression));
   problem.friction = patient.compression.friction;
-  problem.plates = plates_of(patient, view, axes, problem.mesh);
+  problem.plates = plates_of(patient, view, axes, prone_file(mesh));
+  if (patient.compression.standing_gravity) {
+    problem.gravity = gravity_in_lps(Pose::standing);
+    problem.density = patient.gravity.density();
+  }
 
   const CompressionResult result = compress(problem, patient.compression.options, stage.progress);
   if (result.report.usable())
     write_mesh_file(stage.products.write_main(),
-                    compressed_file(problem.mesh, result, problem.plates, axes, side, view.angle_deg));
+                    compressed_file(mesh, result, problem.plates, axes, side, view.angle_deg));
   return judge_compression(result.report, view.angle_deg, !view.thickness_mm);
 }
 

@@ -25,17 +25,18 @@ void declare_law(Settings& s, const std::string& tissue, LawSettings& law) {
 
 }  // namespace
 
-std::shared_ptr<const Material> LawSettings::material() const {
+std::shared_ptr<const Material> LawSettings::material(double factor) const {
   switch (law) {
-    case LawName::neo_hookean: return std::make_shared<NeoHookean>(c1_kpa);
-    case LawName::mooney_rivlin: return std::make_shared<MooneyRivlin>(c1_kpa, c2_kpa);
-    case LawName::exponential: return std::make_shared<Exponential>(c1_kpa, stiffening);
+    case LawName::neo_hookean: return std::make_shared<NeoHookean>(factor * c1_kpa);
+    case LawName::mooney_rivlin: return std::make_shared<MooneyRivlin>(factor * c1_kpa, factor * c2_kpa);
+    case LawName::exponential: return std::make_shared<Exponential>(factor * c1_kpa, stiffening);
   }
   throw std::logic_error("unknown law");
 }
 
-TissueLaws CompressionSettings::laws() const {
-  return {{fat.material(), fibroglandular.material(), lesion.material()}, mixing};
+TissueLaws CompressionSettings::laws(double factor) const {
+  return {{fat.material(factor), fibroglandular.material(factor), lesion.material(factor)},
+          mixing};
 }
 
 Detector ViewSettings::detector(const std::string& view, Side side) const {
@@ -63,6 +64,8 @@ void declare_compression(Settings& s, CompressionSettings& c) {
             {"geometric", Mixing::geometric},
             {"harmonic", Mixing::harmonic}},
            "stiffness of a quadrature point that holds several tissues");
+  s.number("materials.stiffness_factor", c.stiffness_factor, {0.01, 100},
+           "on all stiffnesses: tissue, skin and springs");
   s.flag("materials.skin.membrane", c.skin.on, "skin resists stretch as a membrane");
   s.number("materials.skin.c1_kpa", c.skin.c1, kModulus, "c1 of the skin membrane");
   s.number("materials.skin.thickness_mm", c.skin.thickness, {0.1, 5, "mm"},
@@ -89,6 +92,8 @@ void declare_compression(Settings& s, CompressionSettings& c) {
            "slip up to which friction is elastic");
   s.number("compress.gap_tolerance_mm", c.options.gap_tolerance, {0.0001, 0.1, "mm"},
            "largest penetration of a plate");
+  s.flag("compress.gravity", c.standing_gravity,
+         "the breast sags as the patient stands before the plates close");
 }
 
 void declare_view(Settings& s, const std::string& view, ViewSettings& v) {

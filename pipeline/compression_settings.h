@@ -20,13 +20,16 @@ struct LawSettings {
   double c2_kpa = 0;
   double stiffening = 1;
 
-  std::shared_ptr<const Material> material() const;
+  /// With every modulus times `factor`.
+  std::shared_ptr<const Material> material(double factor) const;
 };
 
 /// What patient.toml says of tissue and of what holds it.
 struct CompressionSettings {
   LawSettings fat{.c1_kpa = 0.75}, fibroglandular{.c1_kpa = 2.5}, lesion{.c1_kpa = 3.3};
   Mixing mixing = Mixing::geometric;
+  double stiffness_factor = 1;    ///< on tissue, skin and springs
+  bool standing_gravity = false;  ///< the breast sags before the plates close
   SkinOptions skin;
   BoundaryOptions boundary;
   FrictionOptions friction;
@@ -34,7 +37,7 @@ struct CompressionSettings {
   double plate_rounding_mm = PlateOptions{}.rounding;
   double wall_clearance_mm = PlateOptions{}.wall_clearance;
 
-  TissueLaws laws() const;
+  TissueLaws laws(double factor) const;
 };
 
 /// What patient.toml says of one view.

@@ -28,6 +28,7 @@ void Patient::declare(Settings& settings) {
   declare_inputs(settings);
   declare_segment(settings);
   declare_fit(settings);
+  declare_gravity(settings, gravity);
   declare_compression(settings, compression);
   declare_view(settings, "cc", cc);
   declare_view(settings, "mlo", mlo);
@@ -109,6 +110,11 @@ std::string Patient::name() const {
 
 fs::path Patient::resolve(const fs::path& path) const {
   return path.is_absolute() ? path : file_.parent_path() / path;
+}
+
+std::optional<fs::path> Patient::second_state() const {
+  if (!gravity.second_state) return std::nullopt;
+  return resolve(*gravity.second_state);
 }
 
 LesionSeed Patient::seed_of(const LesionEntry& entry) const {

@@ -11,6 +11,7 @@
 #include "fitting/fit_breast.h"
 #include "pipeline/compression_settings.h"
 #include "pipeline/frame/settings.h"
+#include "pipeline/gravity_settings.h"
 #include "pipeline/lesion_entry.h"
 #include "segmentation/segment.h"
 
@@ -43,7 +44,11 @@ class Patient {
   SegmentOptions segment;
   FitOptions fit;
   CompressionSettings compression;
+  GravitySettings gravity;
   ViewSettings cc = ViewSettings::at(0), mlo = ViewSettings::at(45);
+
+  /// `unload.second_state` with its path resolved.
+  std::optional<std::filesystem::path> second_state() const;
 
   /// "cc" or "mlo"; std::logic_error otherwise.
   const ViewSettings& view(const std::string& name) const;

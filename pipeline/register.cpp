@@ -4,6 +4,7 @@
 #include "pipeline/registered_view.h"
 #include "registration/lesion_table.h"
 #include "registration/markups.h"
+#include "registration/point_carrier.h"
 #include "segmentation/segmentation_file.h"
 
 #include <cstdio>
@@ -86,6 +87,14 @@ class Registration {
     quality_["detectors"][view.view().name] = detector_json(view.detector());
   }
 
+  /// Lesions and nipple as the breast hangs or lies in another state, for biopsy and radiotherapy.
+  void add_states(const RegisteredView& registered) {
+    for (const auto& [name, mesh] : registered.states) {
+      const PointCarrier carrier(registered.prone, mesh);
+      write_points(name, [&](const Landmark& l) { return carrier.carry(l.prone_in_lps).in_lps; });
+    }
+  }
+
   nlohmann::json& quality() { return quality_; }
 
   Outcome finish() {
@@ -120,6 +129,7 @@ Outcome run(const Arguments& args, StageRun& stage) {
   const RegisteredView views[] = {read_registered_view("cc", args.cc, stage.patient.cc),
                                   read_registered_view("mlo", args.mlo, stage.patient.mlo)};
   Registration registration(segmentation, stage);
+  registration.add_states(views[0]);
   double done = 0.1;
   for (const RegisteredView& view : views) {
     stage.progress(done, view.projection.view().name);

@@ -20,7 +20,10 @@ RegisteredView read_registered_view(const std::string& name, const std::filesyst
   const CompressedView view = compressed_view(name, path.filename().string(), file.metadata);
   HermiteMesh mesh(prone->second, file.mesh.elements());
   ViewProjection projection(mesh, file.mesh, view, settings.detector(name, view.side));
-  return {std::move(mesh), file.mesh, std::move(projection)};
+  std::map<std::string, HermiteMesh> states;
+  for (const auto& [state, nodes] : file.configurations)
+    if (state != "prone") states.emplace(state, HermiteMesh(nodes, file.mesh.elements()));
+  return {std::move(mesh), file.mesh, std::move(projection), std::move(states)};
 }
 
 nlohmann::json detector_json(const Detector& detector) {

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 
@@ -17,6 +18,8 @@ namespace mammotwin {
 struct RegisteredView {
   HermiteMesh prone, compressed;
   ViewProjection projection;
+  /// The same breast in other states that unload found, by name: "unloaded", "standing", "supine".
+  std::map<std::string, HermiteMesh> states;
 };
 
 /// Reads what compress wrote. Throws std::runtime_error naming the file and what is missing in it.

@@ -23,15 +23,16 @@ set -- --patient "$toml"
 
 segment() { "$BIN/mammotwin-segment" "$out/segmentation.seg.nrrd" "$@"; }
 fit() { "$BIN/mammotwin-fit" "$out/segmentation.seg.nrrd" "$out/fractions.nrrd" "$out/prone.vtu" "$@"; }
+unload() { "$BIN/mammotwin-unload" "$out/segmentation.seg.nrrd" "$out/fractions.nrrd" "$out/prone.vtu" "$out/unloaded.vtu" "$@"; }
 compress() {
   for view in cc mlo; do
-    "$BIN/mammotwin-compress" "$view" "$out/segmentation.seg.nrrd" "$out/fractions.nrrd" "$out/prone.vtu" "$out/$view.vtu" "$@" || return
+    "$BIN/mammotwin-compress" "$view" "$out/segmentation.seg.nrrd" "$out/fractions.nrrd" "$out/unloaded.vtu" "$out/$view.vtu" "$@" || return
   done
 }
 register() { "$BIN/mammotwin-register" "$out/segmentation.seg.nrrd" "$out/fractions.nrrd" "$out/cc.vtu" "$out/mlo.vtu" "$out/lesions.csv" "$@"; }
 report() { "$BIN/mammotwin-report" "$out" "$out/report.html" "$@"; }
 
-for stage in segment fit compress register report; do
+for stage in segment fit unload compress register report; do
   "$stage" "$@" || {
     status=$?
     [ "$stage" = report ] || report "$@"

@@ -4,6 +4,7 @@
 #include "solver/breast_model.h"
 #include "solver/contact/contact_figures.h"
 #include "solver/contact/penalty_continuation.h"
+#include "solver/hang.h"
 #include "solver/load/load_stepping.h"
 #include "solver/material/neo_hookean.h"
 #include "solver/newton/newton.h"
@@ -50,6 +51,7 @@ class Compression {
 
  private:
   void check_thickness() const;
+  bool settle(State& state);
   void place(double fraction);
   void move_paddle(double height);
   double penetration(const State& state) const;
@@ -282,9 +284,23 @@ void Compression::judge(const LoadSteppingReport& load) {
                      in_mm(problem_.plates.thickness) + ": " + report_.reason;
 }
 
+/// Brings the breast to rest under gravity, the plates away; false where it does not come to rest.
+bool Compression::settle(State& state) {
+  placed_ = start_;
+  breast_.contact->plates.clear();
+  if (problem_.gravity.isZero()) return true;
+  const LoadSteppingReport load =
+      raise_body_force(breast_, newton_, problem_.density * problem_.gravity, {}, state);
+  report_.newton_iterations += load.iterations;
+  report_.indefinite_matrices += load.indefinite;
+  if (!load.complete()) report_.reason = "does not come to rest under gravity: " + load.reason;
+  return load.complete();
+}
+
 CompressionResult Compression::run() {
   const auto begin = std::chrono::steady_clock::now();
   State state = breast_.model->rest();
+  if (!settle(state)) return {state.x, state.pressure, placed_, report_};
   place(0);
   end_step(state);
   const LoadSteppingReport load = step_load(

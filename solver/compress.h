@@ -73,7 +73,8 @@ struct CompressionProblem {
   BoundaryOptions boundary;
   FrictionOptions friction;
   PlateOptions plates;
-  Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  ///< [mm/s²]
+  /// [mm/s²]; where it is not zero the breast first comes to rest under it, then plates close.
+  Eigen::Vector3d gravity = Eigen::Vector3d::Zero();
   double density = 1e-6;                              ///< [kg/mm³] > 0
 };
 

@@ -56,7 +56,7 @@ for word in "$@"; do
 done
 
 case "$target" in
-  patient | segment | fit | compress | register | report) exec "$scripts/run_patient.sh" "$target" ;;
+  patient | segment | fit | unload | compress | register | report) exec "$scripts/run_patient.sh" "$target" ;;
   cohort) exec "$scripts/cohort/run_cohort.sh" ;;
   verify-results) exec "$scripts/cohort/verify_patient.sh" ;;
   help | -h | --help) usage ;;

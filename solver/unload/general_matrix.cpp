@@ -18,6 +18,7 @@ std::array<double, UMFPACK_CONTROL> control() {
   std::array<double, UMFPACK_CONTROL> control;
   umfpack_di_defaults(control.data());
   control[UMFPACK_STRATEGY] = UMFPACK_STRATEGY_SYMMETRIC;
+  control[UMFPACK_IRSTEP] = 0;  // Newton refines by itself
   return control;
 }
 
@@ -64,7 +65,10 @@ GeneralMatrix::GeneralMatrix(const SparsePattern& pattern) : pattern_(pattern), 
     throw std::runtime_error("UMFPACK cannot analyse the matrix: is memory short?");
 }
 
-GeneralMatrix::~GeneralMatrix() { umfpack_di_free_symbolic(&symbolic_); }
+GeneralMatrix::~GeneralMatrix() {
+  umfpack_di_free_numeric(&numeric_);
+  umfpack_di_free_symbolic(&symbolic_);
+}
 
 void GeneralMatrix::clear() { std::fill(values_.begin(), values_.end(), 0.0); }
 
@@ -76,20 +80,18 @@ void GeneralMatrix::add(int e, const Eigen::MatrixXd& block) {
       if (*position >= 0) values_[*position] += factors[r] * factors[c] * block(r, c);
 }
 
-bool GeneralMatrix::solve(const Eigen::VectorXd& right_hand_side, Eigen::VectorXd& solution) const {
-  const auto settings = control();
-  void* numeric = nullptr;
-  const int factored = umfpack_di_numeric(starts_.data(), rows_.data(), values_.data(), symbolic_,
-                                          &numeric, settings.data(), nullptr);
-  solution.resize(right_hand_side.size());
-  const int solved =
-      factored == UMFPACK_OK
-          ? umfpack_di_solve(UMFPACK_A, starts_.data(), rows_.data(), values_.data(),
-                             solution.data(), right_hand_side.data(), numeric, settings.data(),
-                             nullptr)
-          : factored;
-  umfpack_di_free_numeric(&numeric);
-  return solved == UMFPACK_OK && solution.allFinite();
+bool GeneralMatrix::factor() {
+  umfpack_di_free_numeric(&numeric_);
+  return umfpack_di_numeric(starts_.data(), rows_.data(), values_.data(), symbolic_, &numeric_,
+                            control().data(), nullptr) == UMFPACK_OK;
+}
+
+Eigen::VectorXd GeneralMatrix::solve(const Eigen::VectorXd& right_hand_side) const {
+  Eigen::VectorXd solution(right_hand_side.size());
+  if (umfpack_di_solve(UMFPACK_A, starts_.data(), rows_.data(), values_.data(), solution.data(),
+                       right_hand_side.data(), numeric_, control().data(), nullptr) != UMFPACK_OK)
+    throw std::logic_error("a matrix that was not factored cannot be solved with");
+  return solution;
 }
 
 }  // namespace mammotwin

@@ -21,15 +21,18 @@ class GeneralMatrix {
   /// Adds an element's block; unknowns that are prescribed are left out.
   void add(int element, const Eigen::MatrixXd& block);
 
-  /// False where the matrix is singular; `solution` is then of no use.
-  bool solve(const Eigen::VectorXd& right_hand_side, Eigen::VectorXd& solution) const;
+  /// False where the matrix is singular; the factors are then of no use.
+  bool factor();
+
+  /// With the factors of the last factor(), whatever was added since.
+  Eigen::VectorXd solve(const Eigen::VectorXd& right_hand_side) const;
 
  private:
   const SparsePattern& pattern_;
   std::vector<int> starts_, rows_;
   std::vector<std::vector<int>> positions_;  ///< per element, column by column; -1: left out
   std::vector<double> values_;
-  void* symbolic_ = nullptr;  ///< UMFPACK's
+  void *symbolic_ = nullptr, *numeric_ = nullptr;  ///< UMFPACK's
 };
 
 }  // namespace mammotwin

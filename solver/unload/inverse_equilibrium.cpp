@@ -112,71 +112,81 @@ InverseEquilibrium::Evaluation InverseEquilibrium::evaluate(
   const double size = now.breast.element_size;
   now.flow = std::sqrt(now.flow + count * std::pow(small_strain * now.breast.largest_modulus *
                                                        size * size, 2));
-  // A volume error costs as much as the force that would press it out of an element.
-  const double kPa_per_mm = now.breast.penalty_unit();
-  now.merit = std::hypot(now.residual.norm(), kPa_per_mm * now.pressure_residual.norm());
   return now;
 }
 
-std::optional<InverseEquilibrium::Step> InverseEquilibrium::newton_step(
-    const State& reference, const Evaluation& here, const Eigen::Vector3d& body_force) const {
+bool InverseEquilibrium::linearise(const State& reference, const Evaluation& here,
+                                   const Eigen::Vector3d& body_force) {
   const Model& model = *here.breast.model;
   const int count = model.num_elements(), n = model.element(0).num_pressures();
   const State state{problem_.prone, reference.pressure};
+  eliminations_.resize(count);
   std::vector<ReferenceSystem> systems(count);
-  std::vector<Eigen::MatrixXd> stiffness(count);
-  tbb::parallel_for(0, count, [&](int e) {  // the pressures are eliminated
+  tbb::parallel_for(0, count, [&](int e) {
     ReferenceSystem& s = systems[e];
     model.evaluate_reference(e, state, body_force, s);
-    stiffness[e] = pressure_stiffness(model.element(e));
-    s.tangent.noalias() +=
-        s.coupling.leftCols(n) * (stiffness[e] * s.pressure_tangent.topRows(n));
+    const Eigen::MatrixXd stiffness = pressure_stiffness(model.element(e));
+    s.tangent.noalias() += s.coupling.leftCols(n) * (stiffness * s.pressure_tangent.topRows(n));
+    eliminations_[e] = {s.coupling.leftCols(n), s.pressure_tangent.topRows(n), stiffness};
   });
   matrix_->clear();
+  for (int e = 0; e < count; ++e) matrix_->add(e, systems[e].tangent);
+  return matrix_->factor();
+}
+
+Eigen::VectorXd InverseEquilibrium::correction(const Evaluation& here) const {
   Eigen::VectorXd right_hand_side = -here.residual;
-  for (int e = 0; e < count; ++e) {
-    matrix_->add(e, systems[e].tangent);
-    const Eigen::VectorXd pushed = systems[e].coupling.leftCols(n) *
-                                   (stiffness[e] * here.pressure_residual.col(e).head(n));
+  for (std::size_t e = 0; e < eliminations_.size(); ++e) {
+    const auto& [coupling, pressure_tangent, stiffness] = eliminations_[e];
+    const Eigen::VectorXd pushed =
+        coupling * (stiffness * here.pressure_residual.col(e).head(stiffness.rows()));
     for (int k = 0; k < kUnknowns; ++k)
       if (const int equation = pattern_.equations[e][k]; equation >= 0)
         right_hand_side[equation] -= pattern_.factors[e][k] * pushed[k];
   }
-  Eigen::VectorXd solution;
-  if (!matrix_->solve(right_hand_side, solution)) return std::nullopt;
-  Step step{std::vector<HermiteMesh::Node>(reference.x.size(), HermiteMesh::Node::Zero()),
-            std::vector<double>(reference.pressure.size(), 0.0)};
+  return matrix_->solve(right_hand_side);
+}
+
+InverseEquilibrium::Step InverseEquilibrium::step_of(const Eigen::VectorXd& correction,
+                                                     const Evaluation& here) const {
+  const Model& model = *prone_.model;
+  Step step{std::vector<HermiteMesh::Node>(model.reference().num_nodes(),
+                                           HermiteMesh::Node::Zero()),
+            std::vector<double>(8 * model.num_elements(), 0.0)};
   for (std::size_t node = 0; node < step.nodes.size(); ++node)
     for (int k = 0; k < 24; ++k)
       if (const int dof = 24 * static_cast<int>(node) + k; !prone_.dofs->prescribed(dof))
-        step.nodes[node](k) = prone_.dofs->factor(dof) * solution[prone_.dofs->equation(dof)];
-  for (int e = 0; e < count; ++e) {
+        step.nodes[node](k) = prone_.dofs->factor(dof) * correction[prone_.dofs->equation(dof)];
+  for (std::size_t e = 0; e < eliminations_.size(); ++e) {
+    const auto& [coupling, pressure_tangent, stiffness] = eliminations_[e];
     const Eigen::Matrix<double, kUnknowns, 1> dX = model.coefficients(step.nodes, e).reshaped();
-    Eigen::Map<Eigen::VectorXd>(step.pressure.data() + 8 * e, n) =
-        stiffness[e] * (here.pressure_residual.col(e).head(n) +
-                        systems[e].pressure_tangent.topRows(n) * dX);
+    Eigen::Map<Eigen::VectorXd>(step.pressure.data() + 8 * e, stiffness.rows()) =
+        stiffness * (here.pressure_residual.col(e).head(stiffness.rows()) + pressure_tangent * dX);
   }
   return step;
 }
 
-double InverseEquilibrium::search(State& reference, const Step& step, Evaluation& here,
-                                  const Eigen::Vector3d& body_force) const {
-  constexpr int most_cuts = 8;
-  constexpr double enough = 1e-3;  // of the decrease that a linear problem would have
+/// Residuals say little here (the wall's penalty swamps them), so the test is natural: the next
+/// correction with the same matrix must be smaller (Deuflhard, Newton Methods, section 3.3).
+bool InverseEquilibrium::search(State& reference, Evaluation& here,
+                                const Eigen::Vector3d& body_force) const {
+  constexpr int most_cuts = 6;
+  const Eigen::VectorXd full = correction(here);
+  const Step step = step_of(full, here);
   double fraction = 1;
   for (int cut = 0; cut < most_cuts; ++cut, fraction /= 2) {
     State trial = moved(reference, step.nodes, step.pressure, fraction);
     Evaluation there = evaluate(trial, body_force);
-    if (!there.valid || there.merit > (1 - enough * fraction) * here.merit) continue;
+    if (!there.valid || !(correction(there).norm() <= (1 - fraction / 4) * full.norm())) continue;
     reference = std::move(trial);
     here = std::move(there);
-    return fraction;
+    return true;
   }
-  return 0;
+  return false;
 }
 
 NewtonReport InverseEquilibrium::solve(State& reference, const Eigen::Vector3d& body_force,
-                                       double tolerance, int max_iterations) const {
+                                       double tolerance, int max_iterations) {
   NewtonReport report;
   Evaluation here = evaluate(reference, body_force);
   if (!here.valid) return stopped(report, "an element is inverted");
@@ -187,9 +197,9 @@ NewtonReport InverseEquilibrium::solve(State& reference, const Eigen::Vector3d& 
       return report;
     }
     if (report.iterations == max_iterations) break;
-    const auto step = newton_step(reference, here, body_force);
-    if (!step) return stopped(report, "the tangent of the inverse problem is singular");
-    if (search(reference, *step, here, body_force) == 0)
+    if (!linearise(reference, here, body_force))
+      return stopped(report, "the tangent of the inverse problem is singular");
+    if (!search(reference, here, body_force))
       return stopped(report, "no step brings the inverse problem nearer to balance");
   }
   return stopped(report, "no unloaded shape within the allowed iterations");

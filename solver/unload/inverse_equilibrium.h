@@ -5,7 +5,7 @@
 #include "solver/unload/general_matrix.h"
 
 #include <memory>
-#include <optional>
+#include <vector>
 
 namespace mammotwin {
 
@@ -31,7 +31,7 @@ class InverseEquilibrium {
   /// Brings `reference` (its x is X) to equilibrium under a constant body force [mN/mm³]. On
   /// failure it is the last iterate.
   NewtonReport solve(State& reference, const Eigen::Vector3d& body_force, double tolerance,
-                     int max_iterations) const;
+                     int max_iterations);
 
  private:
   struct Evaluation {
@@ -41,7 +41,9 @@ class InverseEquilibrium {
     Eigen::MatrixXd pressure_residual;  ///< 8 x elements [mm³]
     double flow = 0;            ///< √Σ|element residual|², at least that of a small strain [mN]
     double largest_volume_error = 0;    ///< relative to the element's volume
-    double merit = 0;           ///< norm of both residuals, to search along a step
+  };
+  struct Elimination {          ///< of one element's pressures
+    Eigen::MatrixXd coupling, pressure_tangent, stiffness;
   };
   struct Step {
     std::vector<HermiteMesh::Node> nodes;
@@ -49,16 +51,17 @@ class InverseEquilibrium {
   };
   Evaluation evaluate(const State& reference, const Eigen::Vector3d& body_force) const;
   bool folded(const std::vector<HermiteMesh::Node>& X) const;
-  std::optional<Step> newton_step(const State& reference, const Evaluation& here,
-                                  const Eigen::Vector3d& body_force) const;
-  double search(State& reference, const Step& step, Evaluation& here,
-                const Eigen::Vector3d& body_force) const;
+  bool linearise(const State& reference, const Evaluation& here, const Eigen::Vector3d& body_force);
+  Eigen::VectorXd correction(const Evaluation& here) const;
+  Step step_of(const Eigen::VectorXd& correction, const Evaluation& here) const;
+  bool search(State& reference, Evaluation& here, const Eigen::Vector3d& body_force) const;
 
   CompressionProblem problem_;  ///< its tissue is remembered: every reference has the same
   SolidOptions solid_;
   BreastModel prone_;
   SparsePattern pattern_;
   std::unique_ptr<GeneralMatrix> matrix_;
+  std::vector<Elimination> eliminations_;
 };
 
 }  // namespace mammotwin

@@ -33,6 +33,7 @@ struct Shape {
 };
 const std::map<std::string, Shape> kShapes{{"segment", {0, {"fractions.nrrd", "mri.nrrd"}}},
                                            {"fit", {2, {"prone.exf"}}},
+                                           {"unload", {3, {}}},
                                            {"compress", {3, {}}},
                                            {"register", {4, {"lesions_prone.mrk.json"}}},
                                            {"report", {0, {}}}};

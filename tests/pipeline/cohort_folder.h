@@ -16,7 +16,7 @@ class CohortFolderTest : public ScratchFolder {
   CohortFolderTest() {
     namespace fs = std::filesystem;
     fs::create_directories(folder_ / "bin");
-    for (const char* stage : {"segment", "fit", "compress", "register", "report"})
+    for (const char* stage : {"segment", "fit", "unload", "compress", "register", "report"})
       fs::create_symlink(MAMMOTWIN_BIN "/cohort_fake_stage", program(stage));
     for (const char* name : {"cohort", "verify"})
       fs::create_symlink(std::string(MAMMOTWIN_BIN "/mammotwin-") + name, program(name));

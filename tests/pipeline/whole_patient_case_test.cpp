@@ -41,6 +41,7 @@ class Patient042 : public PatientCase {
   json quality(const std::string& product) const { return sidecar("042", product)["quality"]; }
 
   void expect_truth();
+  void expect_sane_unloading();
   void expect_sane_compression(const std::string& view);
   void expect_nothing_runs_again();
   void expect_kept(const std::vector<std::string>& kept);
@@ -69,13 +70,25 @@ void Patient042::expect_sane_compression(const std::string& view) {
   EXPECT_LE(q["max_penetration_mm"], 0.1) << view;
 }
 
+void Patient042::expect_sane_unloading() {
+  const json q = quality("unloaded.vtu");
+  EXPECT_EQ(q["gravity"], "prone");
+  EXPECT_LE(q["round_trip_max_mm"], 1e-6);
+  EXPECT_GT(q["sag_max_mm"], 1);
+  EXPECT_GT(q["naive_reversal_error_mm"], 1e-3);
+  for (const char* state : {"prone", "unloaded", "standing", "supine", "cc", "mlo"}) {
+    const fs::path markups = results() / "042" / ("lesions_" + std::string(state) + ".mrk.json");
+    EXPECT_TRUE(fs::exists(markups)) << markups;
+  }
+}
+
 void Patient042::expect_nothing_runs_again() {
   const auto before = times(results() / "042");
   const CommandResult again = run("patient", "042");
   EXPECT_EQ(again.exit_code, 0) << again.text;
   EXPECT_EQ(times(results() / "042"), before);
   for (const char* product :
-       {"segmentation.seg.nrrd", "prone.vtu", "cc.vtu", "mlo.vtu", "lesions.csv", "report.html"})
+       {"segmentation.seg.nrrd", "prone.vtu", "unloaded.vtu", "cc.vtu", "mlo.vtu", "lesions.csv", "report.html"})
     EXPECT_NE(again.text.find(std::string(product) + " is up to date"), std::string::npos)
         << again.text;
 }
@@ -85,8 +98,9 @@ void Patient042::expect_kept(const std::vector<std::string>& kept) {
   const auto before = times(results() / "042");
   const CommandResult result = run("patient", "042");
   ASSERT_EQ(result.exit_code, 0) << result.text;
-  for (const char* product : {"segmentation.seg.nrrd", "fractions.nrrd", "mri.nrrd", "prone.vtu",
-                              "prone.exf", "cc.vtu", "mlo.vtu", "lesions.csv", "report.html"}) {
+  for (const char* product :
+       {"segmentation.seg.nrrd", "fractions.nrrd", "mri.nrrd", "prone.vtu", "prone.exf",
+        "unloaded.vtu", "cc.vtu", "mlo.vtu", "lesions.csv", "report.html"}) {
     const bool expected = std::find(kept.begin(), kept.end(), product) != kept.end();
     EXPECT_EQ(times(results() / "042")[product] == before.at(product), expected) << product;
   }
@@ -97,6 +111,7 @@ TEST_F(Patient042, FromMriToLesionPositions) {
   ASSERT_EQ(first.exit_code, 0) << first.text;
   EXPECT_NE(first.text.find("Predicted lesion positions"), std::string::npos);
   expect_truth();
+  expect_sane_unloading();
   expect_sane_compression("cc");
   expect_sane_compression("mlo");
 
@@ -106,8 +121,8 @@ TEST_F(Patient042, FromMriToLesionPositions) {
 
   expect_nothing_runs_again();
   replace_in_toml("angle_deg = [0-9.]+", "angle_deg = 50");
-  expect_kept(
-      {"segmentation.seg.nrrd", "fractions.nrrd", "mri.nrrd", "prone.vtu", "prone.exf", "cc.vtu"});
+  expect_kept({"segmentation.seg.nrrd", "fractions.nrrd", "mri.nrrd", "prone.vtu", "prone.exf",
+               "unloaded.vtu", "cc.vtu"});
 }
 
 }  // namespace

@@ -1,0 +1,45 @@
+#include "pipeline/breast_problem.h"
+
+#include <utility>
+
+namespace mammotwin {
+namespace {
+
+TissueSampler sampler_of(const MeanFractions& mean) {
+  return [&mean](const Eigen::Vector3d& x_prone, double volume_mm3) {
+    const Fractions f = mean.at(x_prone, volume_mm3);
+    return std::array<double, 3>{f.fat, f.fibroglandular, f.lesion};
+  };
+}
+
+}  // namespace
+
+CompressionProblem breast_problem(MeshFile mesh, const MeanFractions& mean,
+                                  const CompressionSettings& settings, double stiffness_factor) {
+  CompressionProblem problem;
+  problem.mesh = std::move(mesh);
+  if (const auto prone = problem.mesh.configurations.find("prone");
+      prone != problem.mesh.configurations.end())
+    problem.prone = prone->second;
+  problem.tissue = sampler_of(mean);
+  problem.laws = settings.laws(stiffness_factor);
+  problem.skin = settings.skin;
+  problem.skin.c1 *= stiffness_factor;
+  problem.boundary = settings.boundary;
+  problem.boundary.chest_wall_spring *= stiffness_factor;
+  return problem;
+}
+
+double stiffness_factor_of(const MeshFile& mesh, const CompressionSettings& settings) {
+  const auto written = mesh.metadata.find("stiffness_factor");
+  return written == mesh.metadata.end() ? settings.stiffness_factor : written->second.at(0);
+}
+
+MeshFile prone_file(const MeshFile& file) {
+  MeshFile prone = file;
+  if (const auto found = file.configurations.find("prone"); found != file.configurations.end())
+    prone.mesh = HermiteMesh(found->second, file.mesh.elements());
+  return prone;
+}
+
+}  // namespace mammotwin

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "pipeline/compression_settings.h"
+#include "segmentation/mean_fractions.h"
+#include "solver/compress.h"
+
+namespace mammotwin {
+
+/// The patient's breast as the solver takes it, without plates or gravity: a mesh file's shape (and
+/// its configuration "prone", where it has one), the tissue in it, laws, skin and what holds it. All
+/// stiffnesses are multiplied by `stiffness_factor`. `mean` must outlive the problem.
+CompressionProblem breast_problem(MeshFile mesh, const MeanFractions& mean,
+                                  const CompressionSettings& settings, double stiffness_factor);
+
+/// The factor that `unload` used, from the metadata of the mesh that it wrote; else the settings'.
+double stiffness_factor_of(const MeshFile& mesh, const CompressionSettings& settings);
+
+/// The mesh as imaged: the configuration "prone" of a file, else the file itself.
+MeshFile prone_file(const MeshFile& file);
+
+}  // namespace mammotwin

@@ -1,0 +1,33 @@
+#pragma once
+
+#include "pipeline/frame/settings.h"
+
+#include <Eigen/Core>
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace mammotwin {
+
+/// How the patient lies or stands, and so where gravity pulls.
+enum class Pose { prone, supine, standing, none };
+
+std::string name_of(Pose pose);
+
+/// Acceleration in patient LPS [mm/s²]: prone pulls forward, supine back, standing to the feet.
+Eigen::Vector3d gravity_in_lps(Pose pose);
+
+/// What patient.toml says of gravity.
+struct GravitySettings {
+  Pose imaged = Pose::prone;
+  double density_kg_per_m3 = 1000;  ///< of breast tissue: fat 920, fibroglandular 1035
+  std::optional<std::filesystem::path> second_state;  ///< the same breast in another pose
+  Pose second_gravity = Pose::supine;
+
+  double density() const { return density_kg_per_m3 * 1e-9; }  ///< [kg/mm³]
+};
+
+void declare_gravity(Settings& settings, GravitySettings& gravity);
+
+}  // namespace mammotwin

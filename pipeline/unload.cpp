@@ -1,0 +1,118 @@
+// unload: the breast as imaged -> its shape free of stress, and how that hangs in other poses.
+
+#include "solver/unload.h"
+
+#include "pipeline/breast_problem.h"
+#include "pipeline/frame/stage.h"
+#include "pipeline/second_state.h"
+#include "pipeline/unload_quality.h"
+#include "segmentation/segmentation_file.h"
+
+namespace mammotwin {
+namespace {
+
+struct Arguments {
+  std::filesystem::path segmentation, fractions, mesh, unloaded;
+};
+
+void declare(StageDeclaration& stage, Arguments& args) {
+  stage.input("segmentation", args.segmentation, "tissue labels from segment (.seg.nrrd)");
+  stage.input("fractions", args.fractions, "tissue fractions from segment (.nrrd)");
+  stage.input("mesh", args.mesh, "Hermite mesh from fit (.vtu)");
+  stage.product("unloaded", args.unloaded, "unloaded mesh to write (.vtu)");
+  stage.options_from("unload.", true);
+  for (const char* prefix : {"gravity", "materials.", "compress.chest_wall", "compress.cut_face"})
+    stage.options_from(prefix, false);
+}
+
+StagePlan plan(const Arguments&, const Patient& patient) {
+  StagePlan plan{{}, {"gravity", "unload.", "materials.", "compress.chest_wall",
+                      "compress.cut_face"}};
+  if (const auto second = patient.second_state()) plan.inputs.push_back(*second);
+  return plan;
+}
+
+/// One factor for all stiffnesses where a second state is there to ask; else the settings'.
+double find_stiffness(StageRun& stage, const CompressionProblem& as_set, UnloadingRecord& record) {
+  const double factor = stage.patient.compression.stiffness_factor;
+  const auto second = stage.patient.second_state();
+  if (!second || record.imaged == Pose::none) return factor;
+  const SecondState state(*second, as_set.mesh);
+  const Eigen::Vector3d gravity = gravity_in_lps(stage.patient.gravity.second_gravity);
+  record.stiffness_fit =
+      fit_stiffness(as_set, gravity, [&](const auto& x) { return state.distance(x); }, {},
+                    [&](double f, const std::string& what) { stage.progress(0.6 * f, what); });
+  return factor * record.stiffness_fit->factor;
+}
+
+double wall_slide(const MeshFile& mesh, const std::vector<HermiteMesh::Node>& from,
+                  const std::vector<HermiteMesh::Node>& to) {
+  double slide = 0;
+  for (int e = 0; e < mesh.mesh.num_elements(); ++e)
+    for (int face = 0; face < 6; ++face)
+      for (int c = 0; mesh.faces[e][face] == FaceLabel::chest_wall && c < 8; ++c)
+        if ((c >> (face / 2) & 1) == face % 2) {
+          const int node = mesh.mesh.corners(e)[c];
+          slide = std::max(slide, (from[node].col(0) - to[node].col(0)).norm());
+        }
+  return slide;
+}
+
+void hang_in_other_poses(const CompressionProblem& unloaded, UnloadingRecord& record) {
+  for (const Pose pose : {Pose::standing, Pose::supine}) {
+    CompressionProblem problem = unloaded;
+    problem.gravity = gravity_in_lps(pose);
+    PoseState state{hang(problem, {}), 0};
+    state.wall_slide_mm =
+        wall_slide(problem.mesh, problem.mesh.mesh.nodes(), state.result.deformed);
+    record.poses.emplace(name_of(pose), std::move(state));
+  }
+}
+
+MeshFile unloaded_file(const MeshFile& prone, const UnloadResult& result,
+                       const UnloadingRecord& record) {
+  MeshFile file = prone;
+  file.configurations["prone"] = prone.mesh.nodes();
+  for (const auto& [name, pose] : record.poses)
+    if (pose.result.report.usable()) file.configurations[name] = pose.result.deformed;
+  file.mesh = HermiteMesh(result.unloaded, prone.mesh.elements());
+  file.metadata["stiffness_factor"] = {record.stiffness_factor};
+  return file;
+}
+
+Outcome run(const Arguments& args, StageRun& stage) {
+  const Patient& patient = stage.patient;
+  const Segmentation segmentation = read_segmentation(args.segmentation, args.fractions);
+  const MeanFractions mean(segmentation.fractions);
+  const MeshFile prone = read_mesh_file(args.mesh);
+  const auto problem_with = [&](double factor) {
+    CompressionProblem problem = breast_problem(prone, mean, patient.compression, factor);
+    problem.gravity = gravity_in_lps(patient.gravity.imaged);
+    problem.density = patient.gravity.density();
+    return problem;
+  };
+  UnloadingRecord record;
+  record.imaged = patient.gravity.imaged;
+  record.stiffness_factor =
+      find_stiffness(stage, problem_with(patient.compression.stiffness_factor), record);
+  if (record.stiffness_fit && !record.stiffness_fit->usable()) return judge_unloading(record);
+  const CompressionProblem problem = problem_with(record.stiffness_factor);
+  const UnloadResult result = unload(problem, {}, stage.progress);
+  record.report = result.report;
+  if (result.report.usable()) {
+    if (record.imaged != Pose::none)
+      hang_in_other_poses(from_unloaded(problem, result.unloaded), record);
+    write_mesh_file(stage.products.write_main(), unloaded_file(prone, result, record));
+  }
+  return judge_unloading(record);
+}
+
+}  // namespace
+}  // namespace mammotwin
+
+int main(int argc, char** argv) {
+  using namespace mammotwin;
+  return run_stage(argc, argv, "unload",
+                   "the breast as imaged -> its shape free of stress, for compress", declare, plan,
+                   run);
+}
