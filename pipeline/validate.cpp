@@ -2,6 +2,7 @@
 
 #include "pipeline/frame/process.h"
 #include "pipeline/frame/products.h"
+#include "pipeline/validation/claims.h"
 #include "pipeline/validation/gel_figures.h"
 #include "pipeline/validation/gel_table.h"
 
@@ -14,6 +15,7 @@ namespace {
 
 struct Arguments {
   std::filesystem::path cases, result;
+  bool claims = true;
 };
 
 void declare(CLI::App& app, Arguments& args) {
@@ -21,6 +23,7 @@ void declare(CLI::App& app, Arguments& args) {
       ->required()
       ->check(CLI::ExistingDirectory);
   app.add_option("result", args.result, "validation.json to write; pictures go beside it")->required();
+  app.add_flag("!--no-claims", args.claims, "leave out the tables of elements and penalties (a minute)");
 }
 
 constexpr const char* kCases[] = {"lateral", "plane_strain", "axial", "bonded"};
@@ -36,18 +39,32 @@ void write_pictures(const GelResult& r, Products& products) {
     outline_picture(r).write_png(products.write("outlines.png"), kPixelsPerPoint);
 }
 
+void say(const std::string& text) { std::cerr << text << std::endl; }
+
+/// The paper's claims about elements and penalties, on its own experiment -> claims.json.
+void check_claims(const GelCase& lateral, Products& products) {
+  const double force_N = lateral.force_N.value();
+  const auto elements = compare_elements(lateral.experiment, say);
+  std::cout << element_table(elements, force_N) << std::endl;
+  const auto penalties = compare_penalties(lateral.experiment, say);
+  std::cout << penalty_table(penalties, force_N) << std::endl;
+  const nlohmann::json document = {{"elements", to_json(elements, force_N)},
+                                   {"penalties", to_json(penalties, force_N)}};
+  write_text_atomically(products.write("claims.json"), document.dump(1) + "\n");
+}
+
 int run(const Arguments& args) {
   Products products(args.result);
   nlohmann::json document = nlohmann::json::object();
   std::vector<std::string> missed;
   for (const std::string name : kCases) {
     const GelCase experiment = read_gel_case(args.cases / (name + ".toml"));
-    const GelResult result =
-        run_gel_case(experiment, [](const std::string& text) { std::cerr << text << std::endl; });
+    const GelResult result = run_gel_case(experiment, say);
     document[name] = to_json(result);
     std::cout << gel_table(result) << std::endl;
     write_pictures(result, products);
     for (const std::string& sentence : missed_targets(result)) missed.push_back(sentence);
+    if (name == "lateral" && args.claims) check_claims(experiment, products);
   }
   write_text_atomically(products.write_main(), document.dump(1) + "\n");
   products.commit();

@@ -4,7 +4,9 @@
 #include "solver/contact/penalty_continuation.h"
 #include "solver/load/load_stepping.h"
 #include "solver/material/neo_hookean.h"
+#include "solver/newton/condition_number.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <ctime>
@@ -86,6 +88,7 @@ class CylinderRun {
   void hold_rigid_motion();
   void place_plate();
   NewtonReport equilibrate(double fraction, State& state);
+  NewtonReport press(double unit, State& state);
   NewtonReport move_end(double fraction, State& state);
   double force(const State& state) const;
   double half_width(const State& state) const {
@@ -126,6 +129,7 @@ void CylinderRun::hold_rigid_motion() {
 
 void CylinderRun::place_plate() {
   penalties_.last = x_.penalty;
+  penalties_.first = std::min(penalties_.first, x_.penalty);
   if (!by_contact()) return;
   contact_ = std::make_shared<PlateContact>();
   contact_->points1d = x_.contact_points;
@@ -144,11 +148,25 @@ NewtonReport CylinderRun::move_end(double fraction, State& state) {
   return newton_->solve(state, penalties_.newton, pending);
 }
 
+NewtonReport CylinderRun::press(double unit, State& state) {
+  if (!x_.continued) {
+    PenaltyOptions at_once = penalties_;
+    at_once.first = at_once.last;
+    State trial = state;
+    const NewtonReport report = solve_contact(*newton_, *contact_, unit, at_once, trial);
+    if (report.usable()) {
+      state = std::move(trial);
+      return report;
+    }
+  }
+  return solve_contact(*newton_, *contact_, unit, penalties_, state);
+}
+
 NewtonReport CylinderRun::equilibrate(double fraction, State& state) {
   if (!by_contact()) return move_end(fraction, state);
   contact_->plates[0].point = -height(fraction) * contact_->plates[0].normal;
   const double size = std::cbrt(model_->volume() / mesh_.num_elements());
-  NewtonReport report = solve_contact(*newton_, *contact_, 2 * x_.c1 / size, penalties_, state);
+  NewtonReport report = press(2 * x_.c1 / size, state);
   if (!report.usable() || x_.gap_tolerance == 0) return report;
   const NewtonReport last = close_gap(
       *newton_, *contact_, x_.gap_tolerance,
@@ -184,6 +202,7 @@ CylinderFigures CylinderRun::measure(const State& state) const {
   f.max_J = balance.max_J;
   f.dof = dofs_.num_equations();
   f.elements = mesh_.num_elements();
+  if (x_.with_condition) f.condition = condition_number(*model_, dofs_, state);
   if (contact_)
     f.penetration_mm = contact_figures(*model_, state, *contact_, 0, contact_faces_).penetration;
   return f;

@@ -27,7 +27,11 @@ struct CylinderExperiment {
   CylinderPart part = CylinderPart::eighth;  ///< half: only lying
   CylinderElements elements = even_elements(2);  ///< whole cross-section (square even), half length
   int contact_points = 5;             ///< Gauss points a side on faces in contact, 4 to 10
-  double penalty = 100;               ///< x shear modulus / element size
+  double penalty = 2e4;               ///< x shear modulus / element size
+  /// The penalty raised from soft to `penalty` inside the load step, always (true) or only where the
+  /// full penalty at once fails: one homogeneous gel under flat plates takes it in half the iterations.
+  bool continued = false;
+  bool with_condition = false;        ///< measure CylinderFigures::condition
   double gap_tolerance = 0.001;       ///< largest penetration [mm]; 0: the penalty as given
   int steps = 1;                      ///< load steps
 };
@@ -45,6 +49,7 @@ struct CylinderFigures {
   double half_width_end_mm = 0;       ///< the same at the end
   double half_length_axis_mm = 0;
   double penetration_mm = 0;
+  double condition = 0;               ///< of the last tangent (condition_number.h); 0: not asked for
   double plate_work_mJ = 0;           ///< trapezoidal rule over the steps, whole cylinder
   double stored_energy_mJ = 0;        ///< of the whole cylinder, contact's part included
   double min_J = 1, max_J = 1;
