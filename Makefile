@@ -22,7 +22,7 @@ unexport MAKEFLAGS MAKEOVERRIDES
 
 .PHONY: help patient segment fit unload compress register report synthesize cohort verify-results build \
         evaluate-segmentation evaluate-fitting evaluate-compression evaluate-niftysim \
-        evaluate-victre validate \
+        evaluate-victre validate bench \
         install test clean
 .DEFAULT_GOAL := help
 
@@ -42,6 +42,7 @@ help:
 	@echo 'make validate          the gel cylinder against other codes: RESULTS/gel_cylinder/validation.json'
 	@echo 'make evaluate-niftysim   a breast that NiftySim compressed, node by node: RESULTS/evaluation/niftysim.json'
 	@echo 'make evaluate-victre   a phantom that FEBio compressed, its outline and tissue: RESULTS/evaluation/victre.json'
+	@echo 'make bench             times of kernels, linear algebra and whole solves (ten minutes)'
 	@echo 'make install PREFIX=/usr/local   programs, manual pages, completion, libraries'
 	@echo 'make test              all tests'
 	@echo 'make clean             removes build/ (results stay)'
@@ -74,6 +75,10 @@ evaluate-niftysim: build
 
 evaluate-victre: build
 	@"$$BIN/mammotwin-evaluate-victre" "$$CASES/victre" "$$RESULTS/evaluation/victre.json"
+
+bench: build
+	@ninja -C build/release --quiet solver_benchmarks
+	@"$$BIN/solver_benchmarks"
 
 verify-results: build
 	@pipeline/cohort/verify_patient.sh

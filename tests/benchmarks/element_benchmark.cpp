@@ -1,0 +1,37 @@
+#include "tests/benchmarks/cylinder_problem.h"
+
+#include "solver/element/tensor_kernels.h"
+
+#include <benchmark/benchmark.h>
+
+#include <vector>
+
+namespace mammotwin {
+namespace {
+
+void TangentBlockKernel(benchmark::State& state) {
+  const std::vector<double> coefficients(9 * kPoints, 1.0);
+  std::vector<double> block(kFunctions * kFunctions);
+  for (auto _ : state)
+    for (int pair = 0; pair < 6; ++pair) {
+      tangent_block(coefficients.data(), block.data());
+      benchmark::DoNotOptimize(block.data());
+    }
+}
+BENCHMARK(TangentBlockKernel)->Unit(benchmark::kMicrosecond);
+
+void evaluate(benchmark::State& state, bool with_tangent) {
+  const CylinderProblem problem(1);
+  ElementSystem system;
+  for (auto _ : state) {
+    problem.model.evaluate(0, problem.state, with_tangent, system);
+    benchmark::DoNotOptimize(system.residual.data());
+  }
+}
+void ElementResidual(benchmark::State& state) { evaluate(state, false); }
+void ElementTangentAndResidual(benchmark::State& state) { evaluate(state, true); }
+BENCHMARK(ElementResidual)->Unit(benchmark::kMicrosecond);
+BENCHMARK(ElementTangentAndResidual)->Unit(benchmark::kMicrosecond);
+
+}  // namespace
+}  // namespace mammotwin
