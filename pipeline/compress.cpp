@@ -37,11 +37,18 @@ void declare(StageDeclaration& stage, Arguments& args) {
       stage.options_from(std::string("views.") + view + "." + key, false);
 }
 
-StagePlan plan(const Arguments& args, const Patient&) {
+StagePlan plan(const Arguments& args, const Patient& patient) {
+  std::vector<std::filesystem::path> plates;
+  for (const auto& stl : {patient.compression.support_stl, patient.compression.paddle_stl})
+    if (stl) plates.push_back(patient.resolve(*stl));
   const std::string view = "views." + args.view + ".";
-  return {{},
+  return {plates,
           {"compress.", "materials.", "unload.density", view + "thickness_mm", view + "angle_deg",
            view + "lift_mm"}};
+}
+
+std::shared_ptr<const PlateMesh> facets(const std::filesystem::path& stl) {
+  return std::make_shared<PlateMesh>(PlateMesh::read(stl));
 }
 
 PlateOptions plates_of(const Patient& patient, const ViewSettings& view,
@@ -50,8 +57,11 @@ PlateOptions plates_of(const Patient& patient, const ViewSettings& view,
   plates.depth = axes.row(0);
   plates.up = axes.row(2);
   plates.lift = view.lift_mm;
-  plates.rounding = patient.compression.plate_rounding_mm;
-  plates.wall_clearance = patient.compression.wall_clearance_mm;
+  const CompressionSettings& settings = patient.compression;
+  settings.shape_plates(plates);
+  if (settings.support_stl)
+    plates.support_mesh = facets(patient.resolve(*settings.support_stl));
+  if (settings.paddle_stl) plates.paddle_mesh = facets(patient.resolve(*settings.paddle_stl));
   plates.thickness =
       view.thickness_mm.value_or(kDefaultThicknessFraction * free_thickness(mesh, plates));
   return plates;

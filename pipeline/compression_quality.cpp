@@ -32,6 +32,7 @@ json quality_of(const CompressionReport& r, double angle_deg) {
           {"compressed_fraction", 1 - r.thickness_mm / r.free_thickness_mm},
           {"force_N", r.force_N},
           {"energy_force_N", r.energy_force_N},
+          {"paddle_tilt_deg", r.paddle_tilt_deg},
           {"contact_area_cm2", r.contact_area_cm2},
           {"volume_change", r.volume_change},
           {"min_J", r.min_J},

@@ -39,6 +39,17 @@ TissueLaws CompressionSettings::laws(double factor) const {
           mixing};
 }
 
+void CompressionSettings::shape_plates(PlateOptions& plates) const {
+  constexpr double mN_mm_per_N_m = 1e6;
+  plates.rounding = plate_rounding_mm;
+  plates.wall_clearance = wall_clearance_mm;
+  if (plate_width_mm) plates.width = *plate_width_mm;
+  if (plate_length_mm) plates.length = *plate_length_mm;
+  plates.paddle_tilt = paddle_tilt_deg;
+  if (paddle_spring_nm_per_deg) plates.tilt_spring = *paddle_spring_nm_per_deg * mN_mm_per_N_m;
+  plates.pivot = paddle_pivot_mm;
+}
+
 Detector ViewSettings::detector(const std::string& view, Side side) const {
   Detector detector;
   detector.source_distance_mm = source_distance_mm;
@@ -86,6 +97,21 @@ void declare_compression(Settings& s, CompressionSettings& c) {
            "radius of the plates' edges at the chest wall");
   s.number("compress.wall_clearance_mm", c.wall_clearance_mm, {0, 60, "mm"},
            "from the chest wall to the plates' edges");
+  s.number("compress.plate_width_mm", c.plate_width_mm, {20, 1000, "mm"},
+           "of both plates, edges rounded like the rear ones; default endless");
+  s.number("compress.plate_length_mm", c.plate_length_mm, {20, 1000, "mm"},
+           "from the plates' rear to their front edges; default endless");
+  s.number("compress.paddle_tilt_deg", c.paddle_tilt_deg, {-30, 30, "deg"},
+           "of the paddle about its rear edge, positive: front lower");
+  s.number("compress.paddle_spring_nm_per_deg", c.paddle_spring_nm_per_deg, {0.01, 100, "N m/deg"},
+           "spring that a flexible paddle tilts against; default rigid");
+  s.number("compress.paddle_pivot_mm", c.paddle_pivot_mm, {0, 500, "mm"},
+           "from the rear edge to the axis of a flexible paddle");
+  s.path("compress.paddle_stl", c.paddle_stl,
+         "paddle as facets (STL, mm): x from the rear edge to the nipple, z into the breast");
+  s.path("compress.support_stl", c.support_stl, "support as facets, the same");
+  s.choice("compress.moving", c.options.moving, {{"both", Moving::both}, {"paddle", Moving::paddle}},
+           "plates that press: both, or the paddle once the support has lifted the breast");
   s.number("compress.friction_coefficient", c.friction.coefficient, {0, 1},
            "Coulomb friction with the plates");
   s.number("compress.friction_slip_mm", c.friction.slip, {0.001, 1, "mm"},

@@ -6,6 +6,7 @@
 #include "solver/compress.h"
 
 #include <array>
+#include <filesystem>
 #include <optional>
 #include <string>
 
@@ -36,8 +37,16 @@ struct CompressionSettings {
   CompressionOptions options;
   double plate_rounding_mm = PlateOptions{}.rounding;
   double wall_clearance_mm = PlateOptions{}.wall_clearance;
+  std::optional<double> plate_width_mm, plate_length_mm;
+  double paddle_tilt_deg = 0;
+  std::optional<double> paddle_spring_nm_per_deg;
+  double paddle_pivot_mm = PlateOptions{}.pivot;
+  std::optional<std::filesystem::path> support_stl, paddle_stl;
 
   TissueLaws laws(double factor) const;
+
+  /// Takes what is said of the plates' shape; directions, thickness and facets are the caller's.
+  void shape_plates(PlateOptions& plates) const;
 };
 
 /// What patient.toml says of one view.

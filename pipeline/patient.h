@@ -56,8 +56,10 @@ class Patient {
   /// Parameters that come in lists (lesions) below these prefixes, in the sidecar's form.
   nlohmann::json list_parameters(const std::vector<std::string>& prefixes) const;
 
- private:
+  /// A path of patient.toml, which may be relative to it.
   std::filesystem::path resolve(const std::filesystem::path& path) const;
+
+ private:
   void declare_inputs(Settings& settings);
   void declare_segment(Settings& settings);
   void declare_fit(Settings& settings);

@@ -9,6 +9,7 @@
 #include "solver/material/neo_hookean.h"
 #include "solver/newton/newton.h"
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 
 #include <algorithm>
@@ -25,6 +26,8 @@ namespace {
 constexpr double kStepGrowth = 1.5;
 constexpr double kNewtonPerMilli = 1e-3;  // mN to N
 constexpr double kCm2PerMm2 = 1e-2;
+constexpr double kTiltTolerance = 0.05;   // [deg]
+constexpr double kTiltSlope = -1.5;       // of moment / spring − tilt over tilt: a first guess
 
 std::string in_mm(double length) {
   std::ostringstream text;
@@ -53,7 +56,10 @@ class Compression {
   void check_thickness() const;
   bool settle(State& state);
   void place(double fraction);
-  void move_paddle(double height);
+  void move_paddle(double height, double tilt);
+  void put(const PlacedPlates& placed);
+  double tilt_error(const State& state) const;
+  NewtonReport balance_tilt(NewtonReport report, State& state);
   double penetration(const State& state) const;
   enum PlateNumber { kSupport, kPaddle };
   ContactFigures figures(const State& state, PlateNumber plate) const;
@@ -79,6 +85,7 @@ class Compression {
   Newton newton_;
   PlacedPlates start_, end_, placed_;
   PenaltyOptions penalties_;
+  double tilt_;                      ///< of the paddle at the last good step [deg]
   PlateFriction::History sticking_;  ///< at the last good step
   CompressionReport report_;
 };
@@ -96,13 +103,14 @@ Compression::Compression(const CompressionProblem& problem, const CompressionOpt
   const double half = problem.plates.thickness / 2;
   const double middle = frame_.centroid_height() + problem.plates.lift;
   const auto [low, high] = frame_.touching_heights();
-  end_ = frame_.place(middle - half, middle + half);
+  tilt_ = problem.plates.paddle_tilt;
+  end_ = frame_.place(middle - half, middle + half, tilt_);
   const bool beside = middle <= low || middle >= high;
   if (beside || (middle - half <= low && middle + half >= high))
     throw std::invalid_argument("plates never touch: the breast reaches from " + in_mm(low) +
                                 " to " + in_mm(high) + " between plates at " +
                                 in_mm(middle - half) + " and " + in_mm(middle + half));
-  start_ = frame_.place(std::min(low, middle - half), std::max(high, middle + half));
+  start_ = frame_.place(std::min(low, middle - half), std::max(high, middle + half), tilt_);
   report_.target_thickness_mm = problem.plates.thickness;
   report_.free_thickness_mm = frame_.extent(problem.mesh.mesh.nodes());
   report_.dof = breast_.dofs->num_equations();
@@ -118,15 +126,56 @@ void Compression::check_thickness() const {
 }
 
 void Compression::place(double fraction) {
-  const auto between = [&](double a, double b) { return a + fraction * (b - a); };
-  placed_ = frame_.place(between(start_.support_height, end_.support_height),
-                         between(start_.paddle_height, end_.paddle_height));
+  double support = fraction, paddle = fraction;
+  if (options_.moving == Moving::paddle) {
+    const double lift = end_.support_height - start_.support_height;
+    const double share = lift / (lift + start_.paddle_height - end_.paddle_height);
+    support = fraction < share ? fraction / share : 1;
+    paddle = fraction < share ? 0 : (fraction - share) / (1 - share);
+  }
+  const auto between = [](double a, double b, double f) { return a + f * (b - a); };
+  put(frame_.place(between(start_.support_height, end_.support_height, support),
+                   between(start_.paddle_height, end_.paddle_height, paddle), tilt_));
+}
+
+void Compression::move_paddle(double height, double tilt) {
+  put(frame_.place(placed_.support_height, height, tilt));
+}
+
+void Compression::put(const PlacedPlates& placed) {
+  placed_ = placed;
   breast_.contact->plates = {placed_.support, placed_.paddle};
 }
 
-void Compression::move_paddle(double height) {
-  placed_ = frame_.place(placed_.support_height, height);
-  breast_.contact->plates = {placed_.support, placed_.paddle};
+/// By how much the spring would have the paddle tilt further [deg]; 0 for a rigid one.
+double Compression::tilt_error(const State& state) const {
+  const PlateOptions& plates = problem_.plates;
+  if (std::isinf(plates.tilt_spring)) return 0;
+  const ContactFigures paddle = figures(state, kPaddle);
+  const Eigen::Vector3d pivot =
+      placed_.paddle.point + (plates.pivot - plates.rounding) * placed_.paddle.depth;
+  const double moment =
+      plates.depth.cross(plates.up).dot(paddle.moment - pivot.cross(paddle.force));
+  return plates.paddle_tilt + moment / plates.tilt_spring - placed_.paddle_tilt;
+}
+
+/// Turns the paddle by the secant method until its spring and the breast are in balance.
+NewtonReport Compression::balance_tilt(NewtonReport report, State& state) {
+  constexpr int most_rounds = 10;
+  constexpr double most_turn = 4, most_tilt = 30, least_slope = -0.5;  // [deg], [deg], [-]
+  double slope = kTiltSlope;
+  for (int round = 0; report.usable() && round < most_rounds; ++round) {
+    const double error = tilt_error(state), tilt = placed_.paddle_tilt;
+    if (std::abs(error) <= kTiltTolerance) return report;
+    const double turn = std::clamp(-error / slope, -most_turn, most_turn);
+    if (std::abs(tilt + turn) > most_tilt) break;
+    move_paddle(placed_.paddle_height, tilt + turn);
+    report = then(report, squeeze(state));
+    slope = std::min((tilt_error(state) - error) / turn, least_slope);
+  }
+  if (report.usable()) report.reason = "the paddle's tilt finds no balance with its spring";
+  report.converged = false;
+  return report;
 }
 
 ContactFigures Compression::figures(const State& state, PlateNumber plate) const {
@@ -149,6 +198,7 @@ void Compression::track_friction(const State& state) {
 
 /// Fixes where points stick, for the next step and for those that fail.
 void Compression::end_step(const State& state) {
+  tilt_ = placed_.paddle_tilt;
   if (!breast_.friction) return;
   breast_.friction->commit(*breast_.model, state, breast_.contact_faces);
   sticking_ = breast_.friction->history();
@@ -157,7 +207,7 @@ void Compression::end_step(const State& state) {
 NewtonReport Compression::equilibrate(double fraction, State& state) {
   place(fraction);
   if (breast_.friction) breast_.friction->restore(sticking_);
-  return squeeze(state);
+  return balance_tilt(squeeze(state), state);
 }
 
 NewtonReport Compression::squeeze(State& state) {
@@ -174,14 +224,16 @@ NewtonReport Compression::shut(State& state) {
 /// asked. A state that cannot be bettered stays as it is; summarise() says how good that is.
 void Compression::finish(State& state) {
   constexpr int most_rounds = 4;
-  constexpr double far = 0.5;  // [mm]: a stiff penalty does not follow the paddle so far in one go
+  // [mm]: contact that is stiff does not follow a paddle that moves by much more than it penetrates
+  constexpr double far = 0.15;
   better(state, [&](State& trial) { return shut(trial); });
   for (int round = 0; round < most_rounds; ++round) {
     const double error = frame_.extent(state.x) - problem_.plates.thickness;
-    if (std::abs(error) <= options_.thickness_tolerance) return;
+    const double lean = tilt_error(state);
+    if (std::abs(error) <= options_.thickness_tolerance && std::abs(lean) <= kTiltTolerance) return;
     const bool good = better(state, [&](State& trial) {
-      move_paddle(placed_.paddle_height - error);
-      if (std::abs(error) <= far)
+      move_paddle(placed_.paddle_height - error, placed_.paddle_tilt - lean / kTiltSlope);
+      if (std::abs(error) <= far && std::abs(lean) <= kTiltTolerance)
         return resettle(newton_, *breast_.contact, penalties_.newton, trial);
       const NewtonReport soft = squeeze(trial);
       return soft.usable() ? then(soft, shut(trial)) : soft;
@@ -203,8 +255,7 @@ bool Compression::better(State& state, const std::function<NewtonReport(State&)>
     track_friction(state);  // a round that failed inside the attempt may have left another's
     return true;
   }
-  placed_ = placed;
-  breast_.contact->plates = {placed_.support, placed_.paddle};
+  put(placed);
   breast_.contact->penalty = penalty;
   track_friction(state);
   return false;
@@ -224,16 +275,16 @@ void Compression::record(double fraction, const State& state, const NewtonReport
 double Compression::energy_force(const State& state) {
   breast_.contact->follow = {};
   constexpr double nudge = 1e-3;  // [mm]: small beside penetrations, so that contact stays
-  const double height = placed_.paddle_height;
+  const double height = placed_.paddle_height, tilt = placed_.paddle_tilt;
   double energy[2];
   for (int side = 0; side < 2; ++side) {
     State nudged = state;
-    move_paddle(height + (side ? nudge : -nudge));
+    move_paddle(height + (side ? nudge : -nudge), tilt);
     const NewtonReport report = resettle(newton_, *breast_.contact, penalties_.newton, nudged);
     energy[side] = report.usable() ? newton_.balance(nudged).energy
                                    : std::numeric_limits<double>::quiet_NaN();
   }
-  move_paddle(height);
+  move_paddle(height, tilt);
   return (energy[0] - energy[1]) / (2 * nudge) * kNewtonPerMilli;
 }
 
@@ -254,6 +305,7 @@ void Compression::summarise(const State& state) {
   const ContactFigures paddle = figures(state, kPaddle);
   report_.thickness_mm = frame_.extent(state.x);
   report_.force_N = paddle_force(state);
+  report_.paddle_tilt_deg = placed_.paddle_tilt;
   report_.contact_area_cm2 = paddle.area * kCm2PerMm2;
   report_.volume_change = balance.deformed_volume / breast_.model->volume() - 1;
   report_.min_J = balance.min_J;

@@ -78,8 +78,14 @@ struct CompressionProblem {
   double density = 1e-6;                              ///< [kg/mm³] > 0
 };
 
+enum class Moving {
+  both,   ///< plates close on the breast from both sides
+  paddle  ///< the support first lifts the breast to its place, then only the paddle moves
+};
+
 struct CompressionOptions {
   SolidOptions solid;
+  Moving moving = Moving::both;
   double gap_tolerance = 0.05;       ///< largest penetration [mm] > 0
   double thickness_tolerance = 0.02; ///< |measured − asked| [mm] > 0
   double first_step = 1;             ///< of the way, in (0, 1]
@@ -106,6 +112,7 @@ struct CompressionReport {
   double free_thickness_mm = 0;    ///< the same of the uncompressed breast
   double force_N = 0;              ///< of the paddle, from contact
   double energy_force_N = 0;       ///< the same from the change of stored energy, a check
+  double paddle_tilt_deg = 0;      ///< in the end
   double contact_area_cm2 = 0;     ///< deformed, within 0.1 mm of the paddle
   double volume_change = 0;        ///< fraction
   double min_J = 1, max_J = 1;

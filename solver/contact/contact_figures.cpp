@@ -19,9 +19,10 @@ void add_face(const Face& face, const SolidElement::Coefficients& x, const Plate
     const SurfacePoint& point = face.point(q);
     const double stretch = y.segment<3>(3).cross(y.segment<3>(6)).norm() /
                            point.A1.cross(point.A2).norm();
-    figures.force += contact.pressure(gap.gap) * point.area * gap.normal;
-    if (friction)
-      figures.force += point.area * friction->traction(y.head<3>(), point, plate);
+    Eigen::Vector3d force = contact.pressure(gap.gap) * point.area * gap.normal;
+    if (friction) force += point.area * friction->traction(y.head<3>(), point, plate);
+    figures.force += force;
+    figures.moment += y.head<3>().cross(force);
     figures.area += stretch * point.area;
     figures.penetration = std::max(figures.penetration, -gap.gap);
   }

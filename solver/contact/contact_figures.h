@@ -14,6 +14,7 @@ using FaceList = std::vector<std::pair<int, int>>;  ///< (element, face) with a 
 /// there is none.
 struct ContactFigures {
   Eigen::Vector3d force = Eigen::Vector3d::Zero();  ///< of the plate on the tissue [mN]
+  Eigen::Vector3d moment = Eigen::Vector3d::Zero();  ///< of that force about the origin [mN mm]
   double area = 0;         ///< deformed area within 0.1 mm of the plate [mm²]
   double penetration = 0;                           ///< largest [mm]
 };

@@ -2,7 +2,12 @@
 
 #include <Eigen/Core>
 
+#include <limits>
+#include <memory>
+
 namespace mammotwin {
+
+class PlateMesh;
 
 /// Distance to a rigid surface with its first two derivatives. gap > 0 apart [mm].
 struct Gap {
@@ -11,8 +16,8 @@ struct Gap {
   Eigen::Matrix3d hessian;  ///< ∂²gap/∂x² [1/mm]
 };
 
-/// Rigid compression plate: a flat face, endless sideways and to the front, whose straight rear
-/// edge is rounded and goes on as a wall away from the tissue.
+/// Rigid compression plate: a flat rectangle whose straight edges are rounded and go on as walls away
+/// from the tissue. Endless sideways and to the front unless `half_width` and `length` say otherwise.
 ///
 ///          tissue                        depth → (towards the nipple)
 ///        (      ________ face ________
@@ -26,6 +31,9 @@ struct Plate {
   Eigen::Vector3d depth;   ///< unit, from the edge to the front, orthogonal to normal
   double rounding = 0;     ///< radius [mm]; infinite flat face if `endless`
   bool endless = false;    ///< no edge: a half space
+  double half_width = std::numeric_limits<double>::infinity();  ///< of the flat part, sideways [mm]
+  double length = std::numeric_limits<double>::infinity();      ///< of the flat part, along depth [mm]
+  std::shared_ptr<const PlateMesh> mesh = nullptr;  ///< instead of all this: facets about `point`
 
   Gap gap(const Eigen::Vector3d& x) const;
 

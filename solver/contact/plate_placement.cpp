@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <stdexcept>
 #include <string>
 
@@ -17,6 +18,8 @@ namespace mammotwin {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kMostTilt = 30;  // [deg]
+constexpr double kRadians = std::numbers::pi / 180;
 constexpr int kSamples1d = 9;  // every 2 mm of a 16 mm element: flat contact is found to 0.01 mm
 
 void check_directions(const PlateOptions& o) {
@@ -30,6 +33,21 @@ void check_length(const char* name, double value, double least) {
   if (!(std::isfinite(value) && value >= least))
     throw std::invalid_argument(std::string("plates: ") + name + " is " + std::to_string(value) +
                                 " mm; expected at least " + std::to_string(least) + " mm");
+}
+
+void check_extent(const char* name, double value, double rounding) {
+  if (!(value > 2 * rounding))
+    throw std::invalid_argument(std::string("plates: ") + name + " is " + std::to_string(value) +
+                                " mm; expected more than the two rounded edges' " +
+                                std::to_string(2 * rounding) + " mm");
+}
+
+void check_tilt(const PlateOptions& o) {
+  if (!(std::abs(o.paddle_tilt) <= kMostTilt))
+    throw std::invalid_argument("plates: tilt is " + std::to_string(o.paddle_tilt) +
+                                " deg; expected -30 to 30 deg");
+  if (!(o.tilt_spring > 0 && std::isfinite(o.pivot)))
+    throw std::invalid_argument("plates: the tilt's spring must be positive, its pivot finite");
 }
 
 Eigen::Vector3d on_face(int face, double s, double r) {
@@ -75,10 +93,13 @@ Eigen::Vector3d volume_centroid(const HermiteMesh& mesh) {
 }  // namespace
 
 PlateFrame::PlateFrame(const MeshFile& mesh, const PlateOptions& options)
-    : options_(options), elements_(mesh.mesh.elements()) {
+    : options_(options), elements_(mesh.mesh.elements()), reference_(mesh.mesh.nodes()) {
   check_directions(options);
   check_length("rounding", options.rounding, 1e-3);
   check_length("wall_clearance", options.wall_clearance, 0);
+  check_extent("width", options.width, options.rounding);
+  check_extent("length", options.length, options.rounding);
+  check_tilt(options);
   const Eigen::Vector3d lateral = options.depth.cross(options.up);
   double wall = -kInfinity, left = kInfinity, right = -kInfinity;
   for_face_samples(mesh, [&](int e, FaceLabel label, const Eigen::Vector3d& xi) {
@@ -104,8 +125,11 @@ PlateFrame::PlateFrame(const MeshFile& mesh, const PlateOptions& options)
     touching_.first = std::min(touching_.first, options.up.dot(x));
     touching_.second = std::max(touching_.second, options.up.dot(x));
   }
+  find_flat_part();
+  touching_ = {touching_height(false, touching_.first, touching_.second),
+               touching_height(true, touching_.first, touching_.second)};
   if (heights(mesh.mesh.nodes()).first == kInfinity)
-    throw std::invalid_argument("plates never touch: no skin lies in front of their edge, " +
+    throw std::invalid_argument("plates never touch: no skin lies between their flat parts, which begin " +
                                 std::to_string(options.wall_clearance + options.rounding) +
                                 " mm before the chest wall");
 }
@@ -122,7 +146,7 @@ std::vector<Eigen::Vector3d> PlateFrame::outer_points(
 std::pair<double, double> PlateFrame::heights(const std::vector<HermiteMesh::Node>& x) const {
   std::pair<double, double> range{kInfinity, -kInfinity};
   for (const auto& point : outer_points(x)) {
-    if (options_.depth.dot(point) < edge_ + options_.rounding) continue;
+    if (!over_flat_part(point)) continue;
     const double height = options_.up.dot(point);
     range = {std::min(range.first, height), std::max(range.second, height)};
   }
@@ -134,14 +158,69 @@ double PlateFrame::extent(const std::vector<HermiteMesh::Node>& x) const {
   return high - low;
 }
 
-PlacedPlates PlateFrame::place(double support_height, double paddle_height) const {
-  const Eigen::Vector3d front = (edge_ + options_.rounding) * options_.depth +
-                                lateral_middle_ * options_.depth.cross(options_.up);
+void PlateFrame::find_flat_part() {
+  const double r = options_.rounding;
+  flat_ = {edge_ + r, edge_ + options_.length - r, lateral_middle_ - options_.width / 2 + r,
+           lateral_middle_ + options_.width / 2 - r};
+  for (const bool paddle : {false, true})
+    if (const auto& mesh = paddle ? options_.paddle_mesh : options_.support_mesh) {
+      // Sideways on the support runs against depth x up.
+      const double left = paddle ? mesh->low().y() : -mesh->high().y();
+      const double right = paddle ? mesh->high().y() : -mesh->low().y();
+      flat_ = {std::max(flat_.rear, edge_ + mesh->low().x()),
+               std::min(flat_.front, edge_ + mesh->high().x()),
+               std::max(flat_.left, lateral_middle_ + left),
+               std::min(flat_.right, lateral_middle_ + right)};
+    }
+}
+
+bool PlateFrame::over_flat_part(const Eigen::Vector3d& x) const {
+  const double along = options_.depth.dot(x);
+  const double across = options_.depth.cross(options_.up).dot(x);
+  return along >= flat_.rear && along <= flat_.front && across >= flat_.left &&
+         across <= flat_.right;
+}
+
+/// Where a plate just touches a breast that reaches from low to high in front of the edge.
+double PlateFrame::touching_height(bool paddle, double low, double high) const {
+  const bool level = paddle ? options_.paddle_tilt == 0 && !options_.paddle_mesh
+                            : !options_.support_mesh;
+  if (level) return paddle ? high : low;
+  const auto points = outer_points(reference_);
+  const auto clear = [&](double height) {
+    const PlacedPlates placed = place(height, height, options_.paddle_tilt);
+    const Plate& plate = paddle ? placed.paddle : placed.support;
+    return std::none_of(points.begin(), points.end(), [&](const Eigen::Vector3d& x) {
+      return options_.depth.dot(x) >= edge_ && plate.gap(x).gap < 0;
+    });
+  };
+  constexpr double farther = 300;  // [mm] of a tilted or bent plate's face from its own height
+  double inside = paddle ? low : high, outside = paddle ? high + farther : low - farther;
+  for (int halving = 0; halving < 30; ++halving)
+    (clear((inside + outside) / 2) ? outside : inside) = (inside + outside) / 2;
+  return outside;
+}
+
+PlacedPlates PlateFrame::place(double support_height, double paddle_height, double tilt) const {
+  const Eigen::Vector3d& up = options_.up;
+  const Eigen::Vector3d& depth = options_.depth;
+  const double c = std::cos(kRadians * tilt), s = std::sin(kRadians * tilt);
+  const auto plate = [&](double height, const Eigen::Vector3d& normal, const Eigen::Vector3d& along,
+                         const std::shared_ptr<const PlateMesh>& mesh) {
+    const double start = mesh ? 0 : options_.rounding;  // facets count from the edge
+    const Eigen::Vector3d point =
+        (edge_ + start) * depth + lateral_middle_ * depth.cross(up) + height * up;
+    return Plate{point, normal, along, options_.rounding, false,
+                 options_.width / 2 - options_.rounding, options_.length - 2 * options_.rounding,
+                 mesh};
+  };
   PlacedPlates placed;
-  placed.support = {front + support_height * options_.up, options_.up, options_.depth,
-                    options_.rounding, false};
-  placed.paddle = {front + paddle_height * options_.up, -options_.up, options_.depth,
-                   options_.rounding, false};
+  placed.support = plate(support_height, up, depth, options_.support_mesh);
+  placed.paddle = tilt == 0
+                      ? plate(paddle_height, -up, depth, options_.paddle_mesh)
+                      : plate(paddle_height, -c * up - s * depth, c * depth - s * up,
+                              options_.paddle_mesh);
+  placed.paddle_tilt = tilt;
   placed.edge = edge_;
   placed.support_height = support_height;
   placed.paddle_height = paddle_height;
