@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
+#include "fitting/mesh/mesh_file.h"
 #include "tests/pipeline/patient_case.h"
 
 namespace mammotwin {
@@ -85,6 +87,63 @@ TEST_F(BadInput, AThicknessLargerThanTheBreastIsRefused) {
   EXPECT_EQ(sidecar("a", "cc.vtu")["status"], "refused");
   EXPECT_FALSE(fs::exists(results() / "a" / "cc.vtu"));
   EXPECT_TRUE(fs::exists(results() / "a" / "report.html")) << "the page is still written";
+}
+
+TEST_F(BadInput, AStiffnessThatIsNotPositiveIsRefusedWithItsRange) {
+  dome("a", "[materials.fat]\nc1_kpa = 0\n");
+  expect_refused("a", {"materials.fat.c1_kpa is 0", "0.01 to 1000 kPa"});
+  dome("b", "[materials.skin]\nc1_kpa = -3.3\n");
+  expect_refused("b", {"materials.skin.c1_kpa is -3.3", "0.01 to 1000 kPa"});
+}
+
+TEST_F(BadInput, PlatesThatAreNoneAreRefused) {
+  const std::string mesh = "[fit]\nelements = [4, 4, 1]\n";
+  dome("a", mesh + "[compress]\npaddle_stl = \"none.stl\"\n");
+  expect_refused("a", {"none.stl: no such file"});
+  dome("b", mesh + "[compress]\npaddle_stl = \"metres.stl\"\n");
+  std::ofstream(data() / "b" / "metres.stl")
+      << "solid p\nfacet normal 0 0 1\nouter loop\nvertex 0 -0.1 0\nvertex 0.2 -0.1 0\n"
+         "vertex 0.2 0.1 0\nendloop\nendfacet\nendsolid p\n";
+  expect_refused("b", {"metres.stl", "is it in mm?"});
+  dome("c", mesh + "[compress]\nplate_width_mm = 30\nplate_rounding_mm = 20\n");
+  expect_refused("c", {"width is 30", "40"});
+}
+
+/// What the solver must not be given, made out of a mesh that is good.
+TEST_F(BadInput, MeshesThatCannotBeCompressedAreRefused) {
+  dome("a", "[fit]\nelements = [4, 4, 1]\n[views.cc]\nthickness_mm = 60\n");
+  ASSERT_EQ(run("fit", "a").exit_code, 0);
+  const fs::path folder = results() / "a";
+  const MeshFile good = read_mesh_file(folder / "prone.vtu");
+  const auto expect_no_view = [&](const MeshFile& mesh, const std::string& part) {
+    write_mesh_file(folder / "bad.vtu", mesh);
+    const CommandResult result = run_command(
+        {MAMMOTWIN_BIN "/mammotwin-compress", "cc", (folder / "segmentation.seg.nrrd").string(),
+         (folder / "fractions.nrrd").string(), (folder / "bad.vtu").string(),
+         (folder / "cc.vtu").string(), "--patient", (data() / "a" / "patient.toml").string()});
+    EXPECT_EQ(result.exit_code, 1) << result.text;
+    EXPECT_NE(result.text.find(part), std::string::npos) << result.text;
+    EXPECT_FALSE(fs::exists(folder / "cc.vtu"));
+  };
+  const auto with_nodes = [&](const std::vector<HermiteMesh::Node>& nodes) {
+    MeshFile mesh = good;
+    mesh.mesh = HermiteMesh(nodes, good.mesh.elements());
+    return mesh;
+  };
+  auto nodes = good.mesh.nodes();
+  nodes[3](1, 0) = std::numeric_limits<double>::quiet_NaN();
+  expect_no_view(with_nodes(nodes), "not a finite number");
+  nodes = good.mesh.nodes();
+  std::swap(nodes[6], nodes[7]);
+  expect_no_view(with_nodes(nodes), "folded");
+  nodes = good.mesh.nodes();
+  for (auto& node : nodes) node.row(0) *= -1;  // a mirror image: inverted
+  expect_no_view(with_nodes(nodes), "folded");
+  MeshFile loose = good;
+  for (auto& labels : loose.faces)
+    for (auto& label : labels)
+      if (label == FaceLabel::chest_wall) label = FaceLabel::interior;
+  expect_no_view(loose, "chest_wall");
 }
 
 TEST_F(BadInput, ALesionOutsideTheBreastIsRefused) {
