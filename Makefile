@@ -21,8 +21,8 @@ export P DATA RESULTS FORCE BIN SEED PATIENTS JOBS ONLY ENGINE CONFIG PREFIX CAS
 unexport MAKEFLAGS MAKEOVERRIDES
 
 .PHONY: help patient segment fit unload compress register report synthesize cohort verify-results build \
-        evaluate-segmentation evaluate-fitting evaluate-compression evaluate-niftysim \
-        evaluate-victre validate bench \
+        evaluate-segmentation evaluate-fitting evaluate-compression evaluate-unload \
+        evaluate-niftysim evaluate-victre validate bench \
         install test clean
 .DEFAULT_GOAL := help
 
@@ -37,6 +37,7 @@ help:
 	@echo 'make evaluate-segmentation  segments SYNTHETIC=20 synthetic patients:'
 	@echo '                       RESULTS/evaluation/segmentation.json'
 	@echo 'make evaluate-fitting  fits every breast of CASES=folder: RESULTS/evaluation/fitting.json'
+	@echo 'make evaluate-unload   takes gravity off every breast of CASES: RESULTS/evaluation/unload.json'
 	@echo 'make evaluate-compression   compresses SYNTHETIC=200 drawn breasts and those of CASES=folder in'
 	@echo '                       both views: RESULTS/evaluation/compression.json; JOBS=2 at a time'
 	@echo 'make validate          the gel cylinder against other codes: RESULTS/gel_cylinder/validation.json'
@@ -62,6 +63,9 @@ evaluate-segmentation: build
 
 evaluate-fitting: build
 	@"$$BIN/mammotwin-evaluate-fitting" "$$CASES" "$$RESULTS/evaluation/fitting.json"
+
+evaluate-unload: build
+	@"$$BIN/mammotwin-evaluate-unload" "$$CASES" "$$RESULTS/evaluation/unload.json" --views
 
 evaluate-compression: build
 	@"$$BIN/mammotwin-evaluate-compression" "$$RESULTS/evaluation/compression.json" --cases "$$CASES" \

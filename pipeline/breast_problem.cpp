@@ -1,5 +1,6 @@
 #include "pipeline/breast_problem.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace mammotwin {
@@ -40,6 +41,19 @@ MeshFile prone_file(const MeshFile& file) {
   if (const auto found = file.configurations.find("prone"); found != file.configurations.end())
     prone.mesh = HermiteMesh(found->second, file.mesh.elements());
   return prone;
+}
+
+double wall_slide(const MeshFile& mesh, const std::vector<HermiteMesh::Node>& from,
+                  const std::vector<HermiteMesh::Node>& to) {
+  double slide = 0;
+  for (int e = 0; e < mesh.mesh.num_elements(); ++e)
+    for (int face = 0; face < 6; ++face)
+      for (int c = 0; mesh.faces[e][face] == FaceLabel::chest_wall && c < 8; ++c)
+        if ((c >> (face / 2) & 1) == face % 2) {
+          const int node = mesh.mesh.corners(e)[c];
+          slide = std::max(slide, (from[node].col(0) - to[node].col(0)).norm());
+        }
+  return slide;
 }
 
 }  // namespace mammotwin

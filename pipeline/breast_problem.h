@@ -15,6 +15,10 @@ CompressionProblem breast_problem(MeshFile mesh, const MeanFractions& mean,
 /// The factor that `unload` used, from the metadata of the mesh that it wrote; else the settings'.
 double stiffness_factor_of(const MeshFile& mesh, const CompressionSettings& settings);
 
+/// Largest way of a chest-wall node between two shapes of the mesh [mm].
+double wall_slide(const MeshFile& mesh, const std::vector<HermiteMesh::Node>& from,
+                  const std::vector<HermiteMesh::Node>& to);
+
 /// The mesh as imaged: the configuration "prone" of a file, else the file itself.
 MeshFile prone_file(const MeshFile& file);
 

@@ -7,6 +7,7 @@
 #include "pipeline/frame/process.h"
 #include "pipeline/frame/products.h"
 #include "pipeline/frame/stage_declaration.h"
+#include "pipeline/synthesize/hanging_truth.h"
 #include "pipeline/synthesize/nrrd_file.h"
 #include "pipeline/synthesize/option_table.h"
 #include "pipeline/synthesize/patient_files.h"
@@ -23,6 +24,7 @@ struct Arguments {
   fs::path folder;
   int seed = 42;
   std::optional<fs::path> picture;
+  bool hang = false;
   PatientOptions options;
 };
 
@@ -72,6 +74,8 @@ void run(Arguments args) {
   truth["version"] = MAMMOTWIN_VERSION;
   write_text(products.write("truth.json"), truth.dump(1) + "\n");
   write_text(products.write_main(), patient_toml(patient));
+  if (args.hang)
+    write_mesh_file(products.write("truth_unloaded.vtu"), hanging_truth(patient));
   if (args.picture)
     write_slices(*args.picture, patient.scan.image, patient.truth.lesions.back().centroid_in_lps,
                  white_over_fat * fat_grey);
@@ -88,6 +92,8 @@ int synthesize(int argc, char** argv) {
   declaration.product("folder", args.folder,
                       "to write patient.toml, mri.nrrd, truth.json and truth_labels.nrrd in");
   declaration.options_from("", false);
+  app.add_flag("--hang", args.hang,
+               "write truth_unloaded.vtu, too: the shape that gravity turns into this patient's breast");
   app.add_option("--picture", args.picture, "PNG to draw slices through a lesion in");
   app.set_version_flag("--version", std::string(MAMMOTWIN_VERSION));
   try {

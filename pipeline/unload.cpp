@@ -45,19 +45,6 @@ double find_stiffness(StageRun& stage, const CompressionProblem& as_set, Unloadi
   return factor * record.stiffness_fit->factor;
 }
 
-double wall_slide(const MeshFile& mesh, const std::vector<HermiteMesh::Node>& from,
-                  const std::vector<HermiteMesh::Node>& to) {
-  double slide = 0;
-  for (int e = 0; e < mesh.mesh.num_elements(); ++e)
-    for (int face = 0; face < 6; ++face)
-      for (int c = 0; mesh.faces[e][face] == FaceLabel::chest_wall && c < 8; ++c)
-        if ((c >> (face / 2) & 1) == face % 2) {
-          const int node = mesh.mesh.corners(e)[c];
-          slide = std::max(slide, (from[node].col(0) - to[node].col(0)).norm());
-        }
-  return slide;
-}
-
 void hang_in_other_poses(const CompressionProblem& unloaded, UnloadingRecord& record) {
   for (const Pose pose : {Pose::standing, Pose::supine}) {
     CompressionProblem problem = unloaded;

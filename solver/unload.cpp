@@ -15,6 +15,10 @@ namespace {
 
 using Nodes = std::vector<HermiteMesh::Node>;
 
+std::string percent(double share) {
+  return std::to_string(static_cast<int>(std::lround(100 * share))) + " %";
+}
+
 /// Strain from the unloaded to the prone shape at the quadrature points.
 void measure_strain(const CompressionProblem& hanging, const SolidOptions& solid,
                     UnloadReport& report) {
@@ -47,7 +51,12 @@ class Unloading {
  private:
   LoadSteppingReport take_off(double share, Nodes& unloaded);
   HangOptions reload_options() const;
-  std::optional<double> reload_error(const Nodes& unloaded, double share) const;
+  struct Reload {
+    std::optional<double> error_mm;  ///< empty where the breast does not come to rest
+    std::string reason;
+    bool back_within(double tolerance) const { return error_mm && *error_mm < tolerance; }
+  };
+  Reload reload(const Nodes& unloaded, double share) const;
   std::optional<double> naive_error() const;
   void find_largest_share(UnloadResult& result);
   void check(UnloadResult& result);
@@ -87,13 +96,15 @@ HangOptions Unloading::reload_options() const {
   return options;
 }
 
-/// Where an unloaded shape hangs to, beside the prone one; empty where it does not come to rest.
-std::optional<double> Unloading::reload_error(const Nodes& unloaded, double share) const {
+/// Where an unloaded shape hangs to, beside the prone one.
+Unloading::Reload Unloading::reload(const Nodes& unloaded, double share) const {
   CompressionProblem hanging = from_unloaded(problem_, unloaded);
   hanging.gravity *= share;
   const HangResult again = hang(hanging, reload_options());
-  if (!again.report.usable()) return std::nullopt;
-  return largest_distance(again.deformed, hanging.prone);
+  if (!again.report.usable())
+    return {std::nullopt, "it stops at " + percent(again.report.gravity_fraction) +
+                              " of the gravity: " + again.report.reason};
+  return {largest_distance(again.deformed, hanging.prone), "it comes to rest elsewhere"};
 }
 
 /// What many do: solve the prone shape with gravity reversed and call that unloaded.
@@ -103,7 +114,7 @@ std::optional<double> Unloading::naive_error() const {
   reversed.gravity = -problem_.gravity;
   const HangResult naive = hang(reversed, reload_options());
   if (!naive.report.usable()) return std::nullopt;
-  return reload_error(naive.deformed, 1);
+  return reload(naive.deformed, 1).error_mm;
 }
 
 /// An unloaded shape that balances may yet fall elsewhere when it is loaded. Bisection for the share
@@ -118,8 +129,8 @@ void Unloading::find_largest_share(UnloadResult& result) {
     Nodes unloaded;
     const LoadSteppingReport load = take_off(share, unloaded);
     result.report.newton_iterations += load.iterations;
-    const auto error = load.complete() ? reload_error(unloaded, share) : std::nullopt;
-    const bool works = error && *error < options_.round_trip_tolerance;
+    const bool works =
+        load.complete() && reload(unloaded, share).back_within(options_.round_trip_tolerance);
     (works ? low : high) = share;
     if (works) best = std::move(unloaded);
   }
@@ -130,14 +141,15 @@ void Unloading::find_largest_share(UnloadResult& result) {
 void Unloading::check(UnloadResult& result) {
   UnloadReport& report = result.report;
   say(0.5, "loading again");
-  const auto error = reload_error(result.unloaded, report.gravity_fraction);
-  if (error && *error < options_.round_trip_tolerance) {
-    report.round_trip_max_mm = *error;
+  const Reload again = reload(result.unloaded, report.gravity_fraction);
+  if (again.back_within(options_.round_trip_tolerance)) {
+    report.round_trip_max_mm = *again.error_mm;
     if (report.usable()) report.naive_reversal_error_mm = naive_error();
     return;
   }
   report.converged = false;
-  report.reason = "the unloaded shape, loaded again, does not come to rest in the imaged one";
+  report.reason = "the unloaded shape, loaded again, does not come to rest in the imaged one; " +
+                  again.reason;
   find_largest_share(result);
 }
 

@@ -86,6 +86,22 @@ std::string fit_summary(const PatientResults& results) {
          " RMS from the chest wall.";
 }
 
+/// How the breast hung when imaged, in a sentence: sag and strain are for a person to judge.
+std::string unload_summary(const PatientResults& results) {
+  const json* sidecar = results.sidecar("unloaded.vtu");
+  const json quality = sidecar ? sidecar->value("quality", json::object()) : json::object();
+  if (quality.value("gravity", "") == "none")
+    return "Gravity was not taken off: the imaged shape counts as free of stress.";
+  for (const char* key : {"sag_max_mm", "stretch_p95", "stiffness_factor", "gravity_fraction"})
+    if (!quality.contains(key) || !quality[key].is_number()) return "";
+  if (quality["gravity_fraction"] < 1) return "";
+  return "Imaged " + quality.value("gravity", "") + ", the breast sags by up to " +
+         word::number(quality["sag_max_mm"], 1) + " mm from its shape free of stress; 95 % of it is "
+         "stretched by less than " + word::number(100 * (quality["stretch_p95"].get<double>() - 1), 0) +
+         " %. All stiffnesses are " + word::number(quality["stiffness_factor"], 2) +
+         " times those given" + (quality.contains("stiffness_fit") ? ", fitted to a second state." : ".");
+}
+
 json parameter_rows(const json& parameters) {
   json rows = json::array();
   for (const auto& [name, parameter] : parameters.items()) {
@@ -123,6 +139,7 @@ json page_data(const PatientResults& results, const std::string& version) {
   page["version"] = version;
   page["side"] = !results.segmentation ? "" : results.segmentation->region.side == Side::left ? "left" : "right";
   page["fit_summary"] = fit_summary(results);
+  page["unload_summary"] = unload_summary(results);
   add_lesions(results, page);
   add_views(results, page);
   add_mri(results, page);

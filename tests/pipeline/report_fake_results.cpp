@@ -177,6 +177,11 @@ PatientResults fake_results(Side side) {
                                             {"skin_p95_mm", 0.51},
                                             {"skin_max_mm", 1.9},
                                             {"chest_wall_rms_mm", 0.4}})},
+              {"unloaded.vtu", sidecar("unload", {{"gravity", "prone"},
+                                                  {"gravity_fraction", 1.0},
+                                                  {"sag_max_mm", 7.15},
+                                                  {"stretch_p95", 1.093},
+                                                  {"stiffness_factor", 1.0}})},
               {"cc.vtu", sidecar("compress", squeeze_quality(0))},
               {"mlo.vtu", sidecar("compress", squeeze_quality(45))},
               {"lesions.csv", sidecar("register", nlohmann::json::object())}};

@@ -48,6 +48,15 @@ TEST(ReportPage, ShowsEveryFigureOfAFinishedChain) {
   EXPECT_NE(whole_page().find("not a medical device"), std::string::npos);
 }
 
+TEST(ReportPage, SaysHowTheBreastHung) {
+  EXPECT_NE(whole_page().find("Imaged prone, the breast sags by up to 7.2 mm"), std::string::npos);
+  PatientResults off = fake_results(Side::left);
+  for (StageRecord& stage : off.stages)
+    if (stage.product == "unloaded.vtu") stage.sidecar["quality"]["gravity"] = "none";
+  EXPECT_NE(render_page(page_data(off, "0.1.0")).find("Gravity was not taken off"),
+            std::string::npos);
+}
+
 TEST(ReportPage, GivesEveryPictureWordsAndReachesForNothingOutside) {
   const std::string& page = whole_page();
   EXPECT_EQ(count(page, "<img "), count(page, "alt=\""));

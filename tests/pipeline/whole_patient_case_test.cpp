@@ -5,6 +5,8 @@
 #include <map>
 #include <regex>
 
+#include "fitting/mesh/mesh_file.h"
+#include "registration/point_carrier.h"
 #include "tests/pipeline/patient_case.h"
 
 namespace mammotwin {
@@ -42,6 +44,7 @@ class Patient042 : public PatientCase {
 
   void expect_truth();
   void expect_sane_unloading();
+  void expect_true_unloaded_shape();
   void expect_sane_compression(const std::string& view);
   void expect_nothing_runs_again();
   void expect_kept(const std::vector<std::string>& kept);
@@ -82,6 +85,28 @@ void Patient042::expect_sane_unloading() {
   }
 }
 
+/// The unloaded shape recovered from the MRI against the one that the MRI is made to hang from.
+void Patient042::expect_true_unloaded_shape() {
+  const MeshFile truth = read_mesh_file(data() / "042" / "truth_unloaded.vtu");
+  const HermiteMesh true_prone(truth.configurations.at("prone"), truth.mesh.elements());
+  const MeshFile found = read_mesh_file(results() / "042" / "unloaded.vtu");
+  const PointCarrier unloaded(HermiteMesh(found.configurations.at("prone"), found.mesh.elements()),
+                              found.mesh);
+  double squares = 0, moved = 0;
+  int count = 0;
+  for (int e = 0; e < truth.mesh.num_elements(); ++e)
+    for (int k = 0; k < 27; ++k) {
+      const MeshPoint point{e, Eigen::Vector3d(k % 3, k / 3 % 3, k / 9) / 2};
+      const auto carried = unloaded.carry(true_prone.position(point)).in_lps;
+      squares += (carried - truth.mesh.position(point)).squaredNorm();
+      moved += (true_prone.position(point) - truth.mesh.position(point)).squaredNorm();
+      ++count;
+    }
+  EXPECT_LT(std::sqrt(squares / count), 0.5);
+  EXPECT_GT(std::sqrt(moved / count), 2);  // without unloading the error would be this
+  RecordProperty("rms_mm", std::to_string(std::sqrt(squares / count)));
+}
+
 void Patient042::expect_nothing_runs_again() {
   const auto before = times(results() / "042");
   const CommandResult again = run("patient", "042");
@@ -112,6 +137,7 @@ TEST_F(Patient042, FromMriToLesionPositions) {
   EXPECT_NE(first.text.find("Predicted lesion positions"), std::string::npos);
   expect_truth();
   expect_sane_unloading();
+  expect_true_unloaded_shape();
   expect_sane_compression("cc");
   expect_sane_compression("mlo");
 

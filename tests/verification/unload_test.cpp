@@ -1,7 +1,7 @@
 #include "dome_breast.h"
 
 #include "solver/material/neo_hookean.h"
-#include "solver/unload.h"
+#include "solver/fit_stiffness.h"
 
 #include <gtest/gtest.h>
 
@@ -130,6 +130,28 @@ TEST(Unload, TooSoftTissueIsSaidSoWithTheStiffnessThatWouldDo) {
   problem.boundary.chest_wall_spring *= factor;
   const UnloadReport stiffer = unload(problem, {}).report;
   EXPECT_TRUE(stiffer.usable()) << stiffer.reason;
+}
+
+// A breast made with known stiffness hangs and lies; from the prone shape with stiffnesses that are
+// off by a factor, the supine shape gives that factor back. The search stops within 2 %.
+TEST(FitStiffness, FindsTheFactorFromASupineShape) {
+  constexpr double true_factor = 0.6;
+  CompressionProblem prone = dome_problem(60);
+  prone.mesh = dome_breast({2, 2, 1});
+  const Eigen::Vector3d down(0, -9810, 0);
+  prone.gravity = down / true_factor;
+  const UnloadResult unloaded = unload(prone, without_checks());
+  ASSERT_TRUE(unloaded.report.usable()) << unloaded.report.reason;
+  CompressionProblem supine = from_unloaded(prone, unloaded.unloaded);
+  supine.gravity = -down / true_factor;
+  const HangResult seen = hang(supine, {});
+  ASSERT_TRUE(seen.report.usable()) << seen.report.reason;
+  prone.gravity = down;
+  const StiffnessFit fit = fit_stiffness(
+      prone, -down, [&](const auto& x) { return largest_distance(x, seen.deformed); }, {});
+  ASSERT_TRUE(fit.usable()) << fit.reason;
+  EXPECT_NEAR(fit.factor / true_factor, 1, 0.02);
+  EXPECT_LT(fit.distance_mm, 0.05 * fit.distance_at_one_mm);
 }
 
 }  // namespace

@@ -1,0 +1,52 @@
+#include "pipeline/synthesize/hanging_truth.h"
+
+#include "fitting/fit_breast.h"
+#include "pipeline/breast_problem.h"
+#include "pipeline/gravity_settings.h"
+#include "solver/unload.h"
+
+#include <stdexcept>
+
+namespace mammotwin {
+namespace {
+
+CompressionProblem hanging_problem(MeshFile mesh, const MeanFractions& mean) {
+  CompressionProblem problem = breast_problem(std::move(mesh), mean, {}, 1);
+  problem.gravity = gravity_in_lps(Pose::prone);
+  problem.density = GravitySettings().density();
+  return problem;
+}
+
+Segmentation truth_of(const SyntheticPatient& p) {
+  return true_segmentation(p.tissue, p.labels, p.truth);
+}
+
+}  // namespace
+
+void with_true_breast(const SyntheticPatient& patient, const MeshFile& mesh,
+                      const std::function<void(const CompressionProblem&)>& use) {
+  const Segmentation truth = truth_of(patient);
+  const MeanFractions mean(truth.fractions);
+  use(hanging_problem(mesh, mean));
+}
+
+MeshFile hanging_truth(const SyntheticPatient& patient,
+                       const std::function<void(double, const std::string&)>& progress) {
+  FitOptions options;
+  options.elements = kTruthElements;
+  const FitResult fit = fit_breast(truth_of(patient), options, progress);
+  if (!fit.report.usable())
+    throw std::runtime_error("no mesh of the true breast: " + fit.report.reasons.front());
+  MeshFile file = fit.mesh;
+  with_true_breast(patient, fit.mesh, [&](const CompressionProblem& problem) {
+    const UnloadResult result = unload(problem, {}, progress);
+    if (!result.report.usable())
+      throw std::runtime_error("the true breast cannot hang as it was made: " +
+                               result.report.reason);
+    file.configurations["prone"] = fit.mesh.mesh.nodes();
+    file.mesh = HermiteMesh(result.unloaded, fit.mesh.mesh.elements());
+  });
+  return file;
+}
+
+}  // namespace mammotwin
