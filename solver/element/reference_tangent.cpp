@@ -7,6 +7,7 @@
 
 #include "solver/element/face.h"
 #include "solver/element/solid_element.h"
+#include "solver/element/dilation.h"
 #include "solver/element/tensor_kernels.h"
 #include "solver/material/kinematics.h"
 
@@ -138,9 +139,10 @@ void SolidElement::evaluate_reference(const Coefficients& x, const double* p,
     const PointKinematics point{F[q], inverse_jacobians_[q], weights_[q]};
     const Eigen::Matrix3d cof = cofactor(point.F);
     const double pressure = pressure_functions_.row(q).head(num_pressures_).dot(pressures);
-    const double total = pressure + grad_div_[q] * (point.F.determinant() - 1);
+    const Dilation U = dilation(grad_div_[q], point.F.determinant());
+    const double total = pressure + U.slope;
     Material::Tangent A = materials_[q]->tangent(point.F);
-    A += grad_div_[q] * cof.reshaped() * cof.reshaped().transpose();
+    A += U.curvature * cof.reshaped() * cof.reshaped().transpose();
     add_cofactor_tangent(total, point.F, A);
     store_tangent(point, materials_[q]->stress(point.F) + total * cof, A, q, fields.tangent);
     store_flux(point.weight * cof * point.G.transpose(), q, fields.volume_flux);

@@ -1,6 +1,7 @@
 #include "solver/element/solid_element.h"
 
 #include "fitting/mesh/hermite_basis.h"
+#include "solver/element/dilation.h"
 #include "solver/element/tensor_kernels.h"
 #include "solver/material/kinematics.h"
 
@@ -174,8 +175,9 @@ void SolidElement::evaluate(const Coefficients& x, const double* p, bool with_ta
     if (!(J > 0)) return mark_invalid(system, J);
     const auto psi = pressure_functions_.row(q).head(num_pressures_);
     const double pressure = psi.dot(pressures);
-    const double total = pressure + grad_div_[q] * (J - 1);
-    system.energy += w * (materials_[q]->energy(F) + (pressure + total) / 2 * (J - 1) -
+    const Dilation U = dilation(grad_div_[q], J);
+    const double total = pressure + U.slope;
+    system.energy += w * (materials_[q]->energy(F) + pressure * (J - 1) + U.energy -
                           pressure * pressure / (2 * bulk_[q]));
     system.deformed_volume += w * J;
     system.min_J = std::min(system.min_J, J);
@@ -186,7 +188,7 @@ void SolidElement::evaluate(const Coefficients& x, const double* p, bool with_ta
     if (!with_tangent) continue;
     store_flux(cof, G, q, w, fields.volume_flux);
     Tangent A = materials_[q]->tangent(F);
-    A += grad_div_[q] * cof.reshaped() * cof.reshaped().transpose();
+    A += U.curvature * cof.reshaped() * cof.reshaped().transpose();
     add_cofactor_tangent(total, F, A);
     store_tangent(A, G, q, w, fields.tangent);
   }
@@ -241,7 +243,7 @@ std::array<double, kPoints> SolidElement::pressures(const Coefficients& x, const
   for (int q = 0; q < kPoints; ++q) {
     double pressure = 0;
     for (int m = 0; m < num_pressures_; ++m) pressure += pressure_functions_(q, m) * p[m];
-    total[q] = pressure + grad_div_[q] * (F[q].determinant() - 1);
+    total[q] = pressure + dilation(grad_div_[q], F[q].determinant()).slope;
   }
   return total;
 }

@@ -44,10 +44,11 @@ struct ReferenceSystem {
 
 /// Mixed displacement-pressure element on a tri-cubic Hermite hexahedron:
 ///
-///     Π(x, p) = ∫ W(F) + p (J − 1) − p²/(2κ) + γ/2 (J − 1)²  dV
+///     Π(x, p) = ∫ W(F) + p (J − 1) − p²/(2κ) + γ/4 (J² − 1 − 2 ln J)  dV
 ///
-/// stationary in x and p (design, section 3; the last term is the grad-div stabilisation, which
-/// vanishes at the exact solution). 4 x 4 x 4 Gauss points, tissue at each.
+/// stationary in x and p (design, section 3). The last term is the grad-div stabilisation: γ/2 (J − 1)²
+/// near J = 1, growing without bound towards J = 0; it vanishes at the exact solution. 4 x 4 x 4
+/// Gauss points, tissue at each.
 class SolidElement {
  public:
   using Coefficients = Eigen::Matrix<double, kFunctions, 3>;
@@ -84,7 +85,7 @@ class SolidElement {
   /// F at the Gauss points, for fields and figures.
   std::array<Eigen::Matrix3d, kPoints> deformation_gradients(const Coefficients& x) const;
 
-  /// Pressure at the Gauss points: p plus the grad-div part γ (J − 1) [kPa].
+  /// Pressure at the Gauss points: p plus the grad-div part γ/2 (J − 1/J) [kPa].
   std::array<double, kPoints> pressures(const Coefficients& x, const double* p) const;
   const Material& material(int q) const { return *materials_[q]; }
 
