@@ -119,8 +119,9 @@ WallSurface::Foot WallSurface::nearest_foot(const Eigen::Vector3d& x) const {
   Foot best{nullptr, {}, 0, false};
   for (const Patch* patch : nearest_patches(x)) {
     const Foot foot = project(*patch, x);
-    const bool better = !best.patch || (foot.inside && !best.inside) ||
-                        (foot.inside == best.inside && foot.distance < best.distance);
+    const double lead = best.distance - foot.distance;
+    const bool better = !best.patch || lead > kRimTolerance ||
+                        (std::abs(lead) <= kRimTolerance && foot.inside && !best.inside);
     if (better) best = foot;
   }
   return best;
