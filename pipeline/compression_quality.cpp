@@ -39,6 +39,7 @@ json quality_of(const CompressionReport& r, double angle_deg) {
           {"max_J", r.max_J},
           {"J_within_half", r.J_within_half},
           {"max_penetration_mm", r.max_penetration_mm},
+          {"retained_fraction", r.retained_fraction},
           {"wall_gap_mm", r.wall_gap_mm},
           {"steps", r.steps},
           {"cutbacks", r.cutbacks},

@@ -4,6 +4,7 @@
 #include "solver/breast_model.h"
 #include "solver/contact/contact_figures.h"
 #include "solver/contact/penalty_continuation.h"
+#include "solver/element/tensor_basis.h"
 #include "solver/hang.h"
 #include "solver/load/load_stepping.h"
 #include "solver/material/neo_hookean.h"
@@ -18,12 +19,16 @@
 #include <limits>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
 namespace mammotwin {
 
 namespace {
 
 constexpr double kStepGrowth = 1.5;
+constexpr double kStepTolerance = 1e-2;  // of load steps before the last
+constexpr double kNearlyClosed = 0.5;  // [mm] penetration that a load step may leave: far less than
+                                       // an edge's rounding, so that tissue keeps to its side
 constexpr double kNewtonPerMilli = 1e-3;  // mN to N
 constexpr double kCm2PerMm2 = 1e-2;
 constexpr double kTiltTolerance = 0.05;   // [deg]
@@ -36,6 +41,14 @@ std::string in_mm(double length) {
   return text.str();
 }
 
+State extrapolated(const State& now, const State& before, double ahead) {
+  State then = now;
+  for (std::size_t i = 0; i < now.x.size(); ++i) then.x[i] += ahead * (now.x[i] - before.x[i]);
+  for (std::size_t i = 0; i < now.pressure.size(); ++i)
+    then.pressure[i] += ahead * (now.pressure[i] - before.pressure[i]);
+  return then;
+}
+
 void check_shape(const HermiteMesh& mesh) {
   for (int node = 0; node < mesh.num_nodes(); ++node)
     if (!mesh.node(node).allFinite())
@@ -44,6 +57,22 @@ void check_shape(const HermiteMesh& mesh) {
   if (!proved_valid(mesh))
     throw std::invalid_argument("the mesh is folded: det dX/dxi is not positive everywhere");
 }
+
+/// Paddle moves that bring the thickness to the one asked: where only the plates' edges press, the
+/// breast's extent follows the paddle by a fraction.
+class ThicknessSecant {
+ public:
+  double move(double error, double most) {
+    constexpr double least_slope = 0.15, most_slope = 1;
+    if (last_move_ != 0)
+      slope_ = std::clamp((error - last_error_) / last_move_, least_slope, most_slope);
+    last_error_ = error;
+    return last_move_ = std::clamp(-error / slope_, -most, most);
+  }
+
+ private:
+  double slope_ = 1, last_move_ = 0, last_error_ = 0;
+};
 
 /// One compression under way.
 class Compression {
@@ -67,12 +96,13 @@ class Compression {
   void track_friction(const State& state);
   void end_step(const State& state);
   NewtonReport equilibrate(double fraction, State& state);
+  double longest_way() const;
   NewtonReport squeeze(State& state);
-  NewtonReport shut(State& state);
   void finish(State& state);
   bool better(State& state, const std::function<NewtonReport(State&)>& attempt);
   void record(double fraction, const State& state, const NewtonReport& newton);
   double energy_force(const State& state);
+  double volume_in_front(const State& state) const;
   void summarise(const State& state);
   void judge(const LoadSteppingReport& load);
   double wall_gap(const State& state) const;
@@ -86,6 +116,13 @@ class Compression {
   PlacedPlates start_, end_, placed_;
   PenaltyOptions penalties_;
   double tilt_;                      ///< of the paddle at the last good step [deg]
+  struct GoodStep {
+    double fraction = 0;
+    State state;
+  };
+  NewtonOptions exact_;      ///< of the last equilibrium
+  GoodStep before_, reached_;  ///< the last two good steps
+  double penalty_ = 0;       ///< of the last good step [kPa/mm]; 0: none yet
   PlateFriction::History sticking_;  ///< at the last good step
   CompressionReport report_;
 };
@@ -99,6 +136,9 @@ Compression::Compression(const CompressionProblem& problem, const CompressionOpt
       frame_(problem.mesh, problem.plates),
       newton_(*breast_.model, *breast_.dofs) {
   check_thickness();
+  penalties_.exact = false;
+  penalties_.newton.tolerance = penalties_.newton.constraint_tolerance =
+      penalties_.newton.acceptable = kStepTolerance;
   if (breast_.friction) breast_.contact->follow = [this](const State& s) { track_friction(s); };
   const double half = problem.plates.thickness / 2;
   const double middle = frame_.centroid_height() + problem.plates.lift;
@@ -145,6 +185,13 @@ void Compression::move_paddle(double height, double tilt) {
 void Compression::put(const PlacedPlates& placed) {
   placed_ = placed;
   breast_.contact->plates = {placed_.support, placed_.paddle};
+}
+
+/// Of the plates, the longer one of two that move together, to their places in the end [mm].
+double Compression::longest_way() const {
+  const double support = end_.support_height - start_.support_height;
+  const double paddle = start_.paddle_height - end_.paddle_height;
+  return options_.moving == Moving::paddle ? support + paddle : std::max(support, paddle);
 }
 
 /// By how much the spring would have the paddle tilt further [deg]; 0 for a rigid one.
@@ -206,39 +253,69 @@ void Compression::end_step(const State& state) {
 
 NewtonReport Compression::equilibrate(double fraction, State& state) {
   place(fraction);
+  NewtonReport tried;
+  if (before_.fraction < reached_.fraction) {
+    const double ahead = (fraction - reached_.fraction) / (reached_.fraction - before_.fraction);
+    State trial = extrapolated(state, before_.state, ahead);
+    if (breast_.friction) breast_.friction->restore(sticking_);
+    tried = balance_tilt(squeeze(trial), trial);
+    if (tried.usable()) {
+      state = std::move(trial);
+      return tried;
+    }
+  }
+  place(fraction);
   if (breast_.friction) breast_.friction->restore(sticking_);
-  return balance_tilt(squeeze(state), state);
+  return then(tried, balance_tilt(squeeze(state), state));
 }
 
 NewtonReport Compression::squeeze(State& state) {
-  return solve_contact(newton_, *breast_.contact, breast_.penalty_unit(), penalties_, state);
+  const double unit = breast_.penalty_unit();
+  PenaltyOptions penalties = penalties_;
+  if (penalty_ > 0) {
+    penalties.first = penalty_ / unit / penalties.growth;
+    penalties.last = penalty_ / unit;
+  }
+  const NewtonReport report =
+      solve_contact(newton_, *breast_.contact, unit, penalties, state);
+  if (!report.usable()) return report;
+  return then(report, close_gap(
+                          newton_, *breast_.contact, kNearlyClosed,
+                          [&](const State& s) { return penetration(s); }, penalties_.newton, state));
 }
 
-NewtonReport Compression::shut(State& state) {
-  return close_gap(
-      newton_, *breast_.contact, options_.gap_tolerance,
-      [&](const State& s) { return penetration(s); }, penalties_.newton, state);
-}
-
-/// At the end of the way: closes the gap, then moves the paddle until the thickness is the one
-/// asked. A state that cannot be bettered stays as it is; summarise() says how good that is.
+/// At the end of the way: stiffens the penalty until the gap is closed and, in the same solves, moves
+/// the paddle until the thickness is the one asked. A state that cannot be bettered stays as it is;
+/// summarise() says how good that is.
 void Compression::finish(State& state) {
-  constexpr int most_rounds = 4;
-  // [mm]: contact that is stiff does not follow a paddle that moves by much more than it penetrates
-  constexpr double far = 0.15;
-  better(state, [&](State& trial) { return shut(trial); });
+  constexpr int most_rounds = 16;
+  constexpr double least_growth = 1.5, most_growth = 5, headroom = 1.2;
+  constexpr double far = 1;  // [mm]: stiff contact does not follow a paddle that moves by more
+  double most = most_growth;
+  bool soft = false;
+  ThicknessSecant secant;
   for (int round = 0; round < most_rounds; ++round) {
+    const double excess = penetration(state) / options_.gap_tolerance;
     const double error = frame_.extent(state.x) - problem_.plates.thickness;
     const double lean = tilt_error(state);
-    if (std::abs(error) <= options_.thickness_tolerance && std::abs(lean) <= kTiltTolerance) return;
+    const bool off = std::abs(error) > options_.thickness_tolerance;
+    const bool leans = std::abs(lean) > kTiltTolerance;
+    if (excess <= 1 && !off && !leans) return;
+    const double growth = excess <= 1 ? 1 : std::clamp(headroom * excess, least_growth, most);
+    const double most_move = round == 0 || soft ? std::abs(error) : far;
+    const double move = off ? secant.move(error, most_move) : 0;
     const bool good = better(state, [&](State& trial) {
-      move_paddle(placed_.paddle_height - error, placed_.paddle_tilt - lean / kTiltSlope);
-      if (std::abs(error) <= far && std::abs(lean) <= kTiltTolerance)
-        return resettle(newton_, *breast_.contact, penalties_.newton, trial);
-      const NewtonReport soft = squeeze(trial);
-      return soft.usable() ? then(soft, shut(trial)) : soft;
+      if (off || leans)
+        move_paddle(placed_.paddle_height + move,
+                    placed_.paddle_tilt - (leans ? lean / kTiltSlope : 0));
+      if (soft || std::abs(move) > far) return squeeze(trial);
+      breast_.contact->penalty *= growth;
+      return resettle(newton_, *breast_.contact, exact_, trial);
     });
-    if (!good) return;
+    if (!good && soft) return;
+    soft = !good && (growth == 1 || most <= least_growth);
+    if (!good) most = std::max(least_growth, std::sqrt(most));
+    if (!good) secant = {};
   }
 }
 
@@ -263,6 +340,8 @@ bool Compression::better(State& state, const std::function<NewtonReport(State&)>
 
 void Compression::record(double fraction, const State& state, const NewtonReport& newton) {
   end_step(state);
+  before_ = std::exchange(reached_, {fraction, state});
+  penalty_ = breast_.contact->penalty;
   const Balance balance = newton_.balance(state);
   report_.history.push_back({frame_.extent(state.x), paddle_force(state), newton.iterations,
                              breast_.contact->penalty, balance.min_J, balance.max_J});
@@ -280,7 +359,7 @@ double Compression::energy_force(const State& state) {
   for (int side = 0; side < 2; ++side) {
     State nudged = state;
     move_paddle(height + (side ? nudge : -nudge), tilt);
-    const NewtonReport report = resettle(newton_, *breast_.contact, penalties_.newton, nudged);
+    const NewtonReport report = resettle(newton_, *breast_.contact, exact_, nudged);
     energy[side] = report.usable() ? newton_.balance(nudged).energy
                                    : std::numeric_limits<double>::quiet_NaN();
   }
@@ -300,6 +379,18 @@ double Compression::wall_gap(const State& state) const {
   return largest;
 }
 
+/// Of the tissue in front of the plates' edges [mm³], in reference volume.
+double Compression::volume_in_front(const State& state) const {
+  const HermiteMesh shape(state.x, problem_.mesh.mesh.elements());
+  const auto& t = hermite_table().points;
+  double volume = 0;
+  for (int e = 0; e < breast_.model->num_elements(); ++e)
+    for (int q = 0; q < kPoints; ++q)
+      if (problem_.plates.depth.dot(shape.position({e, {t[q & 3], t[q >> 2 & 3], t[q >> 4]}})) > placed_.edge)
+        volume += breast_.model->element(e).point_weight(q);
+  return volume;
+}
+
 void Compression::summarise(const State& state) {
   const Balance balance = newton_.balance(state);
   const ContactFigures paddle = figures(state, kPaddle);
@@ -312,6 +403,7 @@ void Compression::summarise(const State& state) {
   report_.max_J = balance.max_J;
   report_.max_penetration_mm = penetration(state);
   report_.wall_gap_mm = wall_gap(state);
+  report_.retained_fraction = volume_in_front(state) / volume_in_front(breast_.model->rest());
   int within = 0;
   for (int e = 0; e < breast_.model->num_elements(); ++e)
     for (const auto& F :
@@ -322,9 +414,16 @@ void Compression::summarise(const State& state) {
 
 void Compression::judge(const LoadSteppingReport& load) {
   constexpr double most_error = 0.1, most_penetration = 0.1;  // [mm]: what "reached" means
+  constexpr double most_slack = 5;  // [mm] between skin and flat plates
+  constexpr double least_retained = 0.5;
   const double error = std::abs(report_.thickness_mm - problem_.plates.thickness);
+  const double apart = placed_.paddle_height - placed_.support_height;
+  const bool loose = apart > report_.thickness_mm + most_slack;
   if (!load.complete())
     report_.reason = load.reason;
+  else if (loose && report_.retained_fraction < least_retained)
+    report_.reason = "the breast slipped out backwards: the plates stand " + in_mm(apart) +
+                     " apart (stiffer chest-wall springs or friction would hold it)";
   else if (error > most_error)
     report_.reason = "the thickness stays " + in_mm(error) + " off";
   else if (report_.max_penetration_mm > most_penetration)
@@ -355,8 +454,12 @@ CompressionResult Compression::run() {
   if (!settle(state)) return {state.x, state.pressure, placed_, report_};
   place(0);
   end_step(state);
+  reached_ = {0, state};
+  const double longest = std::min(1.0, options_.longest_move / longest_way());
   const LoadSteppingReport load = step_load(
-      state, {options_.first_step, options_.smallest_step, options_.max_iterations, kStepGrowth},
+      state,
+      {std::min(longest, options_.first_step), longest * options_.smallest_step,
+       options_.max_iterations, kStepGrowth, longest},
       [&](double fraction, State& s) { return equilibrate(fraction, s); },
       [&](double fraction, const State& s, const NewtonReport& n) { record(fraction, s, n); });
   report_.steps = load.steps;

@@ -50,7 +50,7 @@ enum class CutFaces {
 
 struct BoundaryOptions {
   ChestWall chest_wall = ChestWall::sliding;
-  double chest_wall_spring = 0.02;  ///< [kPa/mm] >= 0, for `sliding`
+  double chest_wall_spring = 0.08;  ///< [kPa/mm] >= 0, for `sliding`
   CutFaces cut_faces = CutFaces::springs;
   double cut_face_depth = 50;  ///< [mm] > 0: spring = shear modulus / this, for `springs`
 };
@@ -89,6 +89,7 @@ struct CompressionOptions {
   double gap_tolerance = 0.05;       ///< largest penetration [mm] > 0
   double thickness_tolerance = 0.02; ///< |measured − asked| [mm] > 0
   double first_step = 1;             ///< of the way, in (0, 1]
+  double longest_move = 10;          ///< of a plate in one load step [mm] > 0
   double smallest_step = 1.0 / 64;   ///< give up below this part of the way
   int max_iterations = 1000;          ///< Newton iterations in all
 };
@@ -118,6 +119,7 @@ struct CompressionReport {
   double min_J = 1, max_J = 1;
   double J_within_half = 0;        ///< fraction of quadrature points with J in [0.5, 1.5]
   double max_penetration_mm = 0;
+  double retained_fraction = 1;    ///< of the tissue in front of the plates' edges, how much stays
   double wall_gap_mm = 0;          ///< largest distance of the chest-wall face from its surface
   double seconds = 0;
   int dof = 0;

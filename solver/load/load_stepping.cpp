@@ -25,7 +25,7 @@ LoadSteppingReport step_load(State& state, const LoadSteppingOptions& options,
       report.reached = target;
       ++report.steps;
       step_done(target, state, newton);
-      step = std::min(step * options.growth, 1 - report.reached);
+      step = std::min({step * options.growth, options.largest_step, 1 - report.reached});
       continue;
     }
     ++report.cutbacks;

@@ -12,6 +12,7 @@ struct LoadSteppingOptions {
   double smallest_step = 1.0 / 64;  ///< a smaller step is not tried
   int max_iterations = 400;         ///< in all
   double growth = 1.5;              ///< of the step after a success, at least 1
+  double largest_step = 1;          ///< fraction of the load
 };
 
 struct LoadSteppingReport {

@@ -8,6 +8,8 @@ namespace mammotwin {
 
 namespace {
 
+constexpr double kNearBalance = 0.02;  // of the flow: from here on the step is trusted by its length
+
 State moved(const State& from, const std::vector<HermiteMesh::Node>& step,
             const std::vector<double>& pressure, double fraction) {
   State to{from.x, pressure};
@@ -26,8 +28,12 @@ bool is_zero(const std::vector<HermiteMesh::Node>& nodes) {
   return true;
 }
 
-NewtonReport& stopped(NewtonReport& report, const char* reason) {
-  report.reason = reason;
+NewtonReport& stopped(NewtonReport& report, const Balance& balance, const NewtonOptions& options,
+                      bool pending_done, const char* reason) {
+  report.converged =
+      pending_done && report.residual <= options.acceptable &&
+      balance.constraint <= options.acceptable;
+  if (!report.converged) report.reason = reason;
   return report;
 }
 
@@ -60,14 +66,28 @@ bool Newton::factor_shifted(const State& state, const NewtonOptions& options,
                             const std::vector<HermiteMesh::Node>& pending, Balance& balance,
                             NewtonReport& report) {
   constexpr double first_shift = 0.05, growth = 4, decay = 0.25;
-  if (factor_exact(state, options, pending, balance, report)) return true;
-  shift_ = shift_ * decay < first_shift / 2 ? 0 : shift_ * decay;
-  if (shift_ == 0 && !options.stabilise) shift_ = first_shift;
+  constexpr double near_shift = 1e-3;
+  if (damping_ == 0 && factor_exact(state, options, pending, balance, report)) return true;
+  const bool near = report.residual < kNearBalance;
+  if (options.stabilise) options.stabilise(!near);
+  const double least = near ? near_shift : first_shift;
+  shift_ = std::max(damping_, shift_ * decay < least / 2 ? 0 : shift_ * decay);
+  if (shift_ == 0 && (near || !options.stabilise)) shift_ = least;
   while (std::isfinite(balance.energy) && shift_ <= options.max_shift) {
     if (factor(state, pending, balance, report)) return true;
     shift_ = shift_ == 0 ? first_shift : shift_ * growth;
   }
   return false;
+}
+
+/// Short steps mean that the model is trusted too far: the metric is stiffened as in Levenberg's
+/// method, and let go again by full steps.
+void Newton::adapt_damping(double fraction) {
+  constexpr double poor = 0.1, good = 0.5, first = 1e-3, growth = 4;
+  if (fraction < poor)
+    damping_ = std::max(first, damping_ * growth);
+  else if (fraction > good)
+    damping_ = damping_ / growth < first / 2 ? 0 : damping_ / growth;
 }
 
 Newton::Step Newton::solve_step(const State& state, const Balance& balance,
@@ -107,26 +127,36 @@ double Newton::search(State& state, const Step& step, const Balance& before) con
 NewtonReport Newton::solve(State& state, const NewtonOptions& options,
                            std::vector<HermiteMesh::Node> pending) {
   NewtonReport report;
-  shift_ = 0;
+  Balance balance;
+  const auto stop = [&](const char* reason) {
+    return stopped(report, balance, options, pending.empty(), reason);
+  };
+  shift_ = damping_ = 0;
   if (is_zero(pending)) pending.clear();
   for (; report.iterations <= options.max_iterations; ++report.iterations) {
-    Balance balance;
     const bool factored = factor_shifted(state, options, pending, balance, report);
     report.residual = balance.flow > 0 ? balance.residual.norm() / balance.flow : 0;
-    if (!std::isfinite(balance.energy)) return stopped(report, "an element is inverted");
+    if (!std::isfinite(balance.energy)) {
+      report.reason = "an element is inverted";
+      return report;
+    }
     if (pending.empty() && balanced(balance, options)) {
       report.converged = true;
       return report;
     }
-    if (!factored) return stopped(report, "the tangent stays indefinite under the largest shift");
+    if (!factored) return stop("the tangent stays indefinite under the largest shift");
     if (report.iterations == options.max_iterations) break;
     const Step step = solve_step(state, balance, pending);
     const double fraction = search(state, step, balance);
-    if (fraction == 0) return stopped(report, "the line search found no valid step");
+    if (fraction == 0) return stop("the line search found no valid step");
+    if (report.residual < kNearBalance)
+      adapt_damping(fraction);
+    else
+      damping_ = 0;
     for (auto& node : pending) node *= 1 - fraction;
     if (is_zero(pending)) pending.clear();
   }
-  return stopped(report, "no equilibrium within the allowed iterations");
+  return stop("no equilibrium within the allowed iterations");
 }
 
 }  // namespace mammotwin

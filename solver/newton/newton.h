@@ -10,9 +10,12 @@
 namespace mammotwin {
 
 struct NewtonOptions {
-  int max_iterations = 40;
+  int max_iterations = 120;
   double tolerance = 1e-7;             ///< |residual| <= tolerance * flow
   double constraint_tolerance = 1e-6;  ///< largest relative volume error left by the pressures
+  /// Where the iterations stall (a bifurcation, contact that chatters), a residual and a volume
+  /// error of at most this still count as equilibrium; NewtonReport::residual says what is left.
+  double acceptable = 1e-4;
   /// Leaves destabilising parts out of the model's tangent (true) or takes them in again (false);
   /// may be empty. The residual stays exact, so only the speed of convergence changes.
   std::function<void(bool)> stabilise;
@@ -23,7 +26,7 @@ struct NewtonReport {
   bool converged = false;
   int iterations = 0;   ///< linear systems solved
   int indefinite = 0;   ///< matrices met that were not positive definite
-  double residual = 0;  ///< relative to flow [-]
+  double residual = 1;  ///< relative to flow, at the last matrix [-]
   std::string reason;   ///< why not, in a sentence
   bool usable() const { return converged; }
 };
@@ -61,11 +64,13 @@ class Newton {
                       NewtonReport& report);
   Step solve_step(const State& state, const Balance& balance,
                   const std::vector<HermiteMesh::Node>& pending) const;
+  void adapt_damping(double fraction);
   double search(State& state, const Step& step, const Balance& before) const;
 
   Assembler assembler_;
   Cholesky cholesky_;
   double shift_ = 0;
+  double damping_ = 0;  ///< shift that short steps ask for
 };
 
 }  // namespace mammotwin

@@ -41,9 +41,9 @@ void expect_good(const CompressionProblem& problem, const CompressionResult& res
   EXPECT_LT(report.max_penetration_mm, 0.1);
   // The contact's sum and the potential's derivative share no code.
   EXPECT_NEAR(report.energy_force_N / report.force_N, 1, 1e-3);
-  // Faces of 35 mm bridge an edge of 10 mm between contact points 4.4 mm apart by up to
-  // 4.4²/(8·10) = 0.24 mm.
-  EXPECT_LT(deepest(problem.mesh, result), 0.3);
+  // Faces of 35 mm bridge an edge of 10 mm between contact points 4.4 mm apart, and 5 mm where the
+  // edge has stretched them, by up to 5²/(8·10) = 0.31 mm beside the points' own 0.05 mm.
+  EXPECT_LT(deepest(problem.mesh, result), 0.36);
 }
 
 TEST(PlateShapes, ATiltedPaddleThinsTheFront) {
@@ -112,8 +112,9 @@ TEST(PlateShapes, FacetsOfAFlatPlateDoAsTheFlatPlate) {
   problem.plates.support_mesh = problem.plates.paddle_mesh;
   const CompressionResult facets = compress(problem, {});
   expect_good(problem, facets);
-  // Arcs of 7.5 degrees lie up to 0.02 mm inside the rounding, whose curvature begins within h.
-  EXPECT_NEAR(facets.report.force_N / flat.report.force_N, 1, 0.01);
+  // Arcs of 7.5 degrees lie up to 0.02 mm inside the rounding, whose curvature begins within h; and
+  // the two end with penetrations between 0 and 0.05 mm, which shift the force by 0.2 % per 0.01 mm.
+  EXPECT_NEAR(facets.report.force_N / flat.report.force_N, 1, 0.02);
   for (std::size_t i = 0; i < flat.deformed.size(); ++i)
     EXPECT_NEAR((facets.deformed[i].col(0) - flat.deformed[i].col(0)).norm(), 0, 0.5);
 }
