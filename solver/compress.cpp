@@ -63,7 +63,7 @@ void check_shape(const HermiteMesh& mesh) {
 class ThicknessSecant {
  public:
   double move(double error, double most) {
-    constexpr double least_slope = 0.15, most_slope = 1;
+    constexpr double least_slope = 0.15, most_slope = 4;
     if (last_move_ != 0)
       slope_ = std::clamp((error - last_error_) / last_move_, least_slope, most_slope);
     last_error_ = error;
@@ -119,6 +119,12 @@ class Compression {
   struct GoodStep {
     double fraction = 0;
     State state;
+  };
+  struct Found {
+    double error = std::numeric_limits<double>::infinity();  ///< of the thickness [mm]
+    State state;
+    PlacedPlates plates;
+    double penalty = 0;
   };
   NewtonOptions exact_;      ///< of the last equilibrium
   GoodStep before_, reached_;  ///< the last two good steps
@@ -291,16 +297,25 @@ void Compression::finish(State& state) {
   constexpr int most_rounds = 16;
   constexpr double least_growth = 1.5, most_growth = 5, headroom = 1.2;
   constexpr double far = 1;  // [mm]: stiff contact does not follow a paddle that moves by more
+  // Skin between contact points snaps from one place to another, and the extent with it.
+  constexpr int patience = 4;
+  constexpr double nearly = 0.09;  // [mm]
   double most = most_growth;
   bool soft = false;
   ThicknessSecant secant;
-  for (int round = 0; round < most_rounds; ++round) {
+  Found best;
+  for (int round = 0, closed = 0; round < most_rounds; ++round) {
     const double excess = penetration(state) / options_.gap_tolerance;
     const double error = frame_.extent(state.x) - problem_.plates.thickness;
     const double lean = tilt_error(state);
     const bool off = std::abs(error) > options_.thickness_tolerance;
     const bool leans = std::abs(lean) > kTiltTolerance;
     if (excess <= 1 && !off && !leans) return;
+    if (excess <= 1 && !leans) {
+      if (std::abs(error) < best.error)
+        best = {std::abs(error), state, placed_, breast_.contact->penalty};
+      if (++closed >= patience && best.error <= nearly) break;
+    }
     const double growth = excess <= 1 ? 1 : std::clamp(headroom * excess, least_growth, most);
     const double most_move = round == 0 || soft ? std::abs(error) : far;
     const double move = off ? secant.move(error, most_move) : 0;
@@ -312,11 +327,16 @@ void Compression::finish(State& state) {
       breast_.contact->penalty *= growth;
       return resettle(newton_, *breast_.contact, exact_, trial);
     });
-    if (!good && soft) return;
+    if (!good && soft) break;
     soft = !good && (growth == 1 || most <= least_growth);
     if (!good) most = std::max(least_growth, std::sqrt(most));
     if (!good) secant = {};
   }
+  if (std::isinf(best.error)) return;
+  state = best.state;
+  put(best.plates);
+  breast_.contact->penalty = best.penalty;
+  track_friction(state);
 }
 
 /// Keeps what `attempt` does to the state, plates and penalty only if it succeeds.
