@@ -71,7 +71,7 @@ TEST_F(KilledRun, LosesNothingAndLeavesNothingHalfWritten) {
   run_patient("p");
   const double whole = std::chrono::duration<double>(Clock::now() - start).count();
   const auto expected = products();
-  ASSERT_EQ(expected.size(), 10u);
+  ASSERT_EQ(expected.size(), 11u);
   std::mt19937 random(1);
   for (int i = 0; i < num_kills(); ++i) {
     fs::remove_all(results("p"));
