@@ -142,7 +142,6 @@ Compression::Compression(const CompressionProblem& problem, const CompressionOpt
       frame_(problem.mesh, problem.plates),
       newton_(*breast_.model, *breast_.dofs) {
   check_thickness();
-  penalties_.exact = false;
   penalties_.newton.tolerance = penalties_.newton.constraint_tolerance =
       penalties_.newton.acceptable = kStepTolerance;
   if (breast_.friction) breast_.contact->follow = [this](const State& s) { track_friction(s); };

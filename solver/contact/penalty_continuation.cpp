@@ -61,8 +61,8 @@ NewtonReport solve_contact(Newton& newton, PlateContact& contact, double unit,
   for (double factor = options.first;; factor = std::min(factor * options.growth, options.last)) {
     const bool last = factor >= options.last * (1 - 1e-9);
     contact.penalty = factor * unit;
-    add(total, last && options.exact ? resettle(newton, contact, options.newton, state)
-                                     : approach(newton, contact, options.newton, state));
+    add(total, last ? resettle(newton, contact, options.newton, state)
+                    : approach(newton, contact, options.newton, state));
     if (last || !total.usable()) return total;
   }
 }

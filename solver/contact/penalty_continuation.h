@@ -13,7 +13,6 @@ struct PenaltyOptions {
   double first = 0.1;    ///< soft: the active set is found with next to no chatter
   double last = 100;     ///< leaves a penetration of about 1e-3 element sizes
   double growth = 10;
-  bool exact = true;     ///< balances the last one too, not only nearly
   NewtonOptions newton;
 };
 
