@@ -9,7 +9,7 @@
 #include "pipeline/evaluate/breast_inputs.h"
 #include "pipeline/evaluate/compression_row.h"
 #include "pipeline/evaluate/compression_summary.h"
-#include "pipeline/frame/process.h"
+#include "pipeline/frame/evaluation.h"
 #include "pipeline/frame/products.h"
 
 namespace mammotwin {
@@ -111,17 +111,8 @@ int run(const Arguments& args) {
 }  // namespace mammotwin
 
 int main(int argc, char** argv) {
-  mammotwin::prepare_process(argv);
-  CLI::App app("Compresses synthetic breasts and patients' label maps, and writes how each ended");
-  mammotwin::Arguments args;
-  mammotwin::declare(app, args);
-  try {
-    app.parse(argc, argv);
-    return mammotwin::run(args);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) ? 2 : 0;
-  } catch (const std::exception& error) {
-    std::cerr << "evaluate-compression: " << error.what() << std::endl;
-    return 1;
-  }
+  using namespace mammotwin;
+  return run_evaluation<Arguments>(argc, argv, "evaluate-compression",
+                                   "Compresses synthetic breasts and patients' label maps, and writes how each ended",
+                                   declare, run);
 }

@@ -5,7 +5,7 @@
 #include <iostream>
 
 #include "pipeline/evaluate/niftysim/comparison.h"
-#include "pipeline/frame/process.h"
+#include "pipeline/frame/evaluation.h"
 #include "pipeline/frame/products.h"
 
 namespace mammotwin {
@@ -54,17 +54,8 @@ int run(Arguments args) {
 }  // namespace mammotwin
 
 int main(int argc, char** argv) {
-  mammotwin::prepare_process(argv);
-  CLI::App app("Compresses a breast as NiftySim did and compares the displacement of its nodes");
-  mammotwin::Arguments args;
-  mammotwin::declare(app, args);
-  try {
-    app.parse(argc, argv);
-    return mammotwin::run(args);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) ? 2 : 0;
-  } catch (const std::exception& error) {
-    std::cerr << "evaluate-niftysim: " << error.what() << std::endl;
-    return 1;
-  }
+  using namespace mammotwin;
+  return run_evaluation<Arguments>(argc, argv, "evaluate-niftysim",
+                                   "Compresses a breast as NiftySim did and compares the displacement of its nodes",
+                                   declare, run);
 }

@@ -7,7 +7,7 @@
 #include "pipeline/evaluate/breast_inputs.h"
 #include "pipeline/evaluate/stage_command.h"
 #include "pipeline/evaluate/unload_rows.h"
-#include "pipeline/frame/process.h"
+#include "pipeline/frame/evaluation.h"
 #include "pipeline/frame/products.h"
 
 namespace mammotwin {
@@ -112,17 +112,8 @@ int run(const Arguments& args) {
 }  // namespace mammotwin
 
 int main(int argc, char** argv) {
-  mammotwin::prepare_process(argv);
-  CLI::App app("Unloads patients' breasts with three stiffnesses and writes how well that went");
-  mammotwin::Arguments args;
-  mammotwin::declare(app, args);
-  try {
-    app.parse(argc, argv);
-    return mammotwin::run(args);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) ? 2 : 0;
-  } catch (const std::exception& error) {
-    std::cerr << "evaluate-unload: " << error.what() << std::endl;
-    return 1;
-  }
+  using namespace mammotwin;
+  return run_evaluation<Arguments>(argc, argv, "evaluate-unload",
+                                   "Unloads patients' breasts with three stiffnesses and writes how well that went",
+                                   declare, run);
 }

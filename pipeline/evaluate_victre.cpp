@@ -4,7 +4,7 @@
 #include <iostream>
 
 #include "pipeline/evaluate/victre/victre_comparison.h"
-#include "pipeline/frame/process.h"
+#include "pipeline/frame/evaluation.h"
 #include "pipeline/frame/products.h"
 
 namespace mammotwin {
@@ -42,17 +42,8 @@ int run(const Arguments& args) {
 }  // namespace mammotwin
 
 int main(int argc, char** argv) {
-  mammotwin::prepare_process(argv);
-  CLI::App app("Compresses VICTRE's phantom as FEBio did and compares tissue and outline");
-  mammotwin::Arguments args;
-  mammotwin::declare(app, args);
-  try {
-    app.parse(argc, argv);
-    return mammotwin::run(args);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) ? 2 : 0;
-  } catch (const std::exception& error) {
-    std::cerr << "evaluate-victre: " << error.what() << std::endl;
-    return 1;
-  }
+  using namespace mammotwin;
+  return run_evaluation<Arguments>(argc, argv, "evaluate-victre",
+                                   "Compresses VICTRE's phantom as FEBio did and compares tissue and outline",
+                                   declare, run);
 }

@@ -1,6 +1,6 @@
 // validate: the paper's gel cylinder, squeezed in four ways, against other codes -> validation.json, pictures.
 
-#include "pipeline/frame/process.h"
+#include "pipeline/frame/evaluation.h"
 #include "pipeline/frame/products.h"
 #include "pipeline/validation/claims.h"
 #include "pipeline/validation/gel_figures.h"
@@ -76,17 +76,8 @@ int run(const Arguments& args) {
 }  // namespace mammotwin
 
 int main(int argc, char** argv) {
-  mammotwin::prepare_process(argv);
-  CLI::App app("Squeezes the paper's gel cylinder in four ways and compares with other codes");
-  mammotwin::Arguments args;
-  mammotwin::declare(app, args);
-  try {
-    app.parse(argc, argv);
-    return mammotwin::run(args);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) ? 2 : 0;
-  } catch (const std::exception& error) {
-    std::cerr << "validate: " << error.what() << std::endl;
-    return 1;
-  }
+  using namespace mammotwin;
+  return run_evaluation<Arguments>(argc, argv, "validate",
+                                   "Squeezes the paper's gel cylinder in four ways and compares with other codes",
+                                   declare, run);
 }
