@@ -134,6 +134,14 @@ struct CompressionResult {
   CompressionReport report;
 };
 
+struct CompressionCheckpoint;
+
+/// How a compression that was interrupted goes on (press/checkpoint.h).
+struct CompressionRestart {
+  const CompressionCheckpoint* from = nullptr;              ///< of the same problem; null: anew
+  std::function<void(const CompressionCheckpoint&)> keep;  ///< called after each load step; or empty
+};
+
 using Progress = std::function<void(double fraction, const std::string& what)>;
 
 /// Squeezes the breast between support and paddle to the thickness asked.
@@ -143,6 +151,6 @@ using Progress = std::function<void(double fraction, const std::string& what)>;
 /// the breast's, plates that never touch, nothing that holds the body. Where no equilibrium is
 /// found the report says why and how far it came.
 CompressionResult compress(const CompressionProblem& problem, const CompressionOptions& options,
-                           const Progress& progress = {});
+                           const Progress& progress = {}, const CompressionRestart& restart = {});
 
 }  // namespace mammotwin

@@ -217,7 +217,8 @@ CylinderFigures CylinderRun::run() {
   const LoadSteppingReport load = step_load(
       state, {1.0 / x_.steps, 1.0 / (64 * x_.steps), 2000, 1},
       [&](double fraction, State& s) { return equilibrate(fraction, s); },
-      [&](double fraction, const State& s, const NewtonReport&) {
+      [&](const LoadSteppingReport& so_far, const State& s, const NewtonReport&) {
+        const double fraction = so_far.reached;
         const double now = force(s);
         work += (now + last_force) / 2 * 2 * (height(last_fraction) - height(fraction));
         last_force = now;

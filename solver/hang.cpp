@@ -19,7 +19,7 @@ LoadSteppingReport raise_body_force(BreastModel& breast, Newton& newton,
                                          const Eigen::Vector3d&) { return force; });
         return newton.solve(trial, balance);
       },
-      [](double, const State&, const NewtonReport&) {});
+      [](const LoadSteppingReport&, const State&, const NewtonReport&) {});
 }
 
 double largest_distance(const std::vector<HermiteMesh::Node>& a,

@@ -80,8 +80,8 @@ LoadSteppingReport Unloading::take_off(double share, Nodes& unloaded) {
         return inverse_.solve(trial, fraction * weight, options_.tolerance,
                               options_.max_iterations);
       },
-      [&](double fraction, const State&, const NewtonReport&) {
-        say(0.5 * fraction, "gravity taken off");
+      [&](const LoadSteppingReport& so_far, const State&, const NewtonReport&) {
+        say(0.5 * so_far.reached, "gravity taken off");
       });
   unloaded = std::move(reference.x);
   return load;

@@ -5,10 +5,11 @@
 namespace mammotwin {
 
 LoadSteppingReport step_load(State& state, const LoadSteppingOptions& options,
-                             const Equilibrate& equilibrate, const StepDone& step_done) {
+                             const Equilibrate& equilibrate, const StepDone& step_done,
+                             const LoadSteppingReport& from) {
   constexpr double cut = 0.5;
-  LoadSteppingReport report;
-  double step = options.first_step;
+  LoadSteppingReport report = from;
+  double step = from.next_step > 0 ? from.next_step : options.first_step;
   while (!report.complete()) {
     if (report.iterations >= options.max_iterations) {
       report.reason += (report.reason.empty() ? "gave up after " : "; gave up after ") +
@@ -24,8 +25,9 @@ LoadSteppingReport step_load(State& state, const LoadSteppingOptions& options,
       state = std::move(trial);
       report.reached = target;
       ++report.steps;
-      step_done(target, state, newton);
       step = std::min({step * options.growth, options.largest_step, 1 - report.reached});
+      report.next_step = step;
+      step_done(report, state, newton);
       continue;
     }
     ++report.cutbacks;

@@ -1,0 +1,15 @@
+#pragma once
+
+#include "solver/press/press.h"
+
+namespace mammotwin {
+
+/// Fills in what can be measured on a state: thickness, force, area, J, penetration, tissue kept.
+void measure_compression(const Press& press, const State& state, CompressionReport& report);
+
+/// The paddle's force as the central difference of the total potential over its height, friction's
+/// part with it (contact pressures as they are: its potential knows no other) [N]. NaN where a
+/// neighbour finds no equilibrium. The plates end where they were.
+double force_from_energy(Press& press, const State& state);
+
+}  // namespace mammotwin

@@ -1,0 +1,100 @@
+#include "solver/press/press.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+
+namespace mammotwin {
+
+namespace {
+
+constexpr double kStepTolerance = 1e-2;  // of load steps before the last
+constexpr double kNearlyClosed = 0.5;  // [mm] penetration that a load step may leave: far less than
+                                       // an edge's rounding, so that tissue keeps to its side
+constexpr double kNewtonPerMilli = 1e-3;  // mN to N
+
+PenaltyOptions penalties_of_steps() {
+  PenaltyOptions penalties;
+  penalties.newton.tolerance = penalties.newton.constraint_tolerance =
+      penalties.newton.acceptable = kStepTolerance;
+  return penalties;
+}
+
+}  // namespace
+
+Press::Press(const CompressionProblem& problem, const CompressionOptions& options)
+    : problem_(problem),
+      options_(options),
+      breast_(make_breast_model(problem, options.solid)),
+      frame_(problem.mesh, problem.plates),
+      newton_(*breast_.model, *breast_.dofs) {
+  if (breast_.friction) breast_.contact->follow = [this](const State& s) { track_friction(s); };
+}
+
+void Press::put(const PlacedPlates& placed) {
+  placed_ = placed;
+  breast_.contact->plates = {placed_.support, placed_.paddle};
+}
+
+void Press::move_paddle(double height, double tilt) {
+  put(frame_.place(placed_.support_height, height, tilt));
+}
+
+ContactFigures Press::figures(const State& state, PlateNumber plate) const {
+  return contact_figures(*breast_.model, state, *breast_.contact, plate, breast_.contact_faces,
+                         breast_.friction.get());
+}
+
+double Press::penetration(const State& state) const {
+  return std::max(figures(state, kSupport).penetration, figures(state, kPaddle).penetration);
+}
+
+double Press::paddle_force(const State& state) const {
+  return -problem_.plates.up.dot(figures(state, kPaddle).force) * kNewtonPerMilli;
+}
+
+double Press::tilt_error(const State& state) const {
+  const PlateOptions& plates = problem_.plates;
+  if (std::isinf(plates.tilt_spring)) return 0;
+  const ContactFigures paddle = figures(state, kPaddle);
+  const Eigen::Vector3d pivot =
+      placed_.paddle.point + (plates.pivot - plates.rounding) * placed_.paddle.depth;
+  const double moment =
+      plates.depth.cross(plates.up).dot(paddle.moment - pivot.cross(paddle.force));
+  return plates.paddle_tilt + moment / plates.tilt_spring - placed_.paddle_tilt;
+}
+
+NewtonReport Press::squeeze(State& state, double penalty) {
+  const double unit = breast_.penalty_unit();
+  PenaltyOptions penalties = penalties_of_steps();
+  if (penalty > 0) {
+    penalties.first = penalty / unit / penalties.growth;
+    penalties.last = penalty / unit;
+  }
+  const NewtonReport report = solve_contact(newton_, *breast_.contact, unit, penalties, state);
+  if (!report.usable()) return report;
+  return then(report, close_gap(
+                          newton_, *breast_.contact, kNearlyClosed,
+                          [&](const State& s) { return penetration(s); }, penalties.newton, state));
+}
+
+NewtonReport Press::resettle(State& state) {
+  return mammotwin::resettle(newton_, *breast_.contact, NewtonOptions(), state);
+}
+
+void Press::track_friction(const State& state) {
+  if (breast_.friction) breast_.friction->track(*breast_.model, state, breast_.contact_faces);
+}
+
+PlateFriction::History Press::commit_friction(const State& state) {
+  if (!breast_.friction) return {};
+  breast_.friction->commit(*breast_.model, state, breast_.contact_faces);
+  return breast_.friction->history();
+}
+
+void Press::restore_friction(const PlateFriction::History& history) {
+  if (breast_.friction) breast_.friction->restore(history);
+}
+
+}  // namespace mammotwin

@@ -1,0 +1,71 @@
+#pragma once
+
+#include "solver/breast_model.h"
+#include "solver/compress.h"
+#include "solver/contact/contact_figures.h"
+#include "solver/contact/penalty_continuation.h"
+#include "solver/newton/newton.h"
+
+namespace mammotwin {
+
+/// Turns of the paddle that its spring still asks for when it counts as balanced [deg].
+constexpr double kTiltTolerance = 0.05;
+
+/// A breast and the two plates about it: moves the plates, measures what they do, and brings the
+/// breast to equilibrium between them. It has no load history but friction's.
+class Press {
+ public:
+  enum PlateNumber { kSupport, kPaddle };
+
+  /// Throws std::invalid_argument that names what is wrong with the problem. It must outlive this.
+  Press(const CompressionProblem& problem, const CompressionOptions& options);
+
+  const CompressionProblem& problem() const { return problem_; }
+  const CompressionOptions& options() const { return options_; }
+  const Model& model() const { return *breast_.model; }
+  const PlateFrame& frame() const { return frame_; }
+  const PlacedPlates& placed() const { return placed_; }
+  const BreastModel& breast() const { return breast_; }
+  BreastModel& breast() { return breast_; }
+  const Newton& newton() const { return newton_; }
+  Newton& newton() { return newton_; }
+  double penalty() const { return breast_.contact->penalty; }  ///< [kPa/mm]
+  void set_penalty(double penalty) { breast_.contact->penalty = penalty; }
+
+  void put(const PlacedPlates& placed);
+  void move_paddle(double height, double tilt);  ///< up · x [mm], [deg]
+  void take_plates_away() { breast_.contact->plates.clear(); }
+
+  double thickness(const State& state) const { return frame_.extent(state.x); }  ///< [mm]
+  ContactFigures figures(const State& state, PlateNumber plate) const;
+  double penetration(const State& state) const;   ///< largest, of both plates [mm]
+  double paddle_force(const State& state) const;  ///< [N]
+
+  /// By how much the spring would have the paddle tilt further [deg]; 0 for a rigid one.
+  double tilt_error(const State& state) const;
+
+  /// Equilibrium with the plates where they are, to the tolerance of load steps: at a soft penalty
+  /// first, then at stiffer ones until no point is more than half a millimetre inside. `penalty` is
+  /// one that was enough nearby [kPa/mm]; 0: none is known.
+  NewtonReport squeeze(State& state, double penalty);
+
+  /// Exact equilibrium near a state that already is one.
+  NewtonReport resettle(State& state);
+
+  /// Brings friction's pressures up to a state.
+  void track_friction(const State& state);
+
+  /// Ends a load step: fixes where points stick, for the next one. Empty without friction.
+  PlateFriction::History commit_friction(const State& state);
+  void restore_friction(const PlateFriction::History& history);
+
+ private:
+  const CompressionProblem& problem_;
+  const CompressionOptions& options_;
+  BreastModel breast_;
+  PlateFrame frame_;
+  Newton newton_;
+  PlacedPlates placed_;
+};
+
+}  // namespace mammotwin
