@@ -7,6 +7,7 @@
 #include "pipeline/frame/stage.h"
 #include "registration/view_frame.h"
 #include "segmentation/segmentation_file.h"
+#include "solver/press/checkpoint.h"
 
 #include <Eigen/Geometry>
 
@@ -90,6 +91,31 @@ MeshFile compressed_file(const MeshFile& reference, const CompressionResult& res
   return file;
 }
 
+/// How far a run that was interrupted had come, if it was of the same problem.
+std::optional<CompressionCheckpoint> interrupted_run(const StageRun& stage) {
+  const auto bytes = stage.checkpoint.read();
+  if (!bytes) return std::nullopt;
+  try {
+    CompressionCheckpoint found = decode_checkpoint(*bytes, stage.checkpoint.run());
+    stage.progress(found.load.reached, "goes on where an interrupted run stopped");
+    return found;
+  } catch (const std::runtime_error&) {  // another problem's, or damaged: begin anew
+    return std::nullopt;
+  }
+}
+
+CompressionResult compress_with_checkpoints(const CompressionProblem& problem,
+                                            const CompressionOptions& options,
+                                            const StageRun& stage) {
+  const auto interrupted = interrupted_run(stage);
+  CompressionRestart restart;
+  if (interrupted) restart.from = &*interrupted;
+  restart.keep = [&](const CompressionCheckpoint& good) {
+    stage.checkpoint.write(encode_checkpoint(good, stage.checkpoint.run()));
+  };
+  return compress(problem, options, stage.progress, restart);
+}
+
 Outcome run(const Arguments& args, StageRun& stage) {
   const Patient& patient = stage.patient;
   const ViewSettings& view = patient.view(args.view);
@@ -108,7 +134,8 @@ Outcome run(const Arguments& args, StageRun& stage) {
     problem.density = patient.gravity.density();
   }
 
-  const CompressionResult result = compress(problem, patient.compression.options, stage.progress);
+  const CompressionResult result =
+      compress_with_checkpoints(problem, patient.compression.options, stage);
   if (result.report.usable())
     write_mesh_file(stage.products.write_main(),
                     compressed_file(mesh, result, problem.plates, axes, side, view.angle_deg));

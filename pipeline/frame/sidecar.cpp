@@ -22,14 +22,6 @@ std::string relative_to(const fs::path& folder, const fs::path& path) {
   return whole(path).lexically_relative(whole(folder)).generic_string();
 }
 
-json provenance_json(const Provenance& p) {
-  return {{"stage", p.stage},
-          {"version", p.version},
-          {"program_sha256", p.program_sha256},
-          {"parameters", p.parameters},
-          {"inputs", p.inputs}};
-}
-
 bool outputs_are_intact(const json& sidecar, const fs::path& folder) {
   for (const json& output : sidecar.at("outputs")) {
     const fs::path path = folder / output.at("path").get<std::string>();
@@ -44,6 +36,14 @@ json read_json(const fs::path& path) {
 }
 
 }  // namespace
+
+json provenance_json(const Provenance& p) {
+  return {{"stage", p.stage},
+          {"version", p.version},
+          {"program_sha256", p.program_sha256},
+          {"parameters", p.parameters},
+          {"inputs", p.inputs}};
+}
 
 Provenance make_provenance(const std::string& stage, const json& parameters,
                            const std::vector<fs::path>& inputs, const fs::path& product) {

@@ -25,6 +25,8 @@ Provenance make_provenance(const std::string& stage, const nlohmann::json& param
                            const std::vector<std::filesystem::path>& inputs,
                            const std::filesystem::path& product);
 
+nlohmann::json provenance_json(const Provenance& provenance);
+
 /// results/P/prone.vtu -> results/P/prone.vtu.json.
 std::filesystem::path sidecar_path(const std::filesystem::path& product);
 

@@ -70,13 +70,13 @@ struct Attempt {
   Usage usage;
 };
 
-Attempt attempt(const Stage& stage, const Patient& patient, Products& products, int argc,
-                char** argv) {
+Attempt attempt(const Stage& stage, const Patient& patient, Products& products,
+                const Checkpoint& checkpoint, int argc, char** argv) {
   const auto start = std::chrono::steady_clock::now();
   Attempt a;
   ProgressLine progress(stage.name);
   try {
-    StageRun run{patient, products, progress.callback()};
+    StageRun run{patient, products, checkpoint, progress.callback()};
     a.outcome = stage.run(run);
     require_reasons(a.outcome);
   } catch (const std::bad_alloc&) {
@@ -94,7 +94,8 @@ Attempt attempt(const Stage& stage, const Patient& patient, Products& products, 
 int run_parsed(const Stage& stage, const fs::path& product, const Patient& patient,
                const Provenance& provenance, int argc, char** argv) {
   Products products(product);
-  const Attempt a = attempt(stage, patient, products, argc, argv);
+  const Checkpoint checkpoint(product, provenance);
+  const Attempt a = attempt(stage, patient, products, checkpoint, argc, argv);
   std::vector<std::string> written;
   if (a.outcome.usable()) {
     written = products.names();
@@ -103,6 +104,7 @@ int run_parsed(const Stage& stage, const fs::path& product, const Patient& patie
   const auto sidecar = make_sidecar(product, provenance, a.outcome, written, a.usage);
   write_text_atomically(sidecar_path(product), sidecar.dump(1) + "\n");
   if (!a.outcome.usable()) remove_stale_product(product);
+  if (a.outcome.status != Status::refused) checkpoint.remove();
   say_outcome(stage, product, a.outcome, a.usage.seconds);
   return exit_code(a.outcome.status);
 }

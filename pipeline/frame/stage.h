@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "pipeline/frame/checkpoint.h"
 #include "pipeline/frame/outcome.h"
 #include "pipeline/frame/products.h"
 #include "pipeline/frame/progress_line.h"
@@ -24,6 +25,7 @@ struct StagePlan {
 struct StageRun {
   const Patient& patient;
   Products& products;
+  Checkpoint checkpoint;  ///< for a stage that takes long
   std::function<void(double, const std::string&)> progress;
 };
 

@@ -232,7 +232,7 @@ Squeeze PlateSqueeze::run() {
   steps.first_step = 0.5;  // half way the breast has hardly begun to roll
   const LoadSteppingReport report = step_load(
       state, steps, [&](double fraction, State& s) { return equilibrate(fraction, s); },
-      [](double, const State&, const NewtonReport&) {});
+      [](const LoadSteppingReport&, const State&, const NewtonReport&) {});
   const Balance balance = newton_->balance(state);
   Squeeze squeeze;
   squeeze.reason = report.complete() ? "" : report.reason;
