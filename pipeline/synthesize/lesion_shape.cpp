@@ -14,6 +14,8 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double clearance_mm = 6;
+// From the base to the tip: what lies further back hides behind the detector's edge in CC.
+constexpr double rearmost_share = 0.45;
 constexpr int attempts = 20000;
 
 Eigen::Matrix3d random_rotation(CounterRandom& random) {
@@ -63,7 +65,7 @@ std::vector<LesionShape> place_lesions(const Chest& chest, const AnatomyOptions&
     const double share = (static_cast<double>(lesions.size()) + random.uniform()) / o.lesions;
     const double diameter = o.lesion_min_mm + share * (o.lesion_max_mm - o.lesion_min_mm);
     const Vector3d x =
-        b.axis(random.uniform(0.15, 0.9)) +
+        b.axis(random.uniform(rearmost_share, 0.9)) +
         Vector3d(random.uniform(-0.7, 0.7) * b.width, 0, random.uniform(-0.7, 0.7) * b.height);
     const LesionShape candidate(x, diameter, o.seed, static_cast<int>(lesions.size()));
     if (has_room(chest, x, candidate.reach(), lesions)) lesions.push_back(candidate);
