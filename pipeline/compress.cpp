@@ -81,6 +81,7 @@ MeshFile compressed_file(const MeshFile& reference, const CompressionResult& res
   const bool was_unloaded = reference.configurations.contains("prone");
   file.configurations[was_unloaded ? "unloaded" : "prone"] = reference.mesh.nodes();
   file.mesh = HermiteMesh(result.deformed, reference.mesh.elements());
+  file.fields.insert(result.fields.begin(), result.fields.end());
   const Eigen::Vector3d origin = view_origin(plates, result.plates);
   file.metadata["view_side"] = {side == Side::left ? 0.0 : 1.0};
   file.metadata["view_angle_deg"] = {angle_deg};

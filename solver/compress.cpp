@@ -8,6 +8,7 @@
 #include "solver/press/compression_figures.h"
 #include "solver/press/finish.h"
 #include "solver/press/press.h"
+#include "solver/press/solution_fields.h"
 
 #include <algorithm>
 #include <chrono>
@@ -288,7 +289,7 @@ LoadSteppingReport Compression::close_plates(State& state) {
 CompressionResult Compression::run() {
   const auto start = std::chrono::steady_clock::now();
   State state;
-  if (!begin(state)) return {state.x, state.pressure, press_.placed(), report_};
+  if (!begin(state)) return {state.x, state.pressure, press_.placed(), {}, report_};
   const LoadSteppingReport load = close_plates(state);
   measure_compression(press_, state, report_);
   judge(load);
@@ -296,7 +297,9 @@ CompressionResult Compression::run() {
   report_.seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (progress_) progress_(1, "compressed to " + in_mm(report_.thickness_mm));
-  return {state.x, state.pressure, press_.placed(), report_};
+  CompressionResult result{state.x, state.pressure, press_.placed(), {}, report_};
+  if (report_.usable()) result.fields = solution_fields(press_, state);
+  return result;
 }
 
 }  // namespace

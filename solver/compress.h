@@ -10,6 +10,7 @@
 
 #include <array>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -131,6 +132,7 @@ struct CompressionResult {
   std::vector<HermiteMesh::Node> deformed;  ///< at the last good step
   std::vector<double> pressure;             ///< 8 an element (State::pressure)
   PlacedPlates plates;                      ///< where they ended
+  std::map<std::string, PointField> fields;  ///< press/solution_fields.h; empty if not usable
   CompressionReport report;
 };
 
