@@ -34,8 +34,8 @@ help:
 	@echo 'make cohort            every patient of DATA (or PATIENTS="042 043"): cohort.tsv, failed.tsv,'
 	@echo '                       cohort.html; JOBS=4 at a time, ONLY=failed, ENGINE=slurm, CONFIG=file'
 	@echo 'make verify-results P=042   are all files still those that were written?'
-	@echo 'make evaluate-segmentation  segments SYNTHETIC=20 synthetic patients:'
-	@echo '                       RESULTS/evaluation/segmentation.json'
+	@echo 'make evaluate-segmentation  segments SYNTHETIC=20 synthetic patients, and MRI simulated from the'
+	@echo '                       label maps of CASES=folder: RESULTS/evaluation/segmentation.json; JOBS=2 at a time'
 	@echo 'make evaluate-fitting  fits every breast of CASES=folder: RESULTS/evaluation/fitting.json'
 	@echo 'make evaluate-unload   takes gravity off every breast of CASES: RESULTS/evaluation/unload.json'
 	@echo 'make evaluate-compression   compresses SYNTHETIC=200 drawn breasts and those of CASES=folder in'
@@ -59,7 +59,8 @@ cohort: build
 	@pipeline/cohort/run_cohort.sh
 
 evaluate-segmentation: build
-	@"$$BIN/mammotwin-evaluate-segmentation" "$$RESULTS/evaluation/segmentation.json" $${SYNTHETIC:+--synthetic "$$SYNTHETIC"}
+	@"$$BIN/mammotwin-evaluate-segmentation" "$$RESULTS/evaluation/segmentation.json" --cases "$$CASES" \
+	  $${SYNTHETIC:+--synthetic "$$SYNTHETIC"} $${JOBS:+--jobs "$$JOBS"} $${ONLY:+--only "$$ONLY"}
 
 evaluate-fitting: build
 	@"$$BIN/mammotwin-evaluate-fitting" "$$CASES" "$$RESULTS/evaluation/fitting.json"

@@ -57,6 +57,30 @@ Mask border_with(const Mask& labels, std::uint8_t other, int inset) {
   return out;
 }
 
+/// Columns that hold true muscle, and whose neighbours do, as a mask.
+Mask columns_with_muscle(const Mask& truth) {
+  const int nx = truth.size.x(), nz = truth.size.z();
+  std::vector<std::uint8_t> muscle(static_cast<std::size_t>(nx) * nz, 0);
+  for (int k = 0; k < nz; ++k)
+    for (int j = 0; j < truth.size.y(); ++j)
+      for (int i = 0; i < nx; ++i) muscle[k * nx + i] |= truth(i, j, k) == label::muscle;
+  const auto has = [&](int i, int k) {
+    return muscle[std::clamp(k, 0, nz - 1) * nx + std::clamp(i, 0, nx - 1)] != 0;
+  };
+  auto scored = truth.like<std::uint8_t>(0);
+  for (int k = 0; k < nz; ++k)
+    for (int j = 0; j < truth.size.y(); ++j)
+      for (int i = 0; i < nx; ++i)
+        scored(i, j, k) =
+            has(i, k) && has(i - 1, k) && has(i + 1, k) && has(i, k - 1) && has(i, k + 1);
+  return scored;
+}
+
+Mask both(Mask a, const Mask& b) {
+  for (std::size_t v = 0; v < a.values.size(); ++v) a.values[v] = a.values[v] && b.values[v];
+  return a;
+}
+
 void score_lesions(const Segmentation& truth, const Segmentation& found, const Mask& a,
                    const Mask& b, SegmentationScore& score) {
   for (std::size_t n = 0; n < std::min(truth.lesions.size(), found.lesions.size()); ++n) {
@@ -98,23 +122,34 @@ std::optional<SurfaceDistance> surface_distance(const Mask& a, const Mask& b) {
   return d;
 }
 
-SegmentationScore score_segmentation(const Segmentation& truth, const Segmentation& found) {
+SegmentationScore score_segmentation(const Segmentation& truth, const Segmentation& found,
+                                     double fibroglandular_off_muscle_mm) {
   const Mask a = cropped_to_region(truth.labels, truth.region);
   const Mask b = labels_on(a, found.labels);
   const auto is = [](std::uint8_t wanted) {
     return [wanted](std::uint8_t value) { return value == wanted; };
   };
   SegmentationScore score;
-  score.breast_dice = dice(where(a, label::is_breast), where(b, label::is_breast));
-  score.skin_dice = dice(where(a, is(label::skin)), where(b, is(label::skin)));
-  score.fibroglandular_dice =
-      dice(where(a, is(label::fibroglandular)), where(b, is(label::fibroglandular)));
+  const Mask scored = columns_with_muscle(a);
+  const auto overlap = [&](const auto& keep) {
+    return dice(both(where(a, keep), scored), both(where(b, keep), scored));
+  };
+  score.breast_dice = overlap(label::is_breast);
+  score.skin_dice = overlap(is(label::skin));
+  const Volume<float> off_muscle = distance_to(where(a, is(label::muscle)));
+  auto apart = scored;
+  for (std::size_t v = 0; v < apart.values.size(); ++v)
+    apart.values[v] &= off_muscle.values[v] >= fibroglandular_off_muscle_mm;
+  score.fibroglandular_dice = dice(both(where(a, is(label::fibroglandular)), apart),
+                                   both(where(b, is(label::fibroglandular)), apart));
   constexpr double inset_mm = 5;
   const int inset = static_cast<int>(inset_mm / a.spacing.minCoeff());
-  score.chest_wall =
-      surface_distance(border_with(a, label::muscle, inset), border_with(b, label::muscle, inset));
-  score.skin_surface =
-      surface_distance(border_with(a, label::air, inset), border_with(b, label::air, inset));
+  const auto apart_by = [&](std::uint8_t other) {
+    return surface_distance(both(border_with(a, other, inset), scored),
+                            both(border_with(b, other, inset), scored));
+  };
+  score.chest_wall = apart_by(label::muscle);
+  score.skin_surface = apart_by(label::air);
   score_lesions(truth, found, a, b, score);
   score.nipple_mm = (truth.nipple_in_lps - found.nipple_in_lps).norm();
   return score;

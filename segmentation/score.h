@@ -29,7 +29,10 @@ struct SegmentationScore {
 
 /// `truth` carries labels (both sides or one), region, lesions in label order and nipple; its
 /// fractions are not looked at. The found labels are read at the truth's voxel centres. The
-/// chest wall is scored away from the region's edges by 5 mm.
-SegmentationScore score_segmentation(const Segmentation& truth, const Segmentation& found);
+/// chest wall is scored away from the region's edges by 5 mm, fibroglandular tissue this far and
+/// more off the true muscle. Columns in which the truth has no muscle are not scored: nothing says
+/// where the breast ends there.
+SegmentationScore score_segmentation(const Segmentation& truth, const Segmentation& found,
+                                     double fibroglandular_off_muscle_mm = 0);
 
 }  // namespace mammotwin

@@ -58,7 +58,7 @@ std::vector<Lesion> measure_lesions(const TissueMap& tissue, int count) {
       for (int i = 0; i < v.size.x(); ++i) {
         const VoxelMixture& m = v(i, j, k);
         const int p = m[Substance::lesion];
-        if (p == 0) continue;
+        if (p == 0 || m.lesion >= count) continue;  // the other side's come last
         parts[m.lesion] += p;
         moments[m.lesion] += p * v.position(i, j, k);
       }
@@ -78,12 +78,9 @@ std::vector<Vector3d> centroids(const std::vector<Lesion>& lesions) {
 Truth measure(const Anatomy& anatomy, const TissueMap& tissue, const Volume<std::uint8_t>& labels,
               const ViewOptions& views) {
   const Side side = anatomy.options().side;
-  Truth truth;
-  truth.lesions = measure_lesions(tissue, anatomy.options().lesions);
-  truth.region = true_region(columns_of(labels), side, centroids(truth.lesions));
+  Truth truth = measure_truth(tissue, labels, side, anatomy.options().lesions);
   truth.nipple_in_lps = anatomy.chest().nipple(side).tip();
   truth.skin_thickness_mm = anatomy.options().skin_mm;
-  measure_tissue(tissue, truth);
   truth.cc_extent_mm = extent_along_beam(labels, truth.region, 0);
   truth.mlo_extent_mm = extent_along_beam(labels, truth.region, views.mlo_angle_deg);
   return truth;
@@ -124,6 +121,15 @@ Segmentation true_segmentation(const TissueMap& tissue, const Volume<std::uint8_
                                 m[Substance::lesion] / all};
       }
   return s;
+}
+
+Truth measure_truth(const TissueMap& tissue, const Volume<std::uint8_t>& labels, Side side,
+                    int lesions) {
+  Truth truth;
+  truth.lesions = measure_lesions(tissue, lesions);
+  truth.region = true_region(columns_of(labels), side, centroids(truth.lesions));
+  measure_tissue(tissue, truth);
+  return truth;
 }
 
 SyntheticPatient make_patient_without_scan(const PatientOptions& o) {

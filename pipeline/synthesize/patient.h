@@ -32,6 +32,10 @@ struct SyntheticPatient {
 /// Label of the material that fills most of each voxel; both sides.
 Volume<std::uint8_t> label_map(const TissueMap& tissue);
 
+/// Region, volumes and lesions (materials' numbers 0 to `lesions` - 1) of one side.
+Truth measure_truth(const TissueMap& tissue, const Volume<std::uint8_t>& labels, Side side,
+                    int lesions);
+
 /// Patient as `segment` would hand it on if it made no mistake: labels of one half, fractions,
 /// region, lesions and nipple.
 Segmentation true_segmentation(const TissueMap& tissue, const Volume<std::uint8_t>& labels,

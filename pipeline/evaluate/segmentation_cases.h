@@ -1,0 +1,27 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "pipeline/synthesize/patient.h"
+
+namespace mammotwin {
+
+/// A breast whose truth is known, imaged by the simulator when asked for.
+struct SegmentationCase {
+  std::string name;  ///< "seed-1004" or "Exam_07-left-not_suppressed"
+  Contrast contrast = Contrast::fat_suppressed;
+  std::function<SyntheticPatient()> make;
+};
+
+/// Patients drawn from seeds 1000, 1001, ...: they differ in everything that the study of
+/// segmentation found to matter, spread evenly by steps that do not divide each other.
+std::vector<SegmentationCase> drawn_cases(int count);
+
+/// Both breasts of every label map below `cases`, each in both contrasts: noise 3 to 8 % of fat,
+/// shading over 1:5, voxels of 1.2 mm, 10 to 25 mm of muscle in front of a filled thorax.
+std::vector<SegmentationCase> label_map_cases(const std::filesystem::path& cases);
+
+}  // namespace mammotwin
