@@ -65,6 +65,28 @@ BodyStage crop_to_frame(const Volume<float>& image, const Volume<std::uint8_t>& 
   return stage;
 }
 
+/// The frame; a body that has breasts only when seen from behind names its header's fault.
+BreastFrame checked_frame(const Volume<std::uint8_t>& body) {
+  std::string reason;
+  try {
+    return find_breast_frame(body);
+  } catch (const std::runtime_error& error) {
+    reason = error.what();
+  }
+  auto turned = body;
+  for (int k = 0; k < body.size.z(); ++k)
+    for (int j = 0; j < body.size.y(); ++j)
+      for (int i = 0; i < body.size.x(); ++i) turned(i, j, k) = body(i, body.size.y() - 1 - j, k);
+  try {
+    find_breast_frame(turned);
+  } catch (const std::runtime_error&) {
+    throw std::runtime_error(reason);
+  }
+  throw std::runtime_error(
+      "the breasts stand out towards the patient's back: front and back are exchanged in the "
+      "header; expected a prone MRI with its true orientation (export it again)");
+}
+
 /// Body columns that begin on the first row: the field of view cuts the breast's tip.
 double clipped_in_front(const Volume<std::uint8_t>& body) {
   double clipped = 0;
@@ -79,12 +101,13 @@ BodyStage find_body(const Volume<float>& image, SegmentQuality& quality) {
   check_extent(image);
   const double noise = estimate_noise(image);
   const Volume<std::uint8_t> body = coarse_body(image, noise);
+  const BreastFrame frame = checked_frame(body);
   constexpr double largest_clip_cm2 = 4;  // a nipple's worth: the breast's tip is missing
   if (const double clip = clipped_in_front(body); clip > largest_clip_cm2)
     throw std::runtime_error("the breast is cut by the field of view in front over " +
                              std::to_string(static_cast<int>(clip)) +
                              " cm2; expected air in front of it");
-  BodyStage stage = crop_to_frame(image, body, find_breast_frame(body));
+  BodyStage stage = crop_to_frame(image, body, frame);
   stage.noise = noise;
   stage.depth = depth_below_surface(stage.body);
   stage.contrast = find_contrast(stage.image, stage.depth, stage.frame);

@@ -19,6 +19,7 @@ struct DicomSlice {
   std::string series_number;
   std::string series_description;
   bool geometry_known = true;  ///< false: the header does not say where the frames stand
+  std::string patient_position;  ///< as the header has it, "HFP" for head first, prone
   std::string phase;           ///< equal within one acquisition of a series in several phases
 };
 

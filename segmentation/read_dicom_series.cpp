@@ -166,6 +166,7 @@ DicomVolume read_dicom_series(const fs::path& path, const std::optional<std::str
     Series chosen = choose_series(std::move(all), wanted, out.notes);
     choose_phase(chosen, wanted_phase, out.notes);
     out.geometry_known = chosen.slices.front().geometry_known;
+    out.patient_position = chosen.slices.front().patient_position;
     out.image = load(chosen);
     for (const DicomSlice& slice : chosen.slices)
       if (out.files.empty() || out.files.back() != slice.file) out.files.push_back(slice.file);

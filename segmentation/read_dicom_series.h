@@ -13,6 +13,7 @@ struct DicomVolume {
   GridImage image;
   std::vector<std::filesystem::path> files;  ///< those that the volume was made from
   std::vector<std::string> notes;            ///< what was left aside and chosen, in sentences
+  std::string patient_position;              ///< "HFP"; empty where the header does not say
   bool geometry_known = true;                ///< false: sizes and places were assumed
 };
 

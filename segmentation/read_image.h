@@ -16,6 +16,7 @@ struct Mri {
   Volume<float> image;                       ///< [scanner units]
   std::vector<std::filesystem::path> files;  ///< what was read
   std::vector<std::string> notes;            ///< what the reader chose or changed, in sentences
+  std::string patient_position;              ///< DICOM's code, "HFP"; empty where not known
   bool geometry_known = true;  ///< false: the header gives no places; axial, 1 mm was assumed
 };
 

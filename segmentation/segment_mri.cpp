@@ -25,6 +25,15 @@ Side choose_side(const SegmentInput& input, const std::vector<PlacedSeed>& seeds
                            " on the right; set side = \"left\" or \"right\" in patient.toml");
 }
 
+/// The breasts were found hanging forwards: a header that says otherwise is doubted.
+void judge_position(const std::string& position, SegmentQuality& quality) {
+  quality.patient_position = position;
+  if (!position.empty() && position.back() != 'P')
+    quality.doubt(SegmentStatus::look,
+                  "the header says that the patient lay " + position +
+                      ", not prone (HFP, FFP); the image must show breasts that hang forwards");
+}
+
 void judge_wall(const BodyStage& body, const WallStage& wall, Side side, SegmentQuality& quality) {
   constexpr double largest_doubt = 0.2;  // study: 0.12 at most where the wall was within 1.3 mm
   quality.chest_wall_doubt = wall.wall.doubt(side, body.frame.z_low, body.frame.z_high);
@@ -105,6 +114,7 @@ SegmentResult segment_image(const Mri& mri, const SegmentInput& input,
   SegmentResult result;
   result.files = mri.files;
   result.quality.notes = mri.notes;
+  judge_position(mri.patient_position, result.quality);
 
   progress(0.10, "finding the outline");
   const BodyStage body = find_body(mri.image, result.quality);

@@ -45,6 +45,8 @@ std::string to_string(Side side) { return side == Side::left ? "left" : "right";
 
 json to_json(const SegmentQuality& q) {
   return {{"side", to_string(q.side)},
+          {"patient_position",
+           q.patient_position.empty() ? json(nullptr) : json(q.patient_position)},
           {"contrast", q.contrast},
           {"breast_volume_ml", q.breast_volume_ml},
           {"fat_ml", q.fat_ml},

@@ -19,6 +19,7 @@ struct SegmentQuality {
   std::vector<std::string> notes;    ///< what was chosen or assumed, in sentences
 
   Side side = Side::left;
+  std::string patient_position;  ///< DICOM's code ("HFP": head first, prone); empty: not known
   std::string contrast;  ///< "fat-suppressed", "not fat-suppressed" or "labels"
   double breast_volume_ml = 0, fat_ml = 0, fibroglandular_ml = 0, skin_ml = 0;  ///< in the region
   std::vector<Lesion> lesions;
