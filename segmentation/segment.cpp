@@ -1,12 +1,14 @@
 #include "segmentation/segment.h"
 
 #include <cmath>
+#include <sstream>
 #include <stdexcept>
 
 #include "segmentation/breast_region.h"
 #include "segmentation/distance.h"
 #include "segmentation/half_body.h"
 #include "segmentation/landmarks.h"
+#include "segmentation/nipple.h"
 #include "segmentation/read_image.h"
 #include "segmentation/segment_labels.h"
 #include "segmentation/segment_mri.h"
@@ -32,14 +34,26 @@ void crop(SegmentResult& result) {
   if (!result.image.values.empty()) result.image = cropped(result.image, box.low, box.high);
 }
 
-void find_nipple(const SegmentInput& input, Segmentation& s, SegmentQuality& quality) {
+void note_nipple(const Nipple& nipple, SegmentQuality& quality) {
+  if (!(nipple.stands_out_mm > 0))
+    return quality.notes.push_back(
+        "no nipple stands out of the skin: it was taken as the most anterior point");
+  std::ostringstream note;
+  note.precision(2);
+  note << "the nipple was found as what stands out of the skin by " << nipple.stands_out_mm
+       << " mm";
+  quality.notes.push_back(note.str());
+}
+
+void place_nipple(const SegmentInput& input, Segmentation& s, SegmentQuality& quality) {
   if (input.nipple_in_lps) {
     s.nipple_in_lps = *input.nipple_in_lps;
   } else if (input.nipple_markups) {
     s.nipple_in_lps = read_markups_point(*input.nipple_markups);
   } else {
-    s.nipple_in_lps = most_anterior_point(s.labels, s.region);
-    quality.notes.push_back("the nipple was taken as the most anterior skin point");
+    const Nipple nipple = find_nipple(s.labels, s.region);
+    s.nipple_in_lps = nipple.tip_in_lps;
+    note_nipple(nipple, quality);
     return;
   }
   auto breast = s.labels.like<std::uint8_t>(0);
@@ -136,7 +150,7 @@ SegmentResult segment(const SegmentInput& input, const SegmentOptions& options,
   settle_fractions(s);
   crop(result);
   s.region = find_breast_region(s.labels, s.region.side);
-  find_nipple(input, s, q);
+  place_nipple(input, s, q);
   if (input.label_map) hand_on_mri(input, result);
   tell(0.95, "measuring");
   q.side = s.region.side;
