@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "segmentation/dicom_slice.h"
+#include "segmentation/trial_read.h"
 
 namespace mammotwin {
 namespace {
@@ -40,6 +41,18 @@ std::vector<fs::path> files_of(const fs::path& path) {
   if (files.empty())
     throw std::runtime_error("the folder is empty; expected the DICOM files of one MRI series");
   return files;
+}
+
+/// Throws where the DICOM library would end the program over one of the files.
+void check_survivable(const std::vector<fs::path>& files) {
+  const auto fatal = first_fatal(files.size(), [&](std::size_t n) {
+    const std::vector<DicomSlice> slices = read_dicom_slices(files[n]);
+    if (!slices.empty() && slices.front().modality == "MR") read_dicom_pixels(files[n]);
+  });
+  if (fatal)
+    throw std::runtime_error(files[*fatal].filename().string() +
+                             ": is damaged, the DICOM library cannot go through it; expected a "
+                             "complete DICOM file (copy or export it again)");
 }
 
 std::vector<Series> group_series(const std::vector<fs::path>& files, std::size_t& set_aside) {
@@ -155,6 +168,7 @@ DicomVolume read_dicom_series(const fs::path& path, const std::optional<std::str
   }
   try {
     const std::vector<fs::path> files = files_of(path);
+    check_survivable(files);
     std::size_t set_aside = 0;
     std::vector<Series> all = group_series(files, set_aside);
     if (all.empty())

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "segmentation/scan_meta.h"
 #include "segmentation/scan_nifti.h"
 
 namespace mammotwin {
@@ -141,6 +142,7 @@ bool is_image_file_name(const fs::path& path) {
 
 RawImage read_raw_image(const fs::path& path, std::map<std::string, std::string>* keys,
                         int components) {
+  if (is_meta(lower_name(path))) check_meta_header(path);
   const itk::ImageIOBase::Pointer io = io_for(lower_name(path));
   io->SetFileName(path.string());
   RawImage image;
