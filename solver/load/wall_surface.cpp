@@ -14,7 +14,6 @@ namespace mammotwin {
 namespace {
 
 constexpr int kSamples1d = 5;        // 25 a patch find the right neighbourhood of a smooth wall
-constexpr int kCandidates = 4;       // patches that meet at a node
 constexpr int kProjectionSteps = 30; // Newton converges in 3 to 6
 constexpr double kRimTolerance = 1e-9;
 
@@ -64,6 +63,24 @@ Eigen::Vector2d foot_step(const SurfaceJet& j, const Eigen::Vector3d& x) {
   return step * std::min(1.0, 0.5 / std::max(step.cwiseAbs().maxCoeff(), 1e-300));
 }
 
+/// Box of the patch's Bézier points, whose hull it lies in: value ± slope/3 at each end, both ways.
+Eigen::AlignedBox3d bezier_box(const Eigen::Matrix<double, 3, 16>& c) {
+  const auto point = [](int i, int t) {  // weight of one-dimensional function t in Bézier point i
+    const int end = i / 2;
+    if (t / 2 != end) return 0.0;
+    if (t % 2 == 0) return 1.0;
+    return i == 1 ? 1.0 / 3 : i == 2 ? -1.0 / 3 : 0.0;
+  };
+  Eigen::AlignedBox3d box;
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < 4; ++j) {
+      Eigen::Vector3d b = Eigen::Vector3d::Zero();
+      for (int a = 0; a < 16; ++a) b += point(i, a & 3) * point(j, a >> 2) * c.col(a);
+      box.extend(b);
+    }
+  return box;
+}
+
 int stride(int direction) { return direction == 0 ? 1 : direction == 1 ? 4 : 16; }
 
 }  // namespace
@@ -84,6 +101,7 @@ WallSurface::WallSurface(const HermiteMesh& mesh, const std::vector<std::pair<in
     }
     const double outward = (face / 2 == 1 ? -1 : 1) * (face % 2 ? 1 : -1);
     patch.orientation = -outward;
+    patch.box = bezier_box(patch.coefficients);
     patches_.push_back(patch);
   }
 }
@@ -103,21 +121,15 @@ WallSurface::Foot WallSurface::project(const Patch& patch, const Eigen::Vector3d
           (xi - clamped).cwiseAbs().maxCoeff() <= kRimTolerance};
 }
 
-std::vector<const WallSurface::Patch*> WallSurface::nearest_patches(const Eigen::Vector3d& x) const {
-  std::vector<std::pair<double, int>> order;
-  for (std::size_t i = 0; i < patches_.size(); ++i)
-    order.push_back({(patches_[i].samples.colwise() - x).colwise().squaredNorm().minCoeff(),
-                     static_cast<int>(i)});
-  const std::size_t count = std::min<std::size_t>(kCandidates, order.size());
-  std::partial_sort(order.begin(), order.begin() + count, order.end());
-  std::vector<const Patch*> nearest;
-  for (std::size_t i = 0; i < count; ++i) nearest.push_back(&patches_[order[i].second]);
-  return nearest;
-}
-
+/// Patches are asked in the order of their boxes' distance, until no box is nearer than a foot.
 WallSurface::Foot WallSurface::nearest_foot(const Eigen::Vector3d& x) const {
+  static thread_local std::vector<std::pair<double, const Patch*>> order;
+  order.clear();
+  for (const Patch& patch : patches_) order.push_back({patch.box.exteriorDistance(x), &patch});
+  std::sort(order.begin(), order.end());
   Foot best{nullptr, {}, 0, false};
-  for (const Patch* patch : nearest_patches(x)) {
+  for (const auto& [at_least, patch] : order) {
+    if (best.patch && at_least > best.distance + kRimTolerance) break;
     const Foot foot = project(*patch, x);
     const double lead = best.distance - foot.distance;
     const bool better = !best.patch || lead > kRimTolerance ||

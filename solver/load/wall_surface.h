@@ -4,6 +4,8 @@
 #include "solver/contact/plate.h"
 #include "solver/element/surface_potential.h"
 
+#include <Eigen/Geometry>
+
 #include <memory>
 #include <utility>
 #include <vector>
@@ -25,6 +27,7 @@ class WallSurface {
     Eigen::Matrix<double, 3, 16> coefficients;
     double orientation;  ///< +1 where s₁ x s₂ points into the tissue
     Eigen::Matrix<double, 3, 25> samples;
+    Eigen::AlignedBox3d box;  ///< it lies in there
   };
   struct Foot {
     const Patch* patch;
@@ -33,7 +36,6 @@ class WallSurface {
     bool inside;
   };
   Foot project(const Patch& patch, const Eigen::Vector3d& x) const;
-  std::vector<const Patch*> nearest_patches(const Eigen::Vector3d& x) const;
   Foot nearest_foot(const Eigen::Vector3d& x) const;
 
   std::vector<Patch> patches_;
