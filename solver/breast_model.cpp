@@ -15,7 +15,7 @@ namespace {
 
 using Faces = std::vector<std::pair<int, int>>;
 
-constexpr int kContactPoints = 8;  // a face of 27 mm passes 3 mm through an edge between 5 x 5 points
+constexpr int kContactPoints = 12;  // a face of 27 mm passes 3 mm through an edge between 5 x 5 points
 constexpr double kWallPenalty = 1000;  // x modulus/size: 10 kPa moves the wall by about 0.05 mm
 
 void check(bool good, const std::string& message) {

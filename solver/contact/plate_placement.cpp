@@ -144,13 +144,34 @@ std::vector<Eigen::Vector3d> PlateFrame::outer_points(
 }
 
 std::pair<double, double> PlateFrame::heights(const std::vector<HermiteMesh::Node>& x) const {
+  const auto points = outer_points(x);
   std::pair<double, double> range{kInfinity, -kInfinity};
-  for (const auto& point : outer_points(x)) {
-    if (!over_flat_part(point)) continue;
+  const auto count = [&](const Eigen::Vector3d& point) {
     const double height = options_.up.dot(point);
     range = {std::min(range.first, height), std::max(range.second, height)};
+  };
+  const auto count_crossing = [&](const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+    if (over_flat_part(a) != over_flat_part(b)) count(border_between(a, b));
+  };
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (over_flat_part(points[i])) count(points[i]);
+    const int column = i % kSamples1d, row = i / kSamples1d % kSamples1d;
+    if (column + 1 < kSamples1d) count_crossing(points[i], points[i + 1]);
+    if (row + 1 < kSamples1d) count_crossing(points[i], points[i + kSamples1d]);
   }
   return range;
+}
+
+/// Where the line from one to the other passes the border of the flat part: with it the extent is
+/// continuous in the shape.
+Eigen::Vector3d PlateFrame::border_between(Eigen::Vector3d a, Eigen::Vector3d b) const {
+  constexpr int halvings = 30;
+  if (!over_flat_part(a)) std::swap(a, b);
+  for (int k = 0; k < halvings; ++k) {
+    const Eigen::Vector3d middle = (a + b) / 2;
+    (over_flat_part(middle) ? a : b) = middle;
+  }
+  return a;
 }
 
 double PlateFrame::extent(const std::vector<HermiteMesh::Node>& x) const {

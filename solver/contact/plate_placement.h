@@ -77,12 +77,13 @@ class PlateFrame {
 
   void find_flat_part();
   bool over_flat_part(const Eigen::Vector3d& x) const;
+  Eigen::Vector3d border_between(Eigen::Vector3d a, Eigen::Vector3d b) const;
   double touching_height(bool paddle, double low, double high) const;
 
   PlateOptions options_;
   std::vector<HermiteMesh::Corners> elements_;
   std::vector<HermiteMesh::Node> reference_;
-  std::vector<Sample> outer_;
+  std::vector<Sample> outer_;  ///< face after face, each a square grid
   double edge_, centroid_height_, lateral_middle_;
   std::pair<double, double> touching_;
   struct {

@@ -53,7 +53,7 @@ struct Face::Table {
 };
 
 const Face::Table& Face::table(int points1d) {
-  constexpr int most = 10;
+  constexpr int most = 16;
   static const std::vector<Table> tables = [] {
     std::vector<Table> all;
     for (int n = 1; n <= most; ++n) all.emplace_back(n);
