@@ -40,6 +40,7 @@ json quality_of(const CompressionReport& r, double angle_deg) {
           {"J_within_half", r.J_within_half},
           {"max_penetration_mm", r.max_penetration_mm},
           {"retained_fraction", r.retained_fraction},
+          {"held_by_friction", r.held_by_friction},
           {"wall_gap_mm", r.wall_gap_mm},
           {"steps", r.steps},
           {"cutbacks", r.cutbacks},
@@ -80,6 +81,10 @@ Outcome judge_compression(const CompressionReport& r, double angle_deg, bool ass
   doubt(r.max_penetration_mm > kPenetrationMm,
         sentence("a plate went %.3f mm into the breast; expected under %.1f mm",
                  r.max_penetration_mm, kPenetrationMm));
+  doubt(r.held_by_friction > 0,
+        sentence("between plates without friction the breast slips out; a friction coefficient of "
+                 "%.2f was taken to hold it",
+                 r.held_by_friction, 0));
   doubt(r.J_within_half < kLeastShareOfSaneJ,
         sentence("volume is locally kept within half at %.1f %% of the points; expected %.0f %%",
                  100 * r.J_within_half, 100 * kLeastShareOfSaneJ));

@@ -38,12 +38,22 @@ State extrapolated(const State& now, const State& before, double ahead) {
   return then;
 }
 
-void check_shape(const HermiteMesh& mesh) {
+void check_finite(const HermiteMesh& mesh) {
   for (int node = 0; node < mesh.num_nodes(); ++node)
     if (!mesh.node(node).allFinite())
       throw std::invalid_argument("node " + std::to_string(node) +
                                   " of the mesh has a parameter that is not a finite number");
-  if (!proved_valid(mesh))
+}
+
+/// The imaged shape, in which points are sought, must be valid everywhere. A shape that was computed from
+/// it need only be so at the quadrature points, which the elements check.
+void check_shape(const CompressionProblem& problem) {
+  check_finite(problem.mesh.mesh);
+  const HermiteMesh imaged = problem.prone.empty()
+                                 ? problem.mesh.mesh
+                                 : HermiteMesh(problem.prone, problem.mesh.mesh.elements());
+  check_finite(imaged);
+  if (!proved_valid(imaged))
     throw std::invalid_argument("the mesh is folded: det dX/dxi is not positive everywhere");
 }
 
@@ -75,6 +85,7 @@ class Compression {
   Press press_;
   PlacedPlates start_, end_;
   CompressionCheckpoint good_;  ///< the last good step
+  bool lost_ = false;           ///< the breast has slipped out
   CompressionReport report_;
 };
 
@@ -159,6 +170,7 @@ NewtonReport Compression::balance_tilt(NewtonReport report, State& state) {
 
 /// From the last two steps extrapolated, else from the last.
 NewtonReport Compression::equilibrate(double fraction, State& state) {
+  if (lost_) return {};  // pressing on what is left would tell nothing
   const auto attempt = [&](State& trial) {
     place(fraction);
     press_.restore_friction(good_.sticking);
@@ -194,6 +206,8 @@ void Compression::record(const LoadSteppingReport& load, const State& state,
   good_.penalty = press_.penalty();
   good_.sticking = press_.commit_friction(state);
   good_.report = report_;
+  good_.friction = problem_.friction.coefficient;
+  lost_ = slipped_out(press_, state);
   if (restart_.keep) restart_.keep(good_);
   if (progress_)
     progress_(0.95 * load.reached, "compressed to " + in_mm(report_.history.back().thickness_mm));
@@ -201,16 +215,13 @@ void Compression::record(const LoadSteppingReport& load, const State& state,
 
 void Compression::judge(const LoadSteppingReport& load) {
   constexpr double most_error = 0.1, most_penetration = 0.1;  // [mm]: what "reached" means
-  constexpr double most_slack = 5;  // [mm] between skin and flat plates
-  constexpr double least_retained = 0.5;
   const double error = std::abs(report_.thickness_mm - problem_.plates.thickness);
   const double apart = press_.placed().paddle_height - press_.placed().support_height;
-  const bool loose = apart > report_.thickness_mm + most_slack;
-  if (!load.complete())
-    report_.reason = load.reason;
-  else if (loose && report_.retained_fraction < least_retained)
+  if (report_.slipped_out)
     report_.reason = "the breast slipped out backwards: the plates stand " + in_mm(apart) +
-                     " apart (stiffer chest-wall springs or friction would hold it)";
+                     " apart (stiffer chest-wall springs or more friction would hold it)";
+  else if (!load.complete())
+    report_.reason = load.reason;
   else if (error > most_error)
     report_.reason = "the thickness stays " + in_mm(error) + " off";
   else if (report_.max_penetration_mm > most_penetration)
@@ -261,6 +272,7 @@ bool Compression::begin(State& state) {
   place(good_.reached.fraction);
   press_.set_penalty(good_.penalty);
   press_.restore_friction(good_.sticking);
+  lost_ = slipped_out(press_, state);
   return true;
 }
 
@@ -279,7 +291,7 @@ LoadSteppingReport Compression::close_plates(State& state) {
   report_.cutbacks = load.cutbacks;
   report_.newton_iterations += load.iterations;
   report_.indefinite_matrices += load.indefinite;
-  if (load.complete())
+  if (load.complete() && !lost_)
     count(finish_compression(press_, good_.penalty, state));
   else
     place(load.reached);
@@ -312,8 +324,20 @@ TissueLaws TissueLaws::defaults() {
 
 CompressionResult compress(const CompressionProblem& problem, const CompressionOptions& options,
                            const Progress& progress, const CompressionRestart& restart) {
-  check_shape(problem.mesh.mesh);
-  return Compression(problem, options, progress, restart).run();
+  check_shape(problem);
+  const bool may_hold = problem.friction.coefficient == 0 && options.holding_friction > 0;
+  const bool held_before = may_hold && restart.from && restart.from->friction > 0;
+  if (!held_before) {
+    CompressionResult result = Compression(problem, options, progress, restart).run();
+    if (!may_hold || !result.report.slipped_out) return result;
+    if (progress) progress(0, "slipped out; once more with friction");
+  }
+  CompressionProblem held = problem;
+  held.friction.coefficient = options.holding_friction;
+  const CompressionRestart again{held_before ? restart.from : nullptr, restart.keep};
+  CompressionResult result = Compression(held, options, progress, again).run();
+  result.report.held_by_friction = options.holding_friction;
+  return result;
 }
 
 }  // namespace mammotwin

@@ -87,12 +87,15 @@ enum class Moving {
 struct CompressionOptions {
   SolidOptions solid;
   Moving moving = Moving::both;
-  double gap_tolerance = 0.05;       ///< largest penetration [mm] > 0
+  double gap_tolerance = 0.01;       ///< largest penetration [mm] > 0
   double thickness_tolerance = 0.02; ///< |measured − asked| [mm] > 0
   double first_step = 1;             ///< of the way, in (0, 1]
   double longest_move = 10;          ///< of a plate in one load step [mm] > 0
   double smallest_step = 1.0 / 64;   ///< give up below this part of the way
   int max_iterations = 1000;          ///< Newton iterations in all
+  /// A breast that slips out from between frictionless plates is pressed again with this
+  /// coefficient of friction, and the report says so; 0: it is not. In [0, 1].
+  double holding_friction = 0.2;
 };
 
 struct CompressionStep {
@@ -121,6 +124,8 @@ struct CompressionReport {
   double J_within_half = 0;        ///< fraction of quadrature points with J in [0.5, 1.5]
   double max_penetration_mm = 0;
   double retained_fraction = 1;    ///< of the tissue in front of the plates' edges, how much stays
+  bool slipped_out = false;        ///< backwards from between the plates
+  double held_by_friction = 0;     ///< coefficient that was needed against that; 0: none
   double wall_gap_mm = 0;          ///< largest distance of the chest-wall face from its surface
   double seconds = 0;
   int dof = 0;

@@ -94,6 +94,7 @@ std::vector<std::uint8_t> encode_checkpoint(const CompressionCheckpoint& c,
                         {"reached", to_json(c.reached)},
                         {"tilt", c.tilt},
                         {"penalty", c.penalty},
+                        {"friction", c.friction},
                         {"sticking", to_json(c.sticking)},
                         {"report", to_json(c.report)}});
 }
@@ -105,8 +106,8 @@ CompressionCheckpoint decode_checkpoint(const std::vector<std::uint8_t>& bytes,
     if (from.at("run") != run) throw std::runtime_error("it is of another run");
     return {load_from(from.at("load")),     good_step_from(from.at("before")),
             good_step_from(from.at("reached")), from.at("tilt"),
-            from.at("penalty"),             history_from(from.at("sticking")),
-            report_from(from.at("report"))};
+            from.at("penalty"),             from.at("friction"),
+            history_from(from.at("sticking")), report_from(from.at("report"))};
   } catch (const std::exception& error) {
     throw std::runtime_error(std::string("checkpoint cannot be used: ") + error.what());
   }

@@ -20,6 +20,7 @@ struct CompressionCheckpoint {
   GoodStep before, reached;  ///< the last two good steps
   double tilt = 0;           ///< of the paddle [deg]
   double penalty = 0;        ///< [kPa/mm]; 0: none yet
+  double friction = 0;       ///< coefficient
   PlateFriction::History sticking;
   CompressionReport report;  ///< history and counts
 };

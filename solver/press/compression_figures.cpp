@@ -51,7 +51,19 @@ double J_within_half(const Model& model, const State& state) {
   return within / double(kPoints * model.num_elements());
 }
 
+double retained_fraction(const Press& press, const State& state) {
+  return volume_in_front(press, state) / volume_in_front(press, press.model().rest());
+}
+
 }  // namespace
+
+bool slipped_out(const Press& press, const State& state) {
+  constexpr double most_slack = 5;  // [mm] between skin and flat plates
+  constexpr double least_retained = 0.5;
+  const double apart = press.placed().paddle_height - press.placed().support_height;
+  return apart > press.thickness(state) + most_slack &&
+         retained_fraction(press, state) < least_retained;
+}
 
 void measure_compression(const Press& press, const State& state, CompressionReport& report) {
   const Balance balance = press.newton().balance(state);
@@ -64,8 +76,8 @@ void measure_compression(const Press& press, const State& state, CompressionRepo
   report.max_J = balance.max_J;
   report.J_within_half = J_within_half(press.model(), state);
   report.max_penetration_mm = press.penetration(state);
-  report.retained_fraction =
-      volume_in_front(press, state) / volume_in_front(press, press.model().rest());
+  report.retained_fraction = retained_fraction(press, state);
+  report.slipped_out = slipped_out(press, state);
   report.wall_gap_mm = wall_gap(press, press.breast(), state);
 }
 

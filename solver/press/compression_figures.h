@@ -7,6 +7,10 @@ namespace mammotwin {
 /// Fills in what can be measured on a state: thickness, force, area, J, penetration, tissue kept.
 void measure_compression(const Press& press, const State& state, CompressionReport& report);
 
+/// Whether most of the tissue in front of the plates' edges went behind them: plates that stand
+/// further apart than the breast between them is thick hold nothing.
+bool slipped_out(const Press& press, const State& state);
+
 /// The paddle's force as the central difference of the total potential over its height, friction's
 /// part with it (contact pressures as they are: its potential knows no other) [N]. NaN where a
 /// neighbour finds no equilibrium. The plates end where they were.

@@ -122,6 +122,27 @@ TEST(Compress, RefusesStiffnessThatIsNotPositive) {
   EXPECT_NE(refusal(problem).find("chest-wall spring"), std::string::npos);
 }
 
+// Plates far from the chest wall, hardly any springs, 0.8 of the thickness: nothing but friction holds
+// the breast between them.
+TEST(Compress, HoldsByFrictionABreastThatSlipsOut) {
+  CompressionProblem problem = dome_problem(22, false);
+  problem.mesh = dome_breast({3, 3, 1});
+  problem.boundary.chest_wall_spring = 0.01;
+  problem.plates.wall_clearance = 25;
+  CompressionOptions options;
+  options.holding_friction = 0;
+  const CompressionReport lost = compress(problem, options).report;
+  EXPECT_FALSE(lost.usable());
+  EXPECT_TRUE(lost.slipped_out);
+  EXPECT_NE(lost.reason.find("slipped out backwards"), std::string::npos) << lost.reason;
+  options.holding_friction = 0.3;
+  const CompressionReport held = compress(problem, options).report;
+  ASSERT_TRUE(held.usable()) << held.reason;
+  EXPECT_EQ(held.held_by_friction, 0.3);
+  EXPECT_NEAR(held.thickness_mm, 22, 0.1);
+  EXPECT_GT(held.retained_fraction, 0.6);
+}
+
 TEST(Compress, SaysHowFarItCameWhereItCannotGoOn) {
   CompressionProblem problem = squeezed_problem();
   CompressionOptions options;
