@@ -3,10 +3,13 @@
 #include "solver/unload.h"
 
 #include "pipeline/breast_problem.h"
+#include "pipeline/frame/sidecar.h"
 #include "pipeline/frame/stage.h"
 #include "pipeline/second_state.h"
 #include "pipeline/unload_quality.h"
 #include "segmentation/segmentation_file.h"
+
+#include <fstream>
 
 namespace mammotwin {
 namespace {
@@ -30,6 +33,16 @@ StagePlan plan(const Arguments&, const Patient& patient) {
                       "compress.cut_face"}};
   if (const auto second = patient.second_state()) plan.inputs.push_back(*second);
   return plan;
+}
+
+/// As the sidecar of the segmentation has it from the image; empty where it is not known.
+std::string patient_position(const std::filesystem::path& segmentation) {
+  std::ifstream in(sidecar_path(segmentation));
+  const auto sidecar = nlohmann::json::parse(in, nullptr, false);
+  const auto position = nlohmann::json::json_pointer("/quality/patient_position");
+  return !sidecar.is_discarded() && sidecar.contains(position) && sidecar[position].is_string()
+             ? sidecar[position].get<std::string>()
+             : "";
 }
 
 /// One factor for all stiffnesses where a second state is there to ask; else the settings'.
@@ -72,14 +85,15 @@ Outcome run(const Arguments& args, StageRun& stage) {
   const Segmentation segmentation = read_segmentation(args.segmentation, args.fractions);
   const MeanFractions mean(segmentation.fractions);
   const MeshFile prone = read_mesh_file(args.mesh);
+  const Pose imaged = patient.gravity.imaged_as(patient_position(args.segmentation));
   const auto problem_with = [&](double factor) {
     CompressionProblem problem = breast_problem(prone, mean, patient.compression, factor);
-    problem.gravity = gravity_in_lps(patient.gravity.imaged);
+    problem.gravity = gravity_in_lps(imaged);
     problem.density = patient.gravity.density();
     return problem;
   };
   UnloadingRecord record;
-  record.imaged = patient.gravity.imaged;
+  record.imaged = imaged;
   record.stiffness_factor =
       find_stiffness(stage, problem_with(patient.compression.stiffness_factor), record);
   if (record.stiffness_fit && !record.stiffness_fit->usable()) return judge_unloading(record);

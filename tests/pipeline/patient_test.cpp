@@ -80,6 +80,14 @@ TEST_F(PatientTest, RefusesALabelValueWithTwoMeanings) {
             std::string::npos);
 }
 
+TEST_F(PatientTest, GravityIsTheHeadersUnlessItIsGiven) {
+  EXPECT_EQ(patient_.gravity.imaged_as(""), Pose::prone);
+  EXPECT_EQ(patient_.gravity.imaged_as("FFP"), Pose::prone);
+  EXPECT_EQ(patient_.gravity.imaged_as("HFS"), Pose::supine);
+  read("gravity = \"none\"\n");
+  EXPECT_EQ(patient_.gravity.imaged_as("HFS"), Pose::none);
+}
+
 TEST_F(PatientTest, KeepsASeriesIdentifierOutOfTheParameters) {
   read("[mri]\nseries = \"1.2.840.99\"\n");
   const auto parameters = settings_.parameters({"mri."});
