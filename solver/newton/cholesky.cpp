@@ -12,11 +12,12 @@ namespace mammotwin {
 namespace {
 
 constexpr double kTaskFlops = 2e6;  // a smaller branch is not worth a task of its own
+constexpr double kMostKept = 1e8;   // doubles, 0.8 GB: up to some 40,000 unknowns
 
 using ConstMap = Eigen::Map<const Eigen::MatrixXd>;
 
 /// Adds a child's update into its parent's panel and update; both lists ascend, so lower stays lower.
-void extend_add(const std::vector<double>& update, const std::vector<int>& to_parent, int pivots,
+void extend_add(const Eigen::VectorXd& update, const std::vector<int>& to_parent, int pivots,
                 int parent_size, double* panel, double* parent_update) {
   const int n = static_cast<int>(to_parent.size());
   const int rest = parent_size - pivots;
@@ -30,6 +31,12 @@ void extend_add(const std::vector<double>& update, const std::vector<int>& to_pa
   }
 }
 
+/// Zeroes columns of a lower trapezium.
+void clear_lower(double* columns, int rows, int count) {
+  for (int j = 0; j < count; ++j)
+    std::fill_n(columns + static_cast<std::ptrdiff_t>(j) * rows + j, rows - j, 0.0);
+}
+
 }  // namespace
 
 Cholesky::Cholesky(const SparsePattern& pattern, const std::vector<int>& node_of_equation)
@@ -37,18 +44,20 @@ Cholesky::Cholesky(const SparsePattern& pattern, const std::vector<int>& node_of
   use_one_blas_thread();
   panels_.resize(tree_.fronts.size());
   updates_.resize(tree_.fronts.size());
+  double updates = 0;
   for (const Front& front : tree_.fronts) {
     const double k = front.num_pivots, n = front.size();
+    updates += (n - k) * (n - k);
     double flops = k * n * n;
     for (int child : front.children) flops += subtree_flops_[child];
     subtree_flops_.push_back(flops);
   }
+  keep_updates_ = updates <= kMostKept;
 }
 
 bool Cholesky::factor(const std::vector<double>& values) {
   definite_ = true;
   for (int root : tree_.roots) factor_subtree(root, values);
-  for (auto& update : updates_) update.clear();
   return definite_;
 }
 
@@ -68,15 +77,17 @@ void Cholesky::factor_subtree(int index, const std::vector<double>& values) {
 
 void Cholesky::assemble(int index, const std::vector<double>& values) {
   const Front& front = tree_.fronts[index];
-  const std::size_t size = front.size(), rest = size - front.num_pivots;
-  panels_[index].assign(size * front.num_pivots, 0.0);
-  updates_[index].assign(rest * rest, 0.0);
+  const Eigen::Index size = front.size(), rest = size - front.num_pivots;
+  panels_[index].resize(size * front.num_pivots);
+  updates_[index].resize(rest * rest);
+  clear_lower(panels_[index].data(), size, front.num_pivots);
+  clear_lower(updates_[index].data(), rest, rest);
   for (std::size_t k = 0; k < front.sources.size(); ++k)
     panels_[index][front.targets[k]] += values[front.sources[k]];
   for (int child : front.children) {
     extend_add(updates_[child], tree_.fronts[child].to_parent, front.num_pivots, front.size(),
                panels_[index].data(), updates_[index].data());
-    std::vector<double>().swap(updates_[child]);
+    if (!keep_updates_) updates_[child].resize(0);
   }
 }
 

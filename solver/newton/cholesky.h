@@ -34,8 +34,10 @@ class Cholesky {
 
   FrontTree tree_;
   std::vector<double> subtree_flops_;
-  std::vector<std::vector<double>> panels_;   ///< pivots' columns of each front, column by column
-  std::vector<std::vector<double>> updates_;  ///< what a front passes on; empty once added
+  // Lower triangles, column by column; what stands above them is never read.
+  std::vector<Eigen::VectorXd> panels_;   ///< pivots' columns of each front
+  std::vector<Eigen::VectorXd> updates_;  ///< what a front passes on
+  bool keep_updates_ = true;  ///< memory stays for the next factorisation: no new pages to touch
   std::atomic<bool> definite_{true};
 };
 
