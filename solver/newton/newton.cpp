@@ -68,8 +68,8 @@ bool Newton::factor_shifted(const State& state, const NewtonOptions& options,
   constexpr double first_shift = 0.05, growth = 4, decay = 0.25;
   constexpr double near_shift = 1e-3;
   const bool near = report.residual < kNearBalance;
-  const bool was_shifted = shift_ * decay >= (near ? near_shift : first_shift) / 2;
-  if (damping_ == 0 && !was_shifted && factor_exact(state, options, pending, balance, report))
+  const bool far_and_shifted = !near && shift_ * decay >= first_shift / 2;
+  if (damping_ == 0 && !far_and_shifted && factor_exact(state, options, pending, balance, report))
     return true;
   if (options.stabilise) options.stabilise(!near);
   const double least = near ? near_shift : first_shift;
