@@ -20,7 +20,10 @@ json history_json(const CompressionReport& report) {
   for (const CompressionStep& step : report.history)
     history.push_back({{"thickness_mm", step.thickness_mm},
                        {"force_N", step.force_N},
-                       {"iterations", step.iterations}});
+                       {"iterations", step.iterations},
+                       {"penalty_kPa_per_mm", step.penalty},
+                       {"min_J", step.min_J},
+                       {"max_J", step.max_J}});
   return history;
 }
 

@@ -1,6 +1,7 @@
 #include "pipeline/report/page_data.h"
 
 #include "pipeline/report/base64.h"
+#include "pipeline/report/convergence_figure.h"
 #include "pipeline/report/force_figure.h"
 #include "pipeline/report/frames_figure.h"
 #include "pipeline/report/lesion_data.h"
@@ -47,6 +48,7 @@ void add_views(const PatientResults& results, json& page) {
       page["cuts"].push_back(figure_data(compressed_figure(results, view, lesion)));
   }
   if (const auto figure = force_figure(results)) page["force"].push_back(figure_data(*figure));
+  if (const auto figure = convergence_figure(results)) page["force"].push_back(figure_data(*figure));
 }
 
 void add_lesions(const PatientResults& results, json& page) {

@@ -148,9 +148,10 @@ nlohmann::json sidecar(const std::string& stage, const nlohmann::json& quality) 
 nlohmann::json squeeze_quality(double angle_deg) {
   nlohmann::json history = nlohmann::json::array();
   for (int step = 1; step <= 6; ++step)
-    history.push_back({{"thickness_mm", 120 - 70.0 * step / 6}, {"force_N", 2.4 * step * step}});
+    history.push_back({{"thickness_mm", 120 - 70.0 * step / 6}, {"force_N", 2.4 * step * step},
+                       {"iterations", 10 + step}});
   return {{"angle_deg", angle_deg}, {"thickness_mm", kThickness}, {"force_N", 86.4},
-          {"volume_change", 0.0003}, {"history", history}};
+          {"volume_change", 0.0003}, {"newton_iterations", 101}, {"history", history}};
 }
 
 }  // namespace

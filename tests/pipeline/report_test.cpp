@@ -42,10 +42,16 @@ const std::string& whole_page() {
 }
 
 TEST(ReportPage, ShowsEveryFigureOfAFinishedChain) {
-  // Two lesions: an MRI figure each, two cuts each; two detectors; prone and two renders; force; frames.
-  EXPECT_EQ(count(whole_page(), "<figure"), 2u + 4u + 2u + 3u + 1u + 1u);
+  // Two lesions: an MRI figure each, two cuts each; two detectors; prone and two renders; force; convergence;
+  // frames.
+  EXPECT_EQ(count(whole_page(), "<figure"), 2u + 4u + 2u + 3u + 1u + 1u + 1u);
   EXPECT_NE(whole_page().find("OK: every stage passed"), std::string::npos);
   EXPECT_NE(whole_page().find("not a medical device"), std::string::npos);
+}
+
+// 11 to 16 iterations in six steps, 81 in all, and 20 at the end of each view.
+TEST(ReportPage, DrawsConvergence) {
+  EXPECT_NE(whole_page().find("CC: 101 in all. MLO: 101 in all."), std::string::npos);
 }
 
 TEST(ReportPage, SaysHowTheBreastHung) {

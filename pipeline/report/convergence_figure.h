@@ -1,0 +1,14 @@
+#pragma once
+
+#include "pipeline/report/figure.h"
+#include "pipeline/report/patient_results.h"
+
+#include <optional>
+
+namespace mammotwin {
+
+/// Newton iterations of each load step of each view, and of the correction at the end, from
+/// `quality.history` and `quality.newton_iterations` of its sidecar; nothing where none has any.
+std::optional<Figure> convergence_figure(const PatientResults& results);
+
+}  // namespace mammotwin
