@@ -137,7 +137,7 @@ LabelValues Patient::label_values() const {
       if (!values.emplace(static_cast<std::uint16_t>(number), tissue).second)
         throw std::runtime_error(file_.string() + ": labels: the value " + std::to_string(number) +
                                  " is given to two tissues");
-  return values.empty() ? own_label_values() : values;
+  return values;
 }
 
 SegmentInput Patient::segment_input() const {

@@ -24,7 +24,8 @@ const Tag modality_tag(0x0008, 0x0060), description_tag(0x0008, 0x103e),
     per_frame_tag(0x5200, 0x9230), shared_tag(0x5200, 0x9229), plane_position_tag(0x0020, 0x9113),
     plane_orientation_tag(0x0020, 0x9116), pixel_measures_tag(0x0028, 0x9110),
     frame_content_tag(0x0020, 0x9111), temporal_index_tag(0x0020, 0x9128),
-    patient_position_tag(0x0018, 0x5100), pixels_tag(0x7fe0, 0x0010);
+    patient_position_tag(0x0018, 0x5100), image_type_tag(0x0008, 0x0008),
+    acquisition_time_tag(0x0008, 0x0032), pixels_tag(0x7fe0, 0x0010);
 
 constexpr double most_frames = 10000;  // more is a damaged header
 
@@ -171,6 +172,8 @@ std::vector<DicomSlice> read_dicom_slices(const std::filesystem::path& file) {
   slice.series_uid = text(set, series_uid_tag);
   slice.series_number = text(set, series_number_tag);
   slice.series_description = text(set, description_tag);
+  slice.image_type = text(set, image_type_tag);
+  slice.acquisition_time = text(set, acquisition_time_tag);
   slice.patient_position = known_position(text(set, patient_position_tag));
   slice.phase = first_nonempty(
       {text(set, temporal_position_tag), text(set, acquisition_tag), text(set, echo_tag)});

@@ -18,6 +18,8 @@ struct DicomSlice {
   std::string series_uid;  ///< compared, never shown
   std::string series_number;
   std::string series_description;
+  std::string image_type;        ///< "ORIGINAL\\PRIMARY", "DERIVED\\SECONDARY\\..."
+  std::string acquisition_time;  ///< compared, never shown
   bool geometry_known = true;  ///< false: the header does not say where the frames stand
   std::string patient_position;  ///< as the header has it, "HFP" for head first, prone
   std::string phase;           ///< equal within one acquisition of a series in several phases

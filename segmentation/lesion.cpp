@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "segmentation/components.h"
 #include "segmentation/distance.h"
@@ -21,6 +22,7 @@ constexpr double shell_from_mm = 2, shell_to_mm = 6;
 constexpr int most_rounds = 12;
 constexpr double least_ml = 0.03;
 constexpr double fallback_mm = 5;
+constexpr double least_compact = 0.3;    // dark parts below are gland, not a lesion
 constexpr double least_contrast = 0.15;  // over the surroundings, else nothing stands out
 
 double median_where(const Volume<float>& image, const Mask& mask) {
@@ -177,6 +179,12 @@ Mask walk(const Volume<float>& image, const Mask& allowed, const Mask& region,
   return random_walk(image, allowed, seeds, range);
 }
 
+/// Volume of the inscribed ball over that of the lesion.
+double compactness(const FoundLesion& lesion, double ml) {
+  const double r = lesion.inscribed_mm;
+  return 4.0 / 3 * std::numbers::pi * r * r * r / 1000 / ml;
+}
+
 }  // namespace
 
 FoundLesion find_lesion(const Volume<float>& image, const Volume<std::uint8_t>& allowed,
@@ -197,7 +205,8 @@ FoundLesion find_lesion(const Volume<float>& image, const Volume<std::uint8_t>& 
 
   lesion.mask = HalfMaximum(part, may, point_in_lps, search.reach_mm).run(lesion);
   const double ml = count(lesion.mask) * image.voxel_volume() / 1000;
-  if (ml < least_ml || lesion.brightness - lesion.background < least_contrast) {
+  if (ml < least_ml || lesion.brightness - lesion.background < least_contrast ||
+      (!search.brighter && compactness(lesion, ml) < least_compact)) {
     lesion.is_sphere = true;
     lesion.mask = where(may, [&](const Eigen::Vector3d& x, std::size_t v) {
       return may.values[v] && (x - point_in_lps).norm() <= fallback_mm;

@@ -13,6 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr double same_place_mm = 0.01;
 constexpr std::size_t least_slices = 16;  // fewer is a localiser, not a breast
 
 struct Series {
@@ -83,6 +84,58 @@ std::string list(const std::vector<Series>& all) {
   return text;
 }
 
+bool is_derived(const Series& series) {
+  return series.slices.front().image_type.rfind("DERIVED", 0) == 0;
+}
+
+/// Area of a pixel times the distance between slices [mm^3]; large where it cannot be told.
+double voxel_volume(const Series& series) {
+  std::vector<double> along;
+  const SlicePlacement& first = series.slices.front().placement;
+  for (const DicomSlice& slice : series.slices)
+    along.push_back(slice.placement.position.dot(first.normal()));
+  std::sort(along.begin(), along.end());
+  along.erase(std::unique(along.begin(), along.end(),
+                          [](double a, double b) { return b - a < same_place_mm; }),
+              along.end());
+  if (along.size() < 2) return 1e9;
+  const double step = (along.back() - along.front()) / static_cast<double>(along.size() - 1);
+  return first.row_spacing * first.column_spacing * step;
+}
+
+/// Those whose voxels are no more than a tenth larger than the finest.
+std::vector<Series> finest(std::vector<Series> all) {
+  double least = 1e9;
+  for (const Series& series : all) least = std::min(least, voxel_volume(series));
+  std::erase_if(all, [&](const Series& series) { return voxel_volume(series) > 1.1 * least; });
+  return all;
+}
+
+/// The stated rule where several series could serve: derived ones (subtractions, projections) are
+/// left aside, then those with coarser voxels, then those with fewer slices; of what is left the
+/// second in order of time is taken, the first after the contrast agent.
+Series choose_by_rule(std::vector<Series> all, std::vector<std::string>& notes) {
+  const std::size_t serving = all.size();
+  if (!std::all_of(all.begin(), all.end(), is_derived)) std::erase_if(all, is_derived);
+  all = finest(std::move(all));
+  std::size_t most = 0;
+  for (const Series& series : all) most = std::max(most, series.slices.size());
+  std::erase_if(all, [&](const Series& series) { return series.slices.size() < most; });
+  std::stable_sort(all.begin(), all.end(), [](const Series& a, const Series& b) {
+    return a.slices.front().acquisition_time < b.slices.front().acquisition_time;
+  });
+  const Series& chosen = all[all.size() > 1 ? 1 : 0];
+  notes.push_back(
+      "of " + std::to_string(serving) + " series was read: " + chosen.name() +
+      (all.size() > 1
+           ? ", the second in time of " + std::to_string(all.size()) +
+                 " that are not derived and have the finest voxels and most slices (in a dynamic "
+                 "study the first after the contrast agent)"
+           : ", the one that is not derived and has the finest voxels and most slices") +
+      "; mri.series names another");
+  return chosen;
+}
+
 Series choose_series(std::vector<Series> all, const std::string& wanted,
                      std::vector<std::string>& notes) {
   std::vector<Series> matching;
@@ -90,11 +143,11 @@ Series choose_series(std::vector<Series> all, const std::string& wanted,
     if (wanted.empty() ? series.slices.size() >= least_slices
                        : series.number == wanted || series.uid == wanted)
       matching.push_back(series);
+  if (matching.size() > 1 && wanted.empty()) return choose_by_rule(std::move(matching), notes);
   if (matching.size() > 1)
-    throw std::runtime_error("holds " + std::to_string(matching.size()) +
-                             " MR series that could serve: " + list(matching) +
-                             "; set mri.series in patient.toml to the number of one (or to its "
-                             "SeriesInstanceUID where numbers are equal)");
+    throw std::runtime_error("mri.series names " + std::to_string(matching.size()) +
+                             " series: " + list(matching) +
+                             "; expected one (give its SeriesInstanceUID)");
   if (matching.empty() && !wanted.empty())
     throw std::runtime_error("mri.series names no series here; found " + list(all));
   if (matching.empty() && all.size() == 1) return all.front();

@@ -31,7 +31,8 @@ struct SegmentInput {
   std::optional<std::filesystem::path> mri;
   std::optional<std::string> series;  ///< as in read_dicom_series.h
   std::optional<std::filesystem::path> label_map;
-  LabelValues label_values = own_label_values();
+  /// Empty: by the names of its segments where it is a .seg.nrrd, else those of tissue.h.
+  LabelValues label_values;
   std::optional<Side> side;  ///< the lesions' side where not given
   std::vector<LesionSeed> lesions;
   std::optional<Eigen::Vector3d> nipple_in_lps;  ///< [mm]

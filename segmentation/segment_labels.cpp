@@ -1,13 +1,16 @@
 #include "segmentation/segment_labels.h"
 
 #include <cmath>
+#include <algorithm>
 #include <limits>
+#include <map>
 #include <stdexcept>
 
 #include "segmentation/half_body.h"
 #include "segmentation/landmarks.h"
 #include "segmentation/lesion_seed.h"
 #include "segmentation/read_image.h"
+#include "segmentation/segment_names.h"
 
 namespace mammotwin {
 namespace {
@@ -101,11 +104,47 @@ void name_lesions(const std::vector<PlacedSeed>& seeds, MappedLabels& mapped,
   }
 }
 
+/// What the values of the map mean: as given, by the names of segments, or the project's own.
+NamedSegments segments_of(const SegmentInput& input) {
+  if (!input.label_values.empty()) return {input.label_values, {}};
+  try {
+    NamedSegments named = read_segment_names(*input.label_map);
+    if (named.values.empty()) named.values = own_label_values();
+    return named;
+  } catch (const std::exception& error) {
+    throw std::runtime_error(input.label_map->string() + ": " + error.what());
+  }
+}
+
+/// A lesion is called as the segment was that holds most of it.
+std::vector<std::pair<std::uint8_t, std::string>> names_by_segment(
+    const NamedSegments& named, const Volume<std::uint16_t>& foreign,
+    const Volume<std::uint8_t>& labels) {
+  std::map<std::uint8_t, std::map<std::uint16_t, std::size_t>> votes;
+  for (std::size_t v = 0; v < labels.values.size(); ++v)
+    if (label::is_lesion(labels.values[v]) && named.lesions.count(foreign.values[v]))
+      ++votes[labels.values[v]][foreign.values[v]];
+  std::vector<std::pair<std::uint8_t, std::string>> names;
+  for (const auto& [value, counts] : votes) {
+    const auto most = std::max_element(counts.begin(), counts.end(), [](const auto& a, const auto& b) {
+      return a.second < b.second;
+    });
+    const std::string& name = named.lesions.at(most->first);
+    const auto before = std::count_if(names.begin(), names.end(), [&](const auto& other) {
+      return named.lesions.at(most->first) == other.second.substr(0, name.size());
+    });
+    names.emplace_back(value, before > 0 ? name + "-" + std::to_string(before + 1) : name);
+  }
+  return names;
+}
+
 }  // namespace
 
 SegmentResult segment_labels(const SegmentInput& input) {
   const std::string file = input.label_map->string();
-  MappedLabels mapped = map_labels(read_labels(*input.label_map), input.label_values);
+  const NamedSegments named = segments_of(input);
+  const Volume<std::uint16_t> foreign = read_labels(*input.label_map);
+  MappedLabels mapped = map_labels(foreign, named.values);
   std::vector<PlacedSeed> seeds;
   for (const LesionSeed& seed : input.lesions) seeds.push_back(place_seed(seed));
 
@@ -119,7 +158,7 @@ SegmentResult segment_labels(const SegmentInput& input) {
   if (midline) keep_side(mapped.labels, *midline, side);
   fill_behind_muscle(mapped.labels);
 
-  std::vector<std::pair<std::uint8_t, std::string>> names;
+  auto names = names_by_segment(named, foreign, mapped.labels);
   name_lesions(seeds, mapped, names);
   const std::vector<std::uint8_t> new_value = renumber(mapped.labels);
 

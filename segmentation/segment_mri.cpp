@@ -35,13 +35,13 @@ void judge_position(const std::string& position, SegmentQuality& quality) {
 }
 
 void judge_wall(const BodyStage& body, const WallStage& wall, Side side, SegmentQuality& quality) {
-  constexpr double largest_doubt = 0.2;  // study: 0.12 at most where the wall was within 1.3 mm
+  constexpr double largest_doubt = 0.12;  // study: at most where the wall was within 1.3 mm
   quality.chest_wall_doubt = wall.wall.doubt(side, body.frame.z_low, body.frame.z_high);
   if (*quality.chest_wall_doubt > largest_doubt)
     quality.doubt(SegmentStatus::look,
                   "the image does not support " +
                       std::to_string(std::lround(100 * *quality.chest_wall_doubt)) +
-                      " % of the chest wall found; expected at most 20 %");
+                      " % of the chest wall found; expected at most 12 %");
 }
 
 /// Height over the skin between the breasts in the first and last slice, over the apex's.

@@ -1,8 +1,10 @@
 #include <fstream>
 
 #include "segmentation/landmarks.h"
+#include "segmentation/read_image.h"
 #include "segmentation/segment.h"
 #include "segmentation/segmentation_file.h"
+#include "segmentation/write_image_file.h"
 #include "tests/segmentation/message.h"
 
 namespace mammotwin {
@@ -117,6 +119,57 @@ TEST(SegmentLabels, AnUnclearSideIsRefused) {
   SegmentInput input = foreign_input(folder.path);
   input.label_values[14] = ForeignTissue::fat;
   expect_mentions(message_of([&] { segment(input, {}); }), {"side is not clear", "patient.toml"});
+}
+
+/// The foreign map as 3D Slicer saves it: numbered anew from 1, known by names and terminology.
+fs::path write_slicer_segments(const fs::path& folder) {
+  const Volume<std::uint16_t> foreign = read_labels(write_foreign_map(folder));
+  auto labels = foreign.like<std::uint8_t>(0);
+  for (std::size_t v = 0; v < labels.values.size(); ++v)
+    labels.values[v] =
+        foreign.values[v] ? static_cast<std::uint8_t>(foreign.values[v] - 10) : label::air;
+  std::map<std::string, std::string> keys;
+  int n = 0;
+  for (const auto& [name, tags] : std::vector<std::pair<std::string, std::string>>{
+           {"Breast FAT", ""}, {"Segment_2", "SCT^39937001^Skin"}, {"Pectoral", ""},
+           {"Tumour upper", ""}}) {
+    const std::string prefix = "Segment" + std::to_string(n++) + "_";
+    keys[prefix + "Name"] = name;
+    keys[prefix + "LabelValue"] = std::to_string(n);
+    keys[prefix + "Layer"] = "0";
+    keys[prefix + "Tags"] = "TerminologyEntry:" + tags;
+  }
+  FileGrid grid;
+  for (int a = 0; a < 3; ++a)
+    grid.size[a] = labels.size[a], grid.spacing[a] = 3, grid.origin[a] = labels.origin[a];
+  write_nrrd(folder / "slicer.seg.nrrd", grid, labels.values.data(), 1, keys);
+  return folder / "slicer.seg.nrrd";
+}
+
+TEST(SegmentLabels, SegmentsOfSlicerAreKnownByNameNotByValue) {
+  const ScratchFolder folder("slicer");
+  SegmentInput input;
+  input.label_map = write_slicer_segments(folder.path);
+  const Segmentation by_name = segment(input, {}).segmentation;
+  const Segmentation by_value = segment(foreign_input(folder.path), {}).segmentation;
+  EXPECT_EQ(by_name.labels.values, by_value.labels.values);
+  ASSERT_EQ(by_name.lesions.size(), 1U);
+  EXPECT_EQ(by_name.lesions[0].id, "Tumour upper");
+}
+
+TEST(SegmentLabels, GoesOnFromItsOwnProductCorrectedByHand) {
+  const ScratchFolder folder("resume");
+  const Segmentation first = segment(foreign_input(folder.path), {}).segmentation;
+  Segmentation corrected = first;
+  const Eigen::Vector3i v = first.labels.index({75, 45, 0}).array().round().cast<int>();
+  corrected.labels(v.x(), v.y(), v.z()) = label::fibroglandular;
+  write_segmentation(folder.path / "a.seg.nrrd", corrected);
+  SegmentInput input;
+  input.label_map = folder.path / "a.seg.nrrd";
+  input.side = Side::left;
+  const Segmentation again = segment(input, {}).segmentation;
+  EXPECT_EQ(again.labels.values, corrected.labels.values);
+  EXPECT_EQ(again.fractions(v.x(), v.y(), v.z()).fibroglandular, 1);
 }
 
 }  // namespace
