@@ -39,6 +39,9 @@ void Patient::declare_inputs(Settings& s) {
            "the breast; default: the lesions' side");
   s.path("mri.path", mri_, "DICOM folder, NIfTI, NRRD or MHA; default: the folder mri");
   s.private_text("mri.series", series_, "series number or UID, where the folder holds several");
+  s.path("mri.pre", pre_, "the image before contrast agent, where it lies apart");
+  s.private_text("mri.pre_series", pre_series_,
+                 "its series number or UID (with phase, \"NUMBER:PHASE\")");
   s.path("labels.path", labels_, "label map made elsewhere, taken as the whole segmentation");
   for (const ForeignTissue tissue : kTissues)
     s.label_values(
@@ -46,7 +49,7 @@ void Patient::declare_inputs(Settings& s) {
         "values of `labels.path` that are " + to_string(tissue) +
             (tissue == ForeignTissue::transition ? " (half fat, half fibroglandular)" : ""));
   s.point("nipple.point_lps_mm", nipple_lps_mm_, {-kFarthestMm, kFarthestMm, "mm"},
-          "the nipple, patient LPS; default: the most anterior skin point");
+          "the nipple, patient LPS; default: what stands out of the skin there");
   s.path("nipple.markups", nipple_markups_, "the nipple as 3D Slicer markups (.mrk.json)");
 }
 
@@ -154,6 +157,8 @@ SegmentInput Patient::segment_input() const {
                              "MHA) or labels.path, or put the series in " +
                              default_mri.string());
   input.series = series_;
+  if (pre_) input.pre = resolve(*pre_);
+  input.pre_series = pre_series_;
   input.label_values = label_values();
   input.side = side_;
   for (const LesionEntry& entry : lesions_) input.lesions.push_back(seed_of(entry));
@@ -165,7 +170,7 @@ SegmentInput Patient::segment_input() const {
 std::vector<fs::path> Patient::segment_files() const {
   const SegmentInput input = segment_input();
   std::vector<fs::path> files;
-  for (const auto& path : {input.mri, input.label_map, input.nipple_markups})
+  for (const auto& path : {input.mri, input.pre, input.label_map, input.nipple_markups})
     if (path) files.push_back(*path);
   for (const LesionSeed& seed : input.lesions)
     for (const auto& path : {seed.markups, seed.label_map})

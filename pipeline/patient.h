@@ -69,8 +69,8 @@ class Patient {
 
   std::filesystem::path file_;
   std::optional<Side> side_;
-  std::optional<std::filesystem::path> mri_, labels_, nipple_markups_;
-  std::optional<std::string> series_;
+  std::optional<std::filesystem::path> mri_, pre_, labels_, nipple_markups_;
+  std::optional<std::string> series_, pre_series_;
   std::map<ForeignTissue, std::vector<int>> label_values_;
   std::optional<Eigen::Vector3d> nipple_lps_mm_;
   std::deque<LesionEntry> lesions_;  // settings point into it while a list is read

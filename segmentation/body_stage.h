@@ -14,6 +14,7 @@ struct BodyStage {
   Volume<float> image;  ///< cropped in front of the breasts and far behind the chest
   Volume<std::uint8_t> body;
   Volume<float> depth;  ///< below the skin [mm]
+  Volume<float> enhancement;  ///< relative_enhancement on the same grid; empty without a pre image
   double noise = 0;     ///< standard deviation [image units]
   BreastFrame frame;
   Contrast contrast;

@@ -111,6 +111,8 @@ HalfBreast cut_half(const BodyStage& body, const WallStage& wall, Side side) {
   HalfBreast half;
   half.side = side;
   half.image = cropped(wall.corrected, crop.low, crop.high);
+  if (!body.enhancement.values.empty())
+    half.enhancement = cropped(body.enhancement, crop.low, crop.high);
   half.body = cropped(body.body, crop.low, crop.high);
   half.depth = cropped(body.depth, crop.low, crop.high);
   half.inside = half.body;

@@ -10,6 +10,7 @@ struct HalfBreast {
   Side side = Side::left;
   Volume<float> image;             ///< bias corrected, fat at 1
   Volume<float> widely_corrected;  ///< by the 60 mm part of the bias only, its median fat at 1
+  Volume<float> enhancement;       ///< relative; empty without an image before contrast agent
   Volume<std::uint8_t> body;
   Volume<std::uint8_t> inside;  ///< body in front of the chest wall
   Volume<float> depth;          ///< below the skin [mm]

@@ -86,6 +86,8 @@ void check_seeds(const HalfBreast& half, const std::vector<PlacedSeed>& seeds) {
 Volume<std::uint8_t> find_lesions(const HalfBreast& half, const std::vector<PlacedSeed>& seeds,
                                   bool fat_suppressed, const SegmentOptions& options,
                                   SegmentQuality& quality) {
+  const bool by_enhancement = !half.enhancement.values.empty();
+  const bool brighter = fat_suppressed || by_enhancement;
   auto lesions = half.body.like<std::uint8_t>(0);
   constexpr double below_skin_mm = 2.5;  // skin is as bright as a lesion
   auto allowed = half.inside;
@@ -104,10 +106,11 @@ Volume<std::uint8_t> find_lesions(const HalfBreast& half, const std::vector<Plac
     }
     LesionSearch search;
     search.reach_mm = options.lesion_reach_mm;
-    search.brighter = fat_suppressed;
+    search.brighter = brighter;
     search.random_walker = options.lesion_method == LesionMethod::random_walker;
-    const FoundLesion found = find_lesion(half.image, allowed, seed.point_in_lps, search);
-    judge(found, seed, fat_suppressed, quality);
+    const FoundLesion found = find_lesion(by_enhancement ? half.enhancement : half.image, allowed,
+                                          seed.point_in_lps, search);
+    judge(found, seed, brighter, quality);
     for (int k = 0; k < found.mask.size.z(); ++k)
       for (int j = 0; j < found.mask.size.y(); ++j)
         for (int i = 0; i < found.mask.size.x(); ++i)

@@ -30,6 +30,9 @@ struct LesionSeed {
 struct SegmentInput {
   std::optional<std::filesystem::path> mri;
   std::optional<std::string> series;  ///< as in read_dicom_series.h
+  /// The image before contrast agent: a file or folder of its own, or a series of `mri`'s folder.
+  std::optional<std::filesystem::path> pre;
+  std::optional<std::string> pre_series;
   std::optional<std::filesystem::path> label_map;
   /// Empty: by the names of its segments where it is a .seg.nrrd, else those of tissue.h.
   LabelValues label_values;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "segmentation/denoise.h"
+#include "segmentation/enhancement.h"
 #include "segmentation/half_body.h"
 #include "segmentation/half_breast.h"
 #include "segmentation/landmarks.h"
@@ -107,6 +109,28 @@ std::vector<Lesion> named_lesions(const Volume<std::uint8_t>& labels,
   return lesions;
 }
 
+/// Reads the image before contrast agent, if one is named, and compares the two.
+void add_enhancement(const SegmentInput& input, BodyStage& body, SegmentResult& result) {
+  if (!input.pre && !input.pre_series) return;
+  const Mri pre = read_mri(input.pre ? *input.pre : *input.mri, input.pre_series);
+  result.files.insert(result.files.end(), pre.files.begin(), pre.files.end());
+  body.enhancement =
+      relative_enhancement(body.image, denoised(pre.image, body.noise), body.noise);
+  result.quality.notes.push_back(
+      "lesions were outlined in the enhancement over the image before contrast agent");
+}
+
+/// Offers what takes up contrast agent in the breast, away from skin and wall.
+void offer_candidates(const HalfBreast& half, SegmentQuality& quality) {
+  constexpr double below_skin_mm = 5, above_wall_mm = 3;
+  if (half.enhancement.values.empty()) return;
+  auto allowed = half.inside;
+  for (std::size_t v = 0; v < allowed.values.size(); ++v)
+    allowed.values[v] &=
+        half.depth.values[v] > below_skin_mm && half.above_wall.values[v] > above_wall_mm;
+  quality.candidates = find_candidates(half.enhancement, allowed);
+}
+
 SegmentResult segment_image(const Mri& mri, const SegmentInput& input,
                             const SegmentOptions& options, const SegmentProgress& progress) {
   std::vector<PlacedSeed> seeds;
@@ -117,7 +141,8 @@ SegmentResult segment_image(const Mri& mri, const SegmentInput& input,
   judge_position(mri.patient_position, result.quality);
 
   progress(0.10, "finding the outline");
-  const BodyStage body = find_body(mri.image, result.quality);
+  BodyStage body = find_body(mri.image, result.quality);
+  add_enhancement(input, body, result);
   if (!mri.geometry_known)
     throw std::runtime_error(
         "its header does not say where its frames stand; expected positions "
@@ -133,6 +158,7 @@ SegmentResult segment_image(const Mri& mri, const SegmentInput& input,
   progress(0.60, "correcting the coil's shading");
   HalfBreast half = cut_half(body, wall, side);
   check_seeds(half, seeds);
+  offer_candidates(half, result.quality);
   correct_shading(half);
   progress(0.80, "finding the lesions");
   const Volume<std::uint8_t> lesions =

@@ -23,6 +23,15 @@ json lesions_json(const std::vector<Lesion>& lesions) {
   return list;
 }
 
+json candidates_json(const std::vector<LesionCandidate>& candidates) {
+  json list = json::array();
+  for (const LesionCandidate& c : candidates)
+    list.push_back({{"centroid_lps_mm", point(c.centroid_in_lps)},
+                    {"volume_ml", c.volume_ml},
+                    {"enhancement", c.enhancement}});
+  return list;
+}
+
 }  // namespace
 
 void SegmentQuality::doubt(SegmentStatus at_least, const std::string& reason) {
@@ -62,6 +71,7 @@ json to_json(const SegmentQuality& q) {
           {"signal_to_noise", optional_number(q.signal_to_noise)},
           {"clipped_share", optional_number(q.clipped_share)},
           {"volume_ratio", optional_number(q.volume_ratio)},
+          {"lesion_candidates", candidates_json(q.candidates)},
           {"lesion_agreement", q.lesion_agreement},
           {"notes", q.notes}};
 }

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "segmentation/enhancement.h"
 #include "segmentation/tissue.h"
 
 namespace mammotwin {
@@ -32,6 +33,8 @@ struct SegmentQuality {
   std::optional<double> signal_to_noise;        ///< median breast over the noise of air
   std::optional<double> clipped_share;          ///< of the skin's outline at the image's border
   std::optional<double> volume_ratio;           ///< of the two breasts, smaller over larger
+  /// What takes up contrast agent, where an image before it is given; offered, not segmented.
+  std::vector<LesionCandidate> candidates;
   std::vector<double> lesion_agreement;         ///< Dice of two methods, one a lesion
 
   /// Adds a reason and makes the status at least this bad.

@@ -13,6 +13,7 @@ namespace mammotwin {
 namespace {
 
 constexpr double skin_left_out_mm = 4, wall_left_out_mm = 2, lesion_left_out_mm = 2.5;
+constexpr float vessel_enhancement = 1;  // vessels and lesions would lift gland's brightness
 constexpr double skin_blur_mm = 1;    // beyond the skin, its blur would pass for gland
 constexpr double wall_blur_mm = 1.5;  // in front of the wall, muscle's
 constexpr double usual_skin_mm = 1.5;
@@ -88,7 +89,9 @@ void label_tissue(const HalfBreast& half, const BreastFrame& frame,
     interior.values[v] &=
         depth > skin + skin_blur_mm && above > wall_blur_mm && lesions.values[v] == 0;
     statistics.values[v] &= depth > skin_left_out_mm && above > wall_left_out_mm &&
-                            to_lesion.values[v] > lesion_left_out_mm;
+                            to_lesion.values[v] > lesion_left_out_mm &&
+                            (half.enhancement.values.empty() ||
+                             half.enhancement.values[v] < vessel_enhancement);
   }
   TissueSplit split = split_tissue(half.image, interior, statistics, fat_suppressed);
   if (fat_suppressed) judge_suppression(half.widely_corrected, statistics, result.quality);

@@ -18,6 +18,7 @@ struct Phantom {
   double noise = 0.02;   ///< over fat
   double shading = 0.0;  ///< log of the change over the image's depth
   double fat_grey = 200;
+  bool contrast_agent = false;  ///< not suppressed: lesion 0.95 for 0.42, gland 0.55 for 0.45
 
   static constexpr double chest_radius = 150, muscle_mm = 14, coat_mm = 14;
   Eigen::Vector3d chest_axis{0, 190, 0};  ///< x, y of a vertical cylinder; its front is at y = 40
@@ -50,8 +51,8 @@ struct Phantom {
     if (w < -muscle_mm) return fs ? 1.3 : 0.45;  // thorax
     if (w < 0) return fs ? 1.55 : 0.4;
     if (d < skin_mm) return fs ? 2.0 : 0.45;
-    if ((x - lesion).norm() < lesion_radius) return fs ? 3.2 : 0.42;
-    if ((x - gland).norm() < gland_radius) return fs ? 1.8 : 0.45;
+    if ((x - lesion).norm() < lesion_radius) return fs ? 3.2 : contrast_agent ? 0.95 : 0.42;
+    if ((x - gland).norm() < gland_radius) return fs ? 1.8 : contrast_agent ? 0.55 : 0.45;
     return 1;
   }
 

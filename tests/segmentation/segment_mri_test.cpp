@@ -127,5 +127,53 @@ TEST(SegmentOfAnMri, IsTheSameTwiceAndTellsItsProgress) {
   EXPECT_EQ(fractions.back(), 1);
 }
 
+/// Not suppressed, after contrast agent: the lesion is as bright as fat, and is seen only against
+/// the image before.
+TEST(SegmentOfAnMri, ImageBeforeContrastAgentShowsTheLesion) {
+  const ScratchFolder folder("dynamic");
+  Phantom phantom;
+  phantom.fat_suppressed = false;
+  write_image(folder.path / "pre.nrrd", phantom.image());
+  phantom.contrast_agent = true;
+  SegmentInput input = input_for(write_phantom(folder.path, phantom), phantom);
+  input.pre = folder.path / "pre.nrrd";
+  const SegmentResult result = segment(input, {});
+  const Lesion& lesion = result.segmentation.lesions.at(0);
+  EXPECT_LT((lesion.centroid_in_lps - phantom.lesion).norm(), 1);
+  const double truth_ml = 4.0 / 3 * 3.14159 * std::pow(phantom.lesion_radius, 3) / 1000;
+  EXPECT_NEAR(lesion.volume_ml, truth_ml, 0.3 * truth_ml);
+  ASSERT_EQ(result.quality.candidates.size(), 1U);
+  EXPECT_LT((result.quality.candidates[0].centroid_in_lps - phantom.lesion).norm(), 1);
+  // (0.95 - 0.42) / 0.42 = 1.26 inside; its edge, where the mean over a voxel is less, counts too.
+  EXPECT_NEAR(result.quality.candidates[0].enhancement, 1.26, 0.15);
+}
+
+TEST(SegmentOfAnMri, RefusesAnImageBeforeContrastAgentOfAnotherPlace) {
+  const ScratchFolder folder("elsewhere");
+  Phantom phantom;
+  Volume<float> pre = phantom.image();
+  pre.origin.z() += 60;
+  write_image(folder.path / "pre.nrrd", pre);
+  SegmentInput input = input_for(write_phantom(folder.path, phantom), phantom);
+  input.pre = folder.path / "pre.nrrd";
+  expect_mentions(message_of([&] { segment(input, {}); }), {"before contrast agent covers", "90 %"});
+}
+
+TEST(SegmentOfAnMri, NamesAnImageTurnedBackToFront) {
+  const ScratchFolder folder("turned");
+  const Phantom phantom;
+  const Volume<float> right = phantom.image();
+  Volume<float> turned = right;
+  for (int k = 0; k < right.size.z(); ++k)
+    for (int j = 0; j < right.size.y(); ++j)
+      for (int i = 0; i < right.size.x(); ++i)
+        turned(i, j, k) = right(i, right.size.y() - 1 - j, k);
+  write_image(folder.path / "mri.nrrd", turned);
+  SegmentInput input;
+  input.mri = folder.path / "mri.nrrd";
+  input.side = Side::left;
+  expect_mentions(message_of([&] { segment(input, {}); }), {"mri.nrrd", "towards the patient's back"});
+}
+
 }  // namespace
 }  // namespace mammotwin
