@@ -42,29 +42,6 @@ void fill_slice(Volume<std::uint8_t>& body, int k) {
     for (int i = 0; i < nx; ++i) body(i, j, k) = !air[static_cast<std::size_t>(j) * nx + i];
 }
 
-/// What lies below three times the noise.
-struct Air {
-  double share = 0;  ///< of the image
-  double mean = 0;   ///< over the noise; 1.24 for a Rayleigh distribution cut there
-};
-
-Air measure_air(const Volume<float>& image, double noise) {
-  double sum = 0, count = 0, all = 0;
-  for (std::size_t v = 0; v < image.values.size(); v += 7, ++all)
-    if (image.values[v] < 3 * noise) sum += image.values[v], ++count;
-  if (!(count > 0)) return {};
-  return {count / all, sum / count / noise};
-}
-
-/// True if the dark part of the image is large, and as bright in the mean as noise is.
-bool is_noise(const Air& air) { return air.share > 0.2 && std::abs(air.mean - 1.24) < 0.1; }
-
-/// How many times the noise is surely tissue: 6 where the scanner has blanked the air, which keeps
-/// ghosts out; 2.5 where noise fills it: denoised, it lies at 1.25 +- 0.2, and dark skin below 6.
-double above_noise(const Volume<float>& image, double noise) {
-  return measure_air(image, noise).mean > 0.9 ? 2.5 : 6;
-}
-
 double mean_spacing(const Eigen::Vector3d& spacing) { return std::cbrt(spacing.prod()); }
 
 }  // namespace
@@ -86,14 +63,11 @@ double estimate_noise(const Volume<float>& image) {
   std::vector<float> upper;
   for (const float value : sample)
     if (value > middle) upper.push_back(value);
-  const double usual = 0.1 * quantile(upper, 0.5);  // of an image with little air, or none
-  if (sigma <= usual || is_noise(measure_air(image, sigma))) return sigma;
-  return usual;
+  return std::min(sigma, 0.1 * quantile(upper, 0.5));
 }
 
 Volume<std::uint8_t> coarse_body(const Volume<float>& image, double noise) {
-  constexpr double tissue_share = 0.25, opening_voxels = 2;
-  const double noise_factor = above_noise(image, noise);
+  constexpr double noise_factor = 6, tissue_share = 0.25, opening_voxels = 2;
   auto body = image.like<std::uint8_t>(0);
   const std::size_t slice = static_cast<std::size_t>(image.size.x()) * image.size.y();
   tbb::parallel_for(0, image.size.z(), [&](int k) {

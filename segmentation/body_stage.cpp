@@ -6,7 +6,6 @@
 #include <stdexcept>
 
 #include "segmentation/body_mask.h"
-#include "segmentation/denoise.h"
 #include "segmentation/half_body.h"
 
 namespace mammotwin {
@@ -14,7 +13,7 @@ namespace {
 
 constexpr double least_width_mm = 150, least_depth_mm = 80, least_height_mm = 60;
 constexpr double before_apex_mm = 15, behind_sternum_mm = 115;
-constexpr double cut_fat_suppressed = 0.50, cut_other = 0.26;
+constexpr double cut_fat_suppressed = 0.45, cut_other = 0.30;
 
 std::string extent_text(const Eigen::Vector3d& extent) {
   std::ostringstream text;
@@ -49,23 +48,6 @@ void check_extent(const Volume<float>& image) {
       extent_text(extent) + "; expected a prone MRI of both breasts, at least 150 x 80 x 60 mm");
 }
 
-/// Closes the thorax: where a flank is too dim to be seen, the lung would pass for air. From 20 mm
-/// behind the skin between the breasts on, a row is body between the outermost body voxels of
-/// itself and the rows in front of it.
-void close_thorax(const BreastFrame& frame, Volume<std::uint8_t>& body) {
-  constexpr double behind_mm = 20;
-  const int first = static_cast<int>(
-      std::ceil((frame.sternal_y + behind_mm - body.origin.y()) / body.spacing.y()));
-  for (int k = 0; k < body.size.z(); ++k) {
-    int low = body.size.x(), high = -1;
-    for (int j = std::max(0, first); j < body.size.y(); ++j) {
-      for (int i = 0; i < body.size.x(); ++i)
-        if (body(i, j, k)) low = std::min(low, i), high = std::max(high, i);
-      for (int i = low; i <= high; ++i) body(i, j, k) = 1;
-    }
-  }
-}
-
 /// Cuts away the air in front and what lies far behind, where the frame says so.
 BodyStage crop_to_frame(const Volume<float>& image, const Volume<std::uint8_t>& body,
                         const BreastFrame& frame) {
@@ -80,7 +62,6 @@ BodyStage crop_to_frame(const Volume<float>& image, const Volume<std::uint8_t>& 
   stage.image = cropped(image, low, high);
   stage.body = cropped(body, low, high);
   stage.frame = frame;
-  close_thorax(frame, stage.body);
   return stage;
 }
 
@@ -116,10 +97,9 @@ double clipped_in_front(const Volume<std::uint8_t>& body) {
 
 }  // namespace
 
-BodyStage find_body(const Volume<float>& scan, SegmentQuality& quality) {
-  check_extent(scan);
-  const double noise = estimate_noise(scan);
-  const Volume<float> image = denoised(scan, noise);
+BodyStage find_body(const Volume<float>& image, SegmentQuality& quality) {
+  check_extent(image);
+  const double noise = estimate_noise(image);
   const Volume<std::uint8_t> body = coarse_body(image, noise);
   const BreastFrame frame = checked_frame(body);
   constexpr double largest_clip_cm2 = 4;  // a nipple's worth: the breast's tip is missing
@@ -134,7 +114,6 @@ BodyStage find_body(const Volume<float>& scan, SegmentQuality& quality) {
   stage.body = cut_rim(stage.image, stage.body,
                        stage.contrast.fat_suppressed ? cut_fat_suppressed : cut_other);
   stage.frame = find_breast_frame(stage.body);
-  close_thorax(stage.frame, stage.body);
   stage.depth = depth_below_surface(stage.body);
   quality.contrast = stage.contrast.fat_suppressed ? "fat-suppressed" : "not fat-suppressed";
   quality.signal_to_noise =

@@ -11,7 +11,7 @@ namespace {
 
 constexpr int reach = 2;
 constexpr double furthest_squared = 5;  // voxels^2: leaves the cube's corners out
-constexpr double near_voxels = 1.2, like_noises = 2.5;
+constexpr double near_voxels = 1.2, like_noises = 2;
 
 struct Neighbour {
   int i, j, k;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "segmentation/body_mask.h"
+#include "segmentation/denoise.h"
 #include "segmentation/distance.h"
 #include "segmentation/half_body.h"
 #include "segmentation/n4.h"
@@ -104,13 +105,24 @@ Volume<float> corrected_widely(Volume<float> image, const Volume<float>& log_bia
   return image;
 }
 
+/// The corrected image of one side, denoised: the wall was found in the scan as it is, where the
+/// filter blurs the faint edge of muscle far from the coil.
+Volume<float> denoised_part(const BodyStage& body, const WallStage& wall, const Crop& crop) {
+  Volume<float> image = cropped(wall.corrected, crop.low, crop.high);
+  const Volume<float> scan = cropped(body.image, crop.low, crop.high);
+  const Volume<float> clean = denoised(scan, body.noise);
+  for (std::size_t v = 0; v < image.values.size(); ++v)
+    if (scan.values[v] > 0) image.values[v] *= clean.values[v] / scan.values[v];
+  return image;
+}
+
 }  // namespace
 
 HalfBreast cut_half(const BodyStage& body, const WallStage& wall, Side side) {
   const Crop crop = side_box(body.image, body.frame, side);
   HalfBreast half;
   half.side = side;
-  half.image = cropped(wall.corrected, crop.low, crop.high);
+  half.image = denoised_part(body, wall, crop);
   if (!body.enhancement.values.empty())
     half.enhancement = cropped(body.enhancement, crop.low, crop.high);
   half.body = cropped(body.body, crop.low, crop.high);

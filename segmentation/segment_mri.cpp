@@ -115,7 +115,7 @@ void add_enhancement(const SegmentInput& input, BodyStage& body, SegmentResult& 
   const Mri pre = read_mri(input.pre ? *input.pre : *input.mri, input.pre_series);
   result.files.insert(result.files.end(), pre.files.begin(), pre.files.end());
   body.enhancement =
-      relative_enhancement(body.image, denoised(pre.image, body.noise), body.noise);
+      relative_enhancement(denoised(body.image, body.noise), denoised(pre.image, body.noise), body.noise);
   result.quality.notes.push_back(
       "lesions were outlined in the enhancement over the image before contrast agent");
 }

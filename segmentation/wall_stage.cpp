@@ -2,6 +2,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "segmentation/em_bias.h"
@@ -35,6 +36,25 @@ Volume<std::uint8_t> fat_under_skin(const BodyStage& body) {
   return fat;
 }
 
+/// The body with its thorax closed: where a flank is too dim to be seen, the lung passes for air,
+/// and rays would end in it. From 20 mm behind the skin between the breasts on, a row is body
+/// between the outermost body voxels of itself and the rows in front of it.
+Volume<std::uint8_t> with_closed_thorax(const BodyStage& stage) {
+  constexpr double behind_mm = 20;
+  Volume<std::uint8_t> body = stage.body;
+  const int first = static_cast<int>(
+      std::ceil((stage.frame.sternal_y + behind_mm - body.origin.y()) / body.spacing.y()));
+  for (int k = 0; k < body.size.z(); ++k) {
+    int low = body.size.x(), high = -1;
+    for (int j = std::max(0, first); j < body.size.y(); ++j) {
+      for (int i = 0; i < body.size.x(); ++i)
+        if (body(i, j, k)) low = std::min(low, i), high = std::max(high, i);
+      for (int i = low; i <= high; ++i) body(i, j, k) = 1;
+    }
+  }
+  return body;
+}
+
 }  // namespace
 
 WallStage find_wall(const BodyStage& body, double stiffness) {
@@ -54,7 +74,8 @@ WallStage find_wall(const BodyStage& body, double stiffness) {
   for (float& value : corrected.values) value /= static_cast<float>(fat);
   stage.contrast.muscle = muscle_over_fat(bias, std::log(fat), body.contrast.fat_suppressed);
   constexpr double ray_smoothing_mm = 0.8;  // about a voxel: noise falls, the edge stays
-  stage.wall = find_pectoral_wall(gaussian_smoothed(corrected, ray_smoothing_mm), body.body,
+  stage.wall = find_pectoral_wall(gaussian_smoothed(corrected, ray_smoothing_mm),
+                                  with_closed_thorax(body),
                                   body.frame, stage.contrast, stiffness);
   return stage;
 }

@@ -45,7 +45,7 @@ SegmentationCase case_of(const LabelMapBreast& breast, int n, Contrast contrast)
   ScanOptions scan;
   scan.contrast = contrast;
   scan.noise = spread(n, 0.03, 0.08, 3, 10);
-  scan.shading = 1.2;  // over 1:5 over these bodies
+  scan.shading = contrast == Contrast::fat_suppressed ? 1.2 : 1;  // 1:5 to 1:7 in these bodies
   const auto seed = static_cast<std::uint64_t>(2000 + n);
   const std::string side = breast.side == Side::left ? "-left-" : "-right-";
   return {breast.exam + side + name_of(contrast), contrast, [breast, scan, seed] {
