@@ -10,7 +10,6 @@ namespace {
 
 constexpr double block_mm = 4;
 constexpr double least_variance = 0.05 * 0.05;  // of log intensity: below that noise rules
-constexpr float least_fat_share = 0.4F;  // of a block, for the block to be fat
 constexpr int wide_rounds = 6, narrow_rounds = 12;
 constexpr double wide_mm = 60, narrow_mm = 25;
 
@@ -29,16 +28,14 @@ std::vector<IntensityClass> classes_at_quantiles(std::vector<float> values, int 
 /// One round of expectation maximisation; leaves the residual and its weight (1 / variance).
 class Round {
  public:
-  Round(const Volume<float>& log_image, const Volume<float>& share,
-        const Volume<std::uint8_t>& is_fat)
-      : y_(log_image), share_(share), is_fat_(is_fat) {}
+  Round(const Volume<float>& log_image, const Volume<float>& share)
+      : y_(log_image), share_(share) {}
 
   void run(const Volume<float>& bias, std::vector<IntensityClass>& classes, Volume<float>& residual,
            Volume<float>& weight) const {
     const std::size_t count = classes.size();
     std::vector<double> sum(count, 0), sum_y(count, 0), sum_yy(count, 0), p(count);
     double total = 0;
-    const std::size_t fat = fat_class(bias, classes);
     for (std::size_t v = 0; v < y_.values.size(); ++v) {
       residual.values[v] = weight.values[v] = 0;
       if (share_.values[v] < 0.5F) continue;
@@ -49,10 +46,6 @@ class Round {
         p[c] = classes[c].weight * std::exp(-0.5 * d * d / classes[c].variance) /
                std::sqrt(classes[c].variance);
         norm += p[c];
-      }
-      if (is_fat_.values[v]) {
-        std::fill(p.begin(), p.end(), 0.0);
-        norm = p[fat] = 1;
       }
       double precision = 0, expected = 0;
       for (std::size_t c = 0; c < count; ++c) {
@@ -76,22 +69,8 @@ class Round {
   }
 
  private:
-  /// The class nearest to the blocks known to be fat.
-  std::size_t fat_class(const Volume<float>& bias,
-                        const std::vector<IntensityClass>& classes) const {
-    double sum = 0, count = 0;
-    for (std::size_t v = 0; v < y_.values.size(); ++v)
-      if (is_fat_.values[v]) sum += y_.values[v] - bias.values[v], ++count;
-    const double mean = count > 0 ? sum / count : 0;
-    const auto nearer = [mean](const IntensityClass& a, const IntensityClass& b) {
-      return std::abs(a.mean - mean) < std::abs(b.mean - mean);
-    };
-    return std::min_element(classes.begin(), classes.end(), nearer) - classes.begin();
-  }
-
   const Volume<float>& y_;
   const Volume<float>& share_;
-  const Volume<std::uint8_t>& is_fat_;
 };
 
 }  // namespace
@@ -101,18 +80,13 @@ float BiasEstimate::correction(const Eigen::Vector3d& x_in_lps) const {
 }
 
 BiasEstimate estimate_bias(const Volume<float>& image, const Volume<std::uint8_t>& mask,
-                           const Volume<std::uint8_t>& fat, int num_classes) {
+                           int num_classes) {
   const Eigen::Vector3i factor =
       (block_mm / image.spacing.array()).round().max(1).cast<int>().matrix();
   Volume<float> share;
   Volume<float> y = block_means(image, mask, factor, share);
-  Volume<float> fat_share;
-  const Volume<float> fat_mean = block_means(image, fat, factor, fat_share);
-  auto is_fat = y.like<std::uint8_t>(0);
   std::vector<float> inside;
   for (std::size_t v = 0; v < y.values.size(); ++v) {
-    is_fat.values[v] = fat_share.values[v] >= least_fat_share && share.values[v] >= 0.5F;
-    if (is_fat.values[v]) y.values[v] = fat_mean.values[v];
     y.values[v] = std::log(std::max(y.values[v], 1e-6F));
     if (share.values[v] >= 0.5F) inside.push_back(y.values[v]);
   }
@@ -120,7 +94,7 @@ BiasEstimate estimate_bias(const Volume<float>& image, const Volume<std::uint8_t
   if (inside.empty()) return estimate;
   estimate.classes = classes_at_quantiles(inside, num_classes);
   Volume<float> residual = y.like<float>(0), weight = residual;
-  const Round round(y, share, is_fat);
+  const Round round(y, share);
   for (int n = 0; n < wide_rounds + narrow_rounds; ++n) {
     round.run(estimate.log_bias, estimate.classes, residual, weight);
     estimate.log_bias = weighted_smoothed(residual, weight, n < wide_rounds ? wide_mm : narrow_mm);

@@ -27,11 +27,7 @@ struct BiasEstimate {
 /// maximisation: log I = log_bias + class mean + noise, after Wells et al., IEEE TMI 15 (1996),
 /// 429-442. The field is a weighted Gaussian mean of the residual, 60 mm wide to start with and
 /// 25 mm at the end. Coarse: good enough to find the chest wall.
-///
-/// `fat`: voxels known to be fat (under the skin). Their blocks are held to the class that is
-/// theirs in the mean: without it a thin layer of fat passes for a brighter class where muscle is
-/// most of what is there, and the muscle for fat.
 BiasEstimate estimate_bias(const Volume<float>& image, const Volume<std::uint8_t>& mask,
-                           const Volume<std::uint8_t>& fat, int num_classes);
+                           int num_classes);
 
 }  // namespace mammotwin

@@ -27,15 +27,6 @@ double muscle_over_fat(const BiasEstimate& bias, double log_fat, bool fat_suppre
   return best;
 }
 
-/// Deep enough for skin and its blur, not so deep as gland in most of the body's outline.
-Volume<std::uint8_t> fat_under_skin(const BodyStage& body) {
-  constexpr double from_mm = 4, to_mm = 9;
-  auto fat = body.body.like<std::uint8_t>(0);
-  for (std::size_t v = 0; v < fat.values.size(); ++v)
-    fat.values[v] = body.depth.values[v] > from_mm && body.depth.values[v] < to_mm;
-  return fat;
-}
-
 /// The body with its thorax closed: where a flank is too dim to be seen, the lung passes for air,
 /// and rays would end in it. From 20 mm behind the skin between the breasts on, a row is body
 /// between the outermost body voxels of itself and the rows in front of it.
@@ -58,8 +49,7 @@ Volume<std::uint8_t> with_closed_thorax(const BodyStage& stage) {
 }  // namespace
 
 WallStage find_wall(const BodyStage& body, double stiffness) {
-  const BiasEstimate bias =
-      estimate_bias(body.image, body.body, fat_under_skin(body), num_classes);
+  const BiasEstimate bias = estimate_bias(body.image, body.body, num_classes);
   WallStage stage;
   stage.wide_log_bias = bias.wide_log_bias;
   stage.corrected = body.image;
