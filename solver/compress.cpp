@@ -63,6 +63,7 @@ class Compression {
   Compression(const CompressionProblem& problem, const CompressionOptions& options,
               const Progress& progress, const CompressionRestart& restart);
   CompressionResult run();
+  CompressionResult run_from(const CompressionResult& near);
 
  private:
   void check_thickness() const;
@@ -222,9 +223,9 @@ void Compression::judge(const LoadSteppingReport& load) {
                      " apart (stiffer chest-wall springs or more friction would hold it)";
   else if (!load.complete())
     report_.reason = load.reason;
-  else if (error > most_error)
+  else if (error > std::max(most_error, options_.thickness_tolerance))
     report_.reason = "the thickness stays " + in_mm(error) + " off";
-  else if (report_.max_penetration_mm > most_penetration)
+  else if (report_.max_penetration_mm > std::max(most_penetration, options_.gap_tolerance))
     report_.reason = "a point stays " + in_mm(report_.max_penetration_mm) + " inside a plate";
   else
     report_.status = CompressionStatus::converged;
@@ -301,7 +302,7 @@ LoadSteppingReport Compression::close_plates(State& state) {
 CompressionResult Compression::run() {
   const auto start = std::chrono::steady_clock::now();
   State state;
-  if (!begin(state)) return {state.x, state.pressure, press_.placed(), {}, report_};
+  if (!begin(state)) return {state.x, state.pressure, press_.placed(), 0, {}, report_};
   const LoadSteppingReport load = close_plates(state);
   measure_compression(press_, state, report_);
   judge(load);
@@ -309,9 +310,33 @@ CompressionResult Compression::run() {
   report_.seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (progress_) progress_(1, "compressed to " + in_mm(report_.thickness_mm));
-  CompressionResult result{state.x, state.pressure, press_.placed(), {}, report_};
+  CompressionResult result{state.x, state.pressure, press_.placed(), press_.penalty(), {}, report_};
   if (report_.usable()) result.fields = solution_fields(press_, state);
   return result;
+}
+
+/// The plates go at once to their new places, as far apart beyond the thickness as they were.
+CompressionResult Compression::run_from(const CompressionResult& near) {
+  State state = press_.model().rest();
+  if (near.deformed.size() != state.x.size() || near.pressure.size() != state.pressure.size())
+    throw std::invalid_argument("the result to start from belongs to another mesh");
+  state.x = near.deformed;
+  state.pressure = near.pressure;
+  const double apart = near.plates.paddle_height - near.plates.support_height;
+  place(1);
+  press_.move_paddle(end_.support_height + problem_.plates.thickness + apart -
+                         near.report.target_thickness_mm,
+                     good_.tilt);
+  NewtonReport newton = press_.squeeze(state, near.penalty);
+  if (newton.usable()) newton = then(newton, press_.resettle(state));
+  count(newton);
+  LoadSteppingReport load;
+  load.reached = newton.usable() ? 1 : 0;
+  load.reason = newton.reason;
+  if (load.complete()) count(finish_compression(press_, press_.penalty(), state));
+  measure_compression(press_, state, report_);
+  judge(load);
+  return {state.x, state.pressure, press_.placed(), press_.penalty(), {}, report_};
 }
 
 }  // namespace
@@ -338,6 +363,12 @@ CompressionResult compress(const CompressionProblem& problem, const CompressionO
   CompressionResult result = Compression(held, options, progress, again).run();
   result.report.held_by_friction = options.holding_friction;
   return result;
+}
+
+CompressionResult compress_from(const CompressionResult& near, const CompressionProblem& problem,
+                                const CompressionOptions& options) {
+  check_shape(problem);
+  return Compression(problem, options, {}, {}).run_from(near);
 }
 
 }  // namespace mammotwin

@@ -137,6 +137,7 @@ struct CompressionResult {
   std::vector<HermiteMesh::Node> deformed;  ///< at the last good step
   std::vector<double> pressure;             ///< 8 an element (State::pressure)
   PlacedPlates plates;                      ///< where they ended
+  double penalty = 0;                       ///< of contact in the end [kPa/mm]
   std::map<std::string, PointField> fields;  ///< press/solution_fields.h; empty if not usable
   CompressionReport report;
 };
@@ -159,5 +160,11 @@ using Progress = std::function<void(double fraction, const std::string& what)>;
 /// found the report says why and how far it came.
 CompressionResult compress(const CompressionProblem& problem, const CompressionOptions& options,
                            const Progress& progress = {}, const CompressionRestart& restart = {});
+
+/// The same from the result of a slightly different problem on the same mesh (thickness, plates'
+/// place, stiffness), in a tenth of the iterations; it stays on that result's branch of equilibria.
+/// `energy_force_N` is not computed, and friction starts anew.
+CompressionResult compress_from(const CompressionResult& near, const CompressionProblem& problem,
+                                const CompressionOptions& options);
 
 }  // namespace mammotwin

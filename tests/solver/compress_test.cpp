@@ -63,6 +63,29 @@ TEST(Compress, IsTheSameInARotatedWorld) {
     EXPECT_NEAR((result.deformed[i].col(0) - R * squeezed().deformed[i].col(0)).norm(), 0, 1e-4);
 }
 
+// What small changes do: at a softer penalty, and with the plates where they are put, so that the
+// thickness comes out. The plates' distance enters as the thickness asked.
+TEST(Compress, FromANearbyResultFollowsThePlates) {
+  CompressionResult start = squeezed();
+  ASSERT_TRUE(start.report.usable());
+  start.penalty /= 10;
+  CompressionOptions options;
+  options.gap_tolerance = 0.5;
+  options.thickness_tolerance = 5;
+  const CompressionResult here = compress_from(start, squeezed_problem(), options);
+  CompressionProblem thinner = squeezed_problem();
+  thinner.plates.thickness -= 2;
+  const CompressionResult there = compress_from(here, thinner, options);
+  ASSERT_TRUE(here.report.usable()) << here.report.reason;
+  ASSERT_TRUE(there.report.usable()) << there.report.reason;
+  EXPECT_LT(there.report.newton_iterations, 20);  // from rest 60
+  EXPECT_NEAR(here.report.thickness_mm, 60, 0.5);  // softer contact by a penetration of at most that
+  EXPECT_NEAR(here.plates.paddle_height - here.plates.support_height -
+                  (there.plates.paddle_height - there.plates.support_height), 2, 1e-9);
+  EXPECT_LT(there.report.thickness_mm, here.report.thickness_mm - 0.5);
+  EXPECT_GT(there.report.force_N, here.report.force_N);
+}
+
 std::string refusal(const CompressionProblem& problem) {
   try {
     compress(problem, {});
