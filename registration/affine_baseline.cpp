@@ -1,10 +1,12 @@
 #include "registration/affine_baseline.h"
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <stdexcept>
 
 namespace mammotwin {
@@ -38,7 +40,7 @@ double lateral_centroid(const HermiteMesh& mesh, const ViewFrame& frame) {
 }  // namespace
 
 AffineBaseline::AffineBaseline(const HermiteMesh& prone, const CompressedView& view)
-    : frame_(view.frame) {
+    : frame_(view.frame), thickness_mm_(view.thickness_mm) {
   double high = -std::numeric_limits<double>::infinity();
   low_ = -high;
   for_each_sample(prone, [&](const MeshPoint& p) {
@@ -56,15 +58,24 @@ AffineBaseline::AffineBaseline(const HermiteMesh& prone, const CompressedView& v
   lateral_centroid_ = lateral_centroid(prone, frame_);
 }
 
+void AffineBaseline::place(double turn_deg, const Eigen::Vector2d& shift_mm) {
+  turn_deg_ = turn_deg;
+  turn_ = Eigen::Rotation2Dd(turn_deg * std::numbers::pi / 180).toRotationMatrix();
+  shift_ = shift_mm;
+}
+
 Eigen::Vector3d AffineBaseline::view_from_prone(const Eigen::Vector3d& x_in_lps) const {
   const Eigen::Vector3d x = frame_.view_from_lps(x_in_lps);
-  return {stretch_ * x.x(), lateral_centroid_ + stretch_ * (x.y() - lateral_centroid_),
-          (x.z() - low_) / (stretch_ * stretch_)};
+  const Eigen::Vector2d flat(stretch_ * x.x(),
+                             lateral_centroid_ + stretch_ * (x.y() - lateral_centroid_));
+  const Eigen::Vector2d there = turn_ * flat + shift_;
+  return {there.x(), there.y(), (x.z() - low_) / (stretch_ * stretch_)};
 }
 
 Eigen::Vector3d AffineBaseline::prone_from_view(const Eigen::Vector3d& x) const {
-  return frame_.lps_from_view({x.x() / stretch_,
-                               lateral_centroid_ + (x.y() - lateral_centroid_) / stretch_,
+  const Eigen::Vector2d flat = turn_.transpose() * (x.head<2>() - shift_);
+  return frame_.lps_from_view({flat.x() / stretch_,
+                               lateral_centroid_ + (flat.y() - lateral_centroid_) / stretch_,
                                low_ + x.z() * stretch_ * stretch_});
 }
 

@@ -25,16 +25,26 @@ class AffineBaseline {
   /// Its inverse.
   Eigen::Vector3d prone_from_view(const Eigen::Vector3d& x_in_view) const;
 
+  /// Turned about the beam and shifted on the detector, to be brought to a mammogram's outline.
+  void place(double turn_deg, const Eigen::Vector2d& shift_mm);
+
+  const ViewFrame& frame() const { return frame_; }
+  double thickness_mm() const { return thickness_mm_; }
+  double turn_deg() const { return turn_deg_; }
+  const Eigen::Vector2d& shift_mm() const { return shift_; }
   double stretch() const { return stretch_; }
   double prone_extent_mm() const { return prone_extent_mm_; }
   double prone_low_mm() const { return low_; }  ///< lowest height of the prone tissue in front
 
  private:
   ViewFrame frame_;
-  double prone_extent_mm_ = 0;
+  double thickness_mm_ = 0, prone_extent_mm_ = 0;
   double stretch_ = 1;
   double low_ = 0;
   double lateral_centroid_ = 0;
+  double turn_deg_ = 0;
+  Eigen::Matrix2d turn_ = Eigen::Matrix2d::Identity();
+  Eigen::Vector2d shift_ = Eigen::Vector2d::Zero();
 };
 
 }  // namespace mammotwin

@@ -37,6 +37,40 @@ void continue_one_layer(const PointCarrier& carrier, Volume<std::uint8_t>& state
       }
 }
 
+/// Voxels that a point is interpolated from, with their weights.
+template <class Visit>
+void for_each_corner(const DisplacementField& field, const Eigen::Vector3d& x, const Visit& visit) {
+  const Eigen::Vector3d index = field.index(x);
+  const Eigen::Vector3i low = index.array().floor().cast<int>();
+  const Eigen::Vector3d t = index - low.cast<double>();
+  for (int corner = 0; corner < 8; ++corner) {
+    const Eigen::Vector3i bits(corner & 1, corner >> 1 & 1, corner >> 2);
+    const Eigen::Vector3i v = low + bits;
+    if (!field.contains(v.x(), v.y(), v.z())) continue;
+    double weight = 1;
+    for (int a = 0; a < 3; ++a) weight *= bits[a] ? t[a] : 1 - t[a];
+    visit(field.offset(v.x(), v.y(), v.z()), weight);
+  }
+}
+
+/// A voxel centre of a field inside its mesh, and where the field takes it.
+struct Composed {
+  Eigen::Vector3d x, y;
+};
+std::vector<Composed> composed(const DisplacementField& there, const HermiteMesh& mesh) {
+  PositionGrid inside_of = there.like<Eigen::Vector3d>(Eigen::Vector3d::Zero());
+  fill_positions(mesh, mesh, inside_of);
+  std::vector<Composed> points;
+  for (int k = 0; k < there.size.z(); ++k)
+    for (int j = 0; j < there.size.y(); ++j)
+      for (int i = 0; i < there.size.x(); ++i) {
+        if (!inside_of(i, j, k).allFinite()) continue;
+        const Eigen::Vector3d x = there.position(i, j, k);
+        points.push_back({x, x + there(i, j, k).cast<double>()});
+      }
+  return points;
+}
+
 }  // namespace
 
 DisplacementField displacement_field(const HermiteMesh& here, const HermiteMesh& target,
@@ -62,34 +96,39 @@ DisplacementField displacement_field(const HermiteMesh& here, const HermiteMesh&
 }
 
 Eigen::Vector3d displacement_at(const DisplacementField& field, const Eigen::Vector3d& x) {
-  const Eigen::Vector3d index = field.index(x);
-  const Eigen::Vector3i low = index.array().floor().cast<int>();
-  const Eigen::Vector3d t = index - low.cast<double>();
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (int corner = 0; corner < 8; ++corner) {
-    const Eigen::Vector3i bits(corner & 1, corner >> 1 & 1, corner >> 2);
-    const Eigen::Vector3i v = low + bits;
-    if (!field.contains(v.x(), v.y(), v.z())) continue;
-    double weight = 1;
-    for (int a = 0; a < 3; ++a) weight *= bits[a] ? t[a] : 1 - t[a];
-    sum += weight * field(v.x(), v.y(), v.z()).cast<double>();
-  }
+  for_each_corner(field, x, [&](std::size_t voxel, double weight) {
+    sum += weight * field.values[voxel].cast<double>();
+  });
   return sum;
+}
+
+void compose_to_identity(const DisplacementField& there, const HermiteMesh& there_mesh,
+                         double tolerance_mm, DisplacementField& back) {
+  constexpr int most_rounds = 60;
+  const std::vector<Composed> points = composed(there, there_mesh);
+  for (int round = 0; round < most_rounds; ++round) {
+    std::vector<Eigen::Vector4d> left(back.values.size(), Eigen::Vector4d::Zero());
+    double worst = 0;
+    for (const Composed& p : points) {
+      const Eigen::Vector3d miss = p.y + displacement_at(back, p.y) - p.x;
+      worst = std::max(worst, miss.norm());
+      for_each_corner(back, p.y, [&](std::size_t voxel, double weight) {
+        left[voxel] += weight * Eigen::Vector4d(miss.x(), miss.y(), miss.z(), 1);
+      });
+    }
+    if (worst <= tolerance_mm) return;
+    for (std::size_t v = 0; v < left.size(); ++v)
+      if (left[v].w() > 0)
+        back.values[v] -= (left[v].head<3>() / left[v].w()).cast<float>();
+  }
 }
 
 CompositionError composition_error(const DisplacementField& there, const DisplacementField& back,
                                    const HermiteMesh& there_mesh) {
-  PositionGrid inside_of = there.like<Eigen::Vector3d>(Eigen::Vector3d::Zero());
-  fill_positions(there_mesh, there_mesh, inside_of);
   std::vector<double> errors;
-  for (int k = 0; k < there.size.z(); ++k)
-    for (int j = 0; j < there.size.y(); ++j)
-      for (int i = 0; i < there.size.x(); ++i) {
-        if (!inside_of(i, j, k).allFinite()) continue;
-        const Eigen::Vector3d x = there.position(i, j, k);
-        const Eigen::Vector3d y = x + there(i, j, k).cast<double>();
-        errors.push_back((y + displacement_at(back, y) - x).norm());
-      }
+  for (const Composed& p : composed(there, there_mesh))
+    errors.push_back((p.y + displacement_at(back, p.y) - p.x).norm());
   if (errors.empty()) return {};
   std::sort(errors.begin(), errors.end());
   double sum = 0;

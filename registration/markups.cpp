@@ -15,7 +15,7 @@ constexpr const char* kSchema =
 nlohmann::ordered_json control_point(const MarkupPoint& point, std::size_t number) {
   return {{"id", std::to_string(number)},
           {"label", point.label},
-          {"description", ""},
+          {"description", point.description},
           {"associatedNodeID", ""},
           {"position", {point.x_in_lps.x(), point.x_in_lps.y(), point.x_in_lps.z()}},
           {"orientation", {-1.0, -0.0, -0.0, -0.0, -1.0, -0.0, 0.0, 0.0, 1.0}},
@@ -44,7 +44,8 @@ void append_points(const nlohmann::json& markup, std::vector<MarkupPoint>& point
     if (position.size() != 3)
       throw std::runtime_error("a control point's position has " +
                                std::to_string(position.size()) + " numbers; expected 3");
-    points.push_back({point.value("label", ""), signs.cwiseProduct(Eigen::Vector3d(position.data()))});
+    points.push_back({point.value("label", ""), signs.cwiseProduct(Eigen::Vector3d(position.data())),
+                      point.value("description", "")});
   }
 }
 

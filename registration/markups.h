@@ -12,6 +12,7 @@ namespace mammotwin {
 struct MarkupPoint {
   std::string label;
   Eigen::Vector3d x_in_lps = Eigen::Vector3d::Zero();  ///< [mm]
+  std::string description = {};
 };
 
 /// Writes one fiducial list in LPS (`.mrk.json`, markups schema 1.0.3).

@@ -5,11 +5,12 @@
 namespace mammotwin {
 
 ViewProjection::ViewProjection(const HermiteMesh& prone, const HermiteMesh& compressed,
-                               CompressedView view, Detector detector)
+                               CompressedView view, Detector detector,
+                               std::optional<AffineBaseline> baseline)
     : view_(std::move(view)),
       detector_(std::move(detector)),
       compressed_from_prone_(prone, compressed),
-      baseline_(prone, view_) {
+      baseline_(baseline ? *baseline : AffineBaseline(prone, view_)) {
   check_detector(detector_);
 }
 

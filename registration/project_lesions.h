@@ -33,7 +33,7 @@ struct ProjectedLandmark {
 class ViewProjection {
  public:
   ViewProjection(const HermiteMesh& prone, const HermiteMesh& compressed, CompressedView view,
-                 Detector detector);
+                 Detector detector, std::optional<AffineBaseline> baseline = {});
 
   ProjectedLandmark project(const Landmark& landmark) const;
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "registration/displacement_field.h"
+#include "registration/png_file.h"
 #include "registration/project_lesions.h"
 #include "registration/simulated_mammogram.h"
 
@@ -21,8 +22,11 @@ ViewFields view_fields(const HermiteMesh& prone, const HermiteMesh& compressed);
 Volume<float> mri_in_view(const HermiteMesh& prone, const HermiteMesh& compressed,
                           const Volume<float>& mri);
 
-/// 16-bit grey PNG of the view as shown, chest wall at the left edge for a left breast and at the
+/// The view as shown as 16-bit pixels, chest wall at the left edge for a left breast and at the
 /// right for a right one, lateral up. `shown` has values in [0, 1].
+GreyPixels hung_pixels(const DetectorImage& shown, Side side);
+
+/// The same as PNG.
 void write_view_png(const std::filesystem::path& path, const DetectorImage& shown, Side side);
 
 }  // namespace mammotwin

@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 namespace mammotwin {
 namespace {
@@ -24,6 +26,25 @@ TEST(DisplacementField, BothDirectionsComposeToIdentityUpToTheSurface) {
   const CompositionError error = composition_error(there, back, breast.prone);
   EXPECT_NEAR(error.points, 100 * 60 * 80 / 125.0, 0.1 * 100 * 60 * 80 / 125.0);
   EXPECT_LT(error.max_mm, 1e-4);
+}
+
+// Stretched and squeezed in turn along x, u = 5 mm sin(k x) with a period of 60 mm: linear
+// interpolation over 5 mm is off by up to h^2 / 8 |u''| = 25 / 8 * 5 (2 pi / 60)^2 = 0.17 mm.
+TEST(DisplacementField, IsCorrectedUntilBothCompose) {
+  const HermiteMesh box = block_mesh({0, 0, 0}, {120, 60, 60}, {8, 4, 4});
+  std::vector<HermiteMesh::Node> waved = box.nodes();
+  const double k = 2 * std::numbers::pi / 60;
+  for (HermiteMesh::Node& node : waved) {
+    const double x = node(0, 0), slope = node(0, 1);  // dx/dxi1; all else is 0 or along y, z
+    node(0, 0) += 5 * std::sin(k * x);
+    node(0, 1) += 5 * k * std::cos(k * x) * slope;
+  }
+  const HermiteMesh wave(waved, box.elements());
+  const DisplacementField there = displacement_field(box, wave, 5);
+  DisplacementField back = displacement_field(wave, box, 5);
+  EXPECT_GT(composition_error(there, back, box).max_mm, 0.1);
+  compose_to_identity(there, box, 0.05, back);
+  EXPECT_LE(composition_error(there, back, box).max_mm, 0.05);
 }
 
 TEST(DisplacementField, FadesToNothingFarFromTheBreast) {

@@ -1,0 +1,27 @@
+#pragma once
+
+#include "registration/view_match.h"
+
+#include <vector>
+
+namespace mammotwin {
+
+/// Where a search over all views' states ended. States are in standard deviations.
+struct PoseEstimate {
+  std::vector<ViewState> states;  ///< of each view
+  std::vector<Eigen::Matrix<double, kStates, kStates>> covariances;  ///< what is left unknown
+  double cost = 0;                ///< half the sum of squares
+  int iterations = 0;
+};
+
+/// The states that are most probable given the mammograms: Levenberg-Marquardt on all residuals and
+/// z itself (the prior), two numbers shared by the views. First outline and nipple alone, which
+/// lead from far away; then with the pattern of dense tissue. `start` holds a state for each view.
+PoseEstimate search_pose(const std::vector<const ViewMatch*>& views,
+                         const std::vector<ViewState>& start, bool only_rigid = false);
+
+/// Before any mammogram: the prior, without turn and shifts, as only the breast's own frame is
+/// spoken of then.
+Eigen::Matrix<double, kStates, kStates> prior_covariance();
+
+}  // namespace mammotwin

@@ -1,0 +1,145 @@
+#include "registration/reduced_view.h"
+
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+#include <utility>
+
+namespace mammotwin {
+namespace {
+
+constexpr double kSofter = 0.1;  // of the penalty that the compression ended with
+
+CompressionOptions soft_options() {
+  CompressionOptions options;
+  options.gap_tolerance = 0.5;
+  options.thickness_tolerance = 1e3;  // the plates stay where they are put
+  return options;
+}
+
+Nodes combined(double a, const Nodes& x, double b, const Nodes& y) {
+  Nodes sum = x;
+  for (std::size_t i = 0; i < x.size(); ++i) sum[i] = a * x[i] + b * y[i];
+  return sum;
+}
+
+void add(double factor, const Nodes& mode, Nodes& sum) {
+  for (std::size_t i = 0; i < mode.size(); ++i) sum[i] += factor * mode[i];
+}
+
+ReducedView::Mode mode_of(const Nodes& base, const std::optional<Nodes>& up,
+                          const std::optional<Nodes>& down) {
+  const Nodes none(base.size(), HermiteMesh::Node::Zero());
+  if (!up && !down) return {};
+  if (!down) return {combined(1, *up, -1, base), none};
+  if (!up) return {combined(1, base, -1, *down), none};
+  Nodes bend = combined(0.5, *up, 0.5, *down);
+  add(-1, base, bend);
+  return {combined(0.5, *up, -0.5, *down), bend};
+}
+
+}  // namespace
+
+Nodes in_view(const Nodes& nodes, const ViewFrame& frame) {
+  Nodes result = nodes;
+  for (HermiteMesh::Node& node : result) {
+    node.col(0) -= frame.origin_in_lps;
+    node = (frame.axes * node).eval();
+  }
+  return result;
+}
+
+CompressedView view_of_plates(const std::string& name, Side side, double angle_deg,
+                              const PlateOptions& options, const CompressionResult& result) {
+  CompressedView view{name, side, angle_deg, result.report.thickness_mm, {}};
+  view.frame.axes = view_axes(side, angle_deg);
+  const Eigen::Vector3d depth = options.depth, up = options.up;
+  const Eigen::Vector3d across(depth.y() * up.z() - depth.z() * up.y(),
+                               depth.z() * up.x() - depth.x() * up.z(),
+                               depth.x() * up.y() - depth.y() * up.x());
+  view.frame.origin_in_lps = depth * result.plates.edge + up * result.plates.support_height +
+                             across * result.plates.lateral_middle;
+  return view;
+}
+
+NearbySolver::NearbySolver(SolvedView base, ProblemAt problem_at)
+    : base_(std::move(base)), problem_at_(std::move(problem_at)) {
+  CompressionResult near = base_.result;
+  near.penalty *= kSofter;
+  soft_base_ = solve_from(near, ViewState::Zero());
+}
+
+std::optional<SolvedView> NearbySolver::solve_from(const CompressionResult& near,
+                                                   const ViewState& state) const {
+  try {
+    const CompressionProblem problem = problem_at_(state);
+    CompressionResult result = compress_from(near, problem, soft_options());
+    if (!result.report.usable()) return std::nullopt;
+    const CompressedView view =
+        view_of_plates(base_.view.name, base_.view.side, base_.view.angle_deg + state[kRoll],
+                       problem.plates, result);
+    return SolvedView{std::move(result), view};
+  } catch (const std::invalid_argument&) {  // a state in which the problem cannot be posed
+    return std::nullopt;
+  }
+}
+
+std::optional<SolvedView> NearbySolver::solve(const ViewState& state) const {
+  if (!soft_base_) return std::nullopt;
+  if (auto direct = solve_from(soft_base_->result, state)) return direct;
+  const auto half = solve_from(soft_base_->result, state / 2);
+  return half ? solve_from(half->result, state) : std::nullopt;
+}
+
+Nodes ReducedView::nodes_at(const ViewState& z) const {
+  Nodes x = base;
+  for (int i = 0; i < kMechanical; ++i) {
+    add(z[i], modes[i].linear, x);
+    add(z[i] * z[i], modes[i].quadratic, x);
+  }
+  return x;
+}
+
+Eigen::Vector3d ReducedView::placed(const Eigen::Vector3d& x, const ViewState& z) const {
+  const double t = z[kTurn] * sd[kTurn] * std::numbers::pi / 180;
+  return {std::cos(t) * x.x() - std::sin(t) * x.y() + z[kShiftDepth] * sd[kShiftDepth],
+          std::sin(t) * x.x() + std::cos(t) * x.y() + z[kShiftLateral] * sd[kShiftLateral], x.z()};
+}
+
+void ReducedView::rebase(const ViewState& z, const Nodes& solved_in_view) {
+  add(1, combined(1, solved_in_view, -1, nodes_at(z)), base);
+}
+
+ReducedView reduce_view(const NearbySolver& solver, const ViewState& sd, bool both_ways) {
+  const auto soft = solver.solve(ViewState::Zero());
+  ReducedView reduced;
+  reduced.sd = sd;
+  reduced.base = in_view(solver.base().result.deformed, solver.base().view.frame);
+  if (!soft) {
+    reduced.failed_solves = 2 * kMechanical;
+    return reduced;
+  }
+  const Nodes zero = in_view(soft->result.deformed, soft->view.frame);
+  std::array<std::optional<Nodes>, 2 * kMechanical> found;
+  tbb::parallel_for(0, 2 * kMechanical, [&](int task) {
+    if (task % 2 && !both_ways) return;
+    ViewState state = ViewState::Zero();
+    state[task / 2] = task % 2 ? -sd[task / 2] : sd[task / 2];
+    // Isolated: else a thread that waits inside one solve would begin another on top of it.
+    tbb::this_task_arena::isolate([&] {
+      if (const auto solved = solver.solve(state))
+        found[task] = in_view(solved->result.deformed, solved->view.frame);
+    });
+
+  });
+  for (int i = 0; i < kMechanical; ++i) {
+    reduced.modes[i] = mode_of(zero, found[2 * i], found[2 * i + 1]);
+    reduced.failed_solves += !found[2 * i] + (both_ways && !found[2 * i + 1]);
+  }
+  return reduced;
+}
+
+}  // namespace mammotwin

@@ -1,0 +1,39 @@
+#pragma once
+
+#include "registration/pose_search.h"
+
+namespace mammotwin {
+
+/// An ellipse on the detector that holds the true position with a stated probability.
+struct SearchEllipse {
+  double major_mm = 0, minor_mm = 0;  ///< semi-axes
+  double angle_deg = 0;               ///< of the major axis, from u towards v
+};
+
+/// What no state explains, in each direction on the detector [mm]: with it the mean squared error of
+/// the landmarks of two synthetic patients is the mean variance that is stated for them.
+inline constexpr double kModelSd_mm = 1.2;
+
+/// A registered view with what is not known of its state.
+struct ViewUncertainty {
+  /// The breast with one mechanical number a standard deviation further, as it stands in the
+  /// registered view's frame, in LPS [mm]; empty: no effect.
+  std::array<Nodes, kMechanical> varied;
+  ViewState sd = prior_sd();
+  Eigen::Matrix<double, kStates, kStates> covariance = prior_covariance();  ///< of z [-]
+};
+
+/// Covariance on the detector [mm^2] of a material point: J C J^T + kModelSd_mm^2, J being the
+/// differences that a standard deviation makes.
+Eigen::Matrix2d detector_covariance(const ViewUncertainty& uncertainty,
+                                    const HermiteMesh& compressed, const CompressedView& view,
+                                    const Detector& detector, const MeshPoint& point);
+
+/// The normal distribution's ellipse of that probability (0.5, 0.9): semi-axes
+/// sqrt(-2 ln(1 - p)) standard deviations.
+SearchEllipse search_ellipse(const Eigen::Matrix2d& covariance, double probability);
+
+/// True inside it; `off` from its middle [mm].
+bool contains(const SearchEllipse& ellipse, const Eigen::Vector2d& off);
+
+}  // namespace mammotwin
