@@ -52,15 +52,16 @@ void CompressionSettings::shape_plates(PlateOptions& plates) const {
 
 Detector ViewSettings::detector(const std::string& view, Side side) const {
   Detector detector;
-  detector.source_distance_mm = source_distance_mm;
-  detector.support_gap_mm = support_gap_mm;
+  detector.source_distance_mm = source_distance_mm.value_or(detector.source_distance_mm);
+  detector.support_gap_mm = support_gap_mm.value_or(detector.support_gap_mm);
   const int given = pixel_spacing_mm.has_value() + columns.has_value() + rows.has_value();
   if (given != 0 && given != 3)
     throw std::runtime_error("views." + view + ".detector: pixel_spacing_mm, columns and rows are "
                              "given only in part; expected all three, or none for mm alone");
   if (given == 3) {
     const ImageEdge as_hung = side == Side::left ? ImageEdge::left : ImageEdge::right;
-    detector.pixels = PixelGrid{*pixel_spacing_mm, *columns, *rows, chest_wall.value_or(as_hung)};
+    detector.pixels = PixelGrid{*pixel_spacing_mm, *columns, *rows, chest_wall.value_or(as_hung),
+                                lateral_at_top.value_or(true)};
   }
   check_detector(detector);
   return detector;
@@ -127,17 +128,22 @@ void declare_compression(Settings& s, CompressionSettings& c) {
 
 void declare_view(Settings& s, const std::string& view, ViewSettings& v) {
   const std::string prefix = "views." + view + ".";
+  s.path(prefix + "mammogram", v.mammogram,
+         "the view's mammogram (DICOM, or PNG with `detector` keys): the breast is brought to it");
+  s.numbers(prefix + "nipple_pixel", v.nipple_pixel, {-20000, 20000, "pixels"},
+            "column and row of the nipple in the mammogram; default: its marker, or the profile's tip");
   s.number(prefix + "thickness_mm", v.thickness_mm, {10, 200, "mm", "is it in cm?"},
-           "compressed thickness; default 0.45 of the free extent");
+           "compressed thickness; default the DICOM mammogram's, else 0.45 of the free extent");
   s.number(prefix + "angle_deg", v.angle_deg, {-90, 90, "deg"},
-           "positioner angle: the beam runs from superior-medial to inferior-lateral");
+           "positioner angle: the beam runs from superior-medial to inferior-lateral; default the DICOM "
+           "mammogram's, else 0 for CC and 45 for MLO");
   s.number(prefix + "lift_mm", v.lift_mm, {-50, 50, "mm"},
            "how far the plates' middle lies above the breast's centroid");
   const std::string detector = prefix + "detector.";
   s.number(detector + "source_distance_mm", v.source_distance_mm, {300, 1500, "mm"},
-           "X-ray source to detector");
+           "X-ray source to detector; default the DICOM mammogram's, else 660");
   s.number(detector + "support_gap_mm", v.support_gap_mm, {0, 50, "mm"},
-           "detector to the support's surface");
+           "detector to the support's surface; default the DICOM mammogram's, else 0");
   s.number(detector + "pixel_spacing_mm", v.pixel_spacing_mm, {0.01, 2, "mm"},
            "on the detector (ImagerPixelSpacing); without it positions are in mm only");
   s.integer(detector + "columns", v.columns, {1, 20000}, "of the stored image");
@@ -145,6 +151,8 @@ void declare_view(Settings& s, const std::string& view, ViewSettings& v) {
   s.choice(detector + "chest_wall", v.chest_wall,
            {{"left", ImageEdge::left}, {"right", ImageEdge::right}},
            "image edge at the chest wall; default: left for a left breast");
+  s.choice(detector + "lateral", v.lateral_at_top, {{"top", true}, {"bottom", false}},
+           "image edge towards the patient's side (CC) or head (MLO); default: top");
 }
 
 }  // namespace mammotwin

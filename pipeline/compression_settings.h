@@ -51,18 +51,23 @@ struct CompressionSettings {
 
 /// What patient.toml says of one view.
 struct ViewSettings {
+  std::optional<std::filesystem::path> mammogram;
+  std::optional<Eigen::Vector2d> nipple_pixel;  ///< (column, row)
   std::optional<double> thickness_mm;
-  double angle_deg = 0;
+  std::optional<double> angle_deg;
+  double default_angle_deg = 0;  ///< where neither header nor patient.toml says one
   double lift_mm = 0;
-  double source_distance_mm = Detector{}.source_distance_mm;
-  double support_gap_mm = Detector{}.support_gap_mm;
+  std::optional<double> source_distance_mm, support_gap_mm;
   std::optional<double> pixel_spacing_mm;
   std::optional<int> columns, rows;
   std::optional<ImageEdge> chest_wall;
+  std::optional<bool> lateral_at_top;
+
+  double angle() const { return angle_deg.value_or(default_angle_deg); }
 
   static ViewSettings at(double angle_deg) {
     ViewSettings view;
-    view.angle_deg = angle_deg;
+    view.default_angle_deg = angle_deg;
     return view;
   }
 

@@ -30,6 +30,7 @@ void Patient::declare(Settings& settings) {
   declare_fit(settings);
   declare_gravity(settings, gravity);
   declare_compression(settings, compression);
+  declare_registration(settings, registration);
   declare_view(settings, "cc", cc);
   declare_view(settings, "mlo", mlo);
 }

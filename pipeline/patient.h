@@ -13,6 +13,7 @@
 #include "pipeline/frame/settings.h"
 #include "pipeline/gravity_settings.h"
 #include "pipeline/lesion_entry.h"
+#include "pipeline/registration_settings.h"
 #include "segmentation/segment.h"
 
 namespace mammotwin {
@@ -45,6 +46,7 @@ class Patient {
   FitOptions fit;
   CompressionSettings compression;
   GravitySettings gravity;
+  RegistrationSettings registration;
   ViewSettings cc = ViewSettings::at(0), mlo = ViewSettings::at(45);
 
   /// `unload.second_state` with its path resolved.

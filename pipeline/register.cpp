@@ -1,7 +1,9 @@
 // register: compressed meshes + view geometry -> lesions on the CC and MLO detectors.
 
+#include "pipeline/dicom_products.h"
 #include "pipeline/frame/stage.h"
-#include "pipeline/registered_view.h"
+#include "pipeline/searched_views.h"
+#include "pipeline/view_header.h"
 #include "registration/lesion_table.h"
 #include "registration/markups.h"
 #include "registration/point_carrier.h"
@@ -27,15 +29,19 @@ void declare(StageDeclaration& stage, Arguments& args) {
   stage.input("mlo", args.mlo, "breast compressed in MLO (.vtu)");
   stage.product("lesions", args.lesions, "table of lesions to write (.csv; .mrk.json beside it)");
   for (const char* view : {"cc", "mlo"})
-    stage.options_from(std::string("views.") + view + ".detector.", false);
+    for (const char* key : {".detector.", ".mammogram", ".nipple_pixel"})
+      stage.options_from(std::string("views.") + view + key, false);
+  stage.options_from("register.", true);
   stage.app()
       .add_option("--landmarks", args.landmarks,
                   "points found in MRI and mammograms (.csv): print how far predictions are off")
       ->check(CLI::ExistingFile);
 }
 
-StagePlan plan(const Arguments& args, const Patient&) {
-  StagePlan plan{{}, {"views.cc.detector.", "views.mlo.detector."}};
+StagePlan plan(const Arguments& args, const Patient& patient) {
+  StagePlan plan{{}, {"views.", "register.", "compress.", "materials.", "unload.density"}};
+  for (const ViewSettings* view : {&patient.cc, &patient.mlo})
+    if (view->mammogram) plan.inputs.push_back(patient.resolve(*view->mammogram));
   if (std::filesystem::exists(args.mri())) plan.inputs.push_back(args.mri());
   if (!args.landmarks.empty()) plan.inputs.push_back(args.landmarks);
   return plan;
@@ -57,6 +63,15 @@ void require_inside(const ProjectedLandmark& lesion) {
                 "look at the chest wall and at the lesion's place in the report",
                 lesion.landmark.id.c_str(), lesion.outside_mm, kLesionOutsideLimit_mm);
   throw std::runtime_error(text);
+}
+
+/// What `lesions.csv` gives; half of this probability's semi-axes is 0.55 of them.
+constexpr double kEllipseProbability = 0.9;
+
+void set_ellipse(const SearchEllipse& ellipse, LesionRow& row) {
+  row.ellipse_major_mm = ellipse.major_mm;
+  row.ellipse_minor_mm = ellipse.minor_mm;
+  row.ellipse_angle_deg = ellipse.angle_deg;
 }
 
 class Registration {
@@ -81,6 +96,8 @@ class Registration {
         reasons_.push_back("lesion " + landmark.id + " lies behind the detector's edge in " +
                            view.view().name + ": that mammogram would not show it");
       rows_.push_back(view_row(stage_.patient.name(), view.view(), lesion, nipple));
+      if (const auto covariance = registered.covariance(lesion.point))
+        set_ellipse(search_ellipse(*covariance, kEllipseProbability), rows_.back());
     }
     write_points(view.view().name,
                  [&](const Landmark& l) { return view.project(l).compressed_in_lps; });
@@ -95,7 +112,17 @@ class Registration {
     }
   }
 
+  /// For a view whose mammogram is a DICOM file.
+  void export_dicom(const RegisteredView& registered, const DetectorImage& shown) {
+    const auto mammogram = dicom_mammogram(stage_.patient, registered.projection.view().name);
+    if (!mammogram) return;
+    write_dicom_products(registered, landmarks_, shown, *mammogram, stage_.products);
+    quality_["dicom_export"] =
+        "dicom/ carries the patient and study attributes of the mammograms, as dicom_export asks";
+  }
+
   nlohmann::json& quality() { return quality_; }
+  std::vector<std::string>& reasons() { return reasons_; }
 
   Outcome finish() {
     write_lesion_table(stage_.products.write_main(), rows_);
@@ -126,16 +153,30 @@ Outcome run(const Arguments& args, StageRun& stage) {
   const Segmentation segmentation = read_segmentation(args.segmentation, args.fractions);
   std::optional<Volume<float>> mri;
   if (std::filesystem::exists(args.mri())) mri = read_image_file(args.mri());
-  const RegisteredView views[] = {read_registered_view("cc", args.cc, stage.patient.cc),
-                                  read_registered_view("mlo", args.mlo, stage.patient.mlo)};
+  std::vector<RegisteredView> views;
+  std::vector<std::string> remarks;
+  for (const auto& [name, path] : {std::pair("cc", args.cc), std::pair("mlo", args.mlo)})
+    views.push_back(read_registered_view(
+        name, path, with_header(stage.patient, name, segmentation.region.side, remarks)));
   Registration registration(segmentation, stage);
+  registration.reasons() = remarks;
   registration.add_states(views[0]);
-  double done = 0.1;
+  if (stage.patient.registration.search)
+    registration.quality()["search"] = search_and_register(
+        stage.patient, segmentation, views,
+        [&](double done, const std::string& what) { stage.progress(0.8 * done, what); },
+        registration.reasons());
+  double done = 0.8;
   for (const RegisteredView& view : views) {
     stage.progress(done, view.projection.view().name);
     registration.add(view);
-    write_view_files(view, segmentation, mri, stage.products, registration.quality());
-    done += 0.4;
+    write_registered_view(
+        stage.products.write(view.projection.view().name + "_registered.vtu"), view);
+    const DetectorImage shown =
+        write_view_files(view, segmentation, mri, stage.products, registration.quality());
+    if (stage.patient.registration.dicom_export)
+      registration.export_dicom(view, shown);
+    done += 0.1;
   }
   if (!args.landmarks.empty()) std::cout << landmark_errors(args.landmarks, views[0], views[1]);
   return registration.finish();

@@ -37,6 +37,7 @@ void remove_leftovers(const fs::path& folder, const std::string& name) {
 
 void rename_or_throw(const fs::path& from, const fs::path& to) {
   std::error_code error;
+  fs::create_directories(folder_of(to), error);
   fs::rename(from, to, error);
   if (error) throw std::runtime_error(to.string() + ": cannot be written: " + error.message());
 }
@@ -62,8 +63,10 @@ fs::path Products::folder() const { return folder_of(main_); }
 fs::path Products::write(const std::string& name) {
   for (const auto& [known, path] : pending_)
     if (known == name) return path;
-  remove_leftovers(folder(), name);
-  pending_.emplace_back(name, temporary_path(folder(), name));
+  std::string flat = name;
+  std::replace(flat.begin(), flat.end(), '/', '_');
+  remove_leftovers(folder(), flat);
+  pending_.emplace_back(name, temporary_path(folder(), flat));
   return pending_.back().second;
 }
 

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace mammotwin {
 namespace {
@@ -69,12 +70,30 @@ Raster raster_of(const DetectorImage& image, const Section& section) {
   });
 }
 
+/// The lesion's 90 % ellipse of lesions.csv, as a closed line round its place.
+void draw_ellipse(Panel& panel, const LesionRow& row) {
+  if (!row.ellipse_major_mm || !row.detector_u_mm) return;
+  constexpr int corners = 48;
+  const double turn = *row.ellipse_angle_deg * std::numbers::pi / 180;
+  const auto at = [&](int n) {
+    const double t = 2 * std::numbers::pi * n / corners;
+    const double a = *row.ellipse_major_mm * std::cos(t), b = *row.ellipse_minor_mm * std::sin(t);
+    return on_plane({*row.detector_u_mm + std::cos(turn) * a - std::sin(turn) * b,
+                     *row.detector_v_mm + std::sin(turn) * a + std::cos(turn) * b});
+  };
+  std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>> pieces;
+  for (int n = 0; n < corners; ++n) pieces.push_back({at(n), at(n + 1)});
+  panel.pieces(pieces, {palette::lesion, 1});
+}
+
 void draw_landmarks(Panel& panel, const PatientResults& results, const ViewProjection& projection) {
   for (const Landmark& lesion : results.lesions()) {
     const ProjectedLandmark p = projection.project(lesion);
     panel.baseline_mark(on_plane(p.baseline_on_detector), lesion.id);
     panel.lesion_mark(on_plane(p.on_detector), 5, lesion.id, true);
   }
+  for (const LesionRow& row : results.rows)
+    if (row.view == projection.view().name) draw_ellipse(panel, row);
   if (const auto nipple = results.nipple())
     panel.nipple_mark(on_plane(projection.project({"nipple", *nipple}).on_detector), true);
 }
@@ -114,7 +133,7 @@ Figure detector_figure(const PatientResults& results, const ViewResult& view) {
   return {picture,
           name + " on the detector, simulated from the compressed model (cone beam, source at " +
               word::number(view.detector.source_distance_mm, 0) +
-              " mm). Ring: lesion by the model; cross: without physics; triangle: nipple." + hidden,
+              " mm). Ring: lesion by the model; ellipse: holds it with 90 % probability; cross: without physics; triangle: nipple." + hidden,
           "Simulated " + name + " mammogram." + described(results, projection) + hidden};
 }
 

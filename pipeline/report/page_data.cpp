@@ -58,7 +58,8 @@ void add_lesions(const PatientResults& results, json& page) {
   for (const LesionRow& row : results.rows) ellipses |= row.ellipse_major_mm.has_value();
   page["frames"] = figure_data(frames_figure());
   page["ellipse_note"] =
-      ellipses ? ""
+      ellipses ? "The ellipse holds the lesion with 90 % probability as far as pose, thickness and stiffness "
+                 "are uncertain; how it was made: registration/README.md."
                : "No search ellipse is given yet: published methods of this kind err by 5 to 13 mm "
                  "on real patients, so look in a region and not at a point.";
 }

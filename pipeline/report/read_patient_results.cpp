@@ -53,7 +53,8 @@ Detector detector_of(const PatientResults& results, const std::string& view) {
 }
 
 void read_view(const fs::path& folder, const std::string& name, PatientResults& results) {
-  const fs::path path = folder / (name + ".vtu");
+  fs::path path = folder / (name + "_registered.vtu");  // once register has run
+  if (!fs::exists(folder / "lesions.csv") || !fs::exists(path)) path = folder / (name + ".vtu");
   try_read(path, results, [&] {
     MeshFile file = read_mesh_file(path);
     CompressedView view = compressed_view(name, path.filename().string(), file.metadata);
