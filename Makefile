@@ -21,7 +21,7 @@ export P DATA RESULTS FORCE BIN SEED PATIENTS JOBS ONLY ENGINE CONFIG PREFIX CAS
 unexport MAKEFLAGS MAKEOVERRIDES
 
 .PHONY: help patient segment fit unload compress register report synthesize cohort verify-results build \
-        evaluate-segmentation evaluate-fitting evaluate-compression evaluate-unload \
+        evaluate-segmentation evaluate-fitting evaluate-compression evaluate-unload evaluate-registration \
         evaluate-niftysim evaluate-victre validate bench \
         install test clean
 .DEFAULT_GOAL := help
@@ -40,6 +40,8 @@ help:
 	@echo 'make evaluate-unload   takes gravity off every breast of CASES: RESULTS/evaluation/unload.json'
 	@echo 'make evaluate-compression   compresses SYNTHETIC=200 drawn breasts and those of CASES=folder in'
 	@echo '                       both views: RESULTS/evaluation/compression.json; JOBS=2 at a time'
+	@echo 'make evaluate-registration  registers SYNTHETIC=10 patients with mammograms of another model:'
+	@echo '                       RESULTS/evaluation/registration.json; JOBS=2 at a time'
 	@echo 'make validate          the gel cylinder against other codes: RESULTS/gel_cylinder/validation.json'
 	@echo 'make evaluate-niftysim   a breast that NiftySim compressed, node by node: RESULTS/evaluation/niftysim.json'
 	@echo 'make evaluate-victre   a phantom that FEBio compressed, its outline and tissue: RESULTS/evaluation/victre.json'
@@ -71,6 +73,10 @@ evaluate-unload: build
 evaluate-compression: build
 	@"$$BIN/mammotwin-evaluate-compression" "$$RESULTS/evaluation/compression.json" --cases "$$CASES" \
 	  $${SYNTHETIC:+--synthetic "$$SYNTHETIC"} $${JOBS:+--jobs "$$JOBS"} $${ONLY:+--only "$$ONLY"}
+
+evaluate-registration: build
+	@"$$BIN/mammotwin-evaluate-registration" "$$RESULTS/evaluation/registration.json" \
+	  $${SYNTHETIC:+--synthetic "$$SYNTHETIC"} $${JOBS:+--jobs "$$JOBS"}
 
 validate: build
 	@"$$BIN/mammotwin-validate" sample_data/gel_cylinder "$$RESULTS/gel_cylinder/validation.json"

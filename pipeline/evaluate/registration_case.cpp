@@ -1,0 +1,152 @@
+#include "pipeline/evaluate/registration_case.h"
+
+#include "pipeline/evaluate/stage_command.h"
+#include "pipeline/evaluate/true_mammogram.h"
+#include "pipeline/frame/products.h"
+#include "pipeline/synthesize/counter_random.h"
+#include "pipeline/synthesize/nrrd_file.h"
+#include "pipeline/synthesize/patient_files.h"
+
+#include <fstream>
+#include <iomanip>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <stdexcept>
+
+namespace mammotwin {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+constexpr int kMostAttempts = 30;      // of the drawn build: not every chest carries every breast
+constexpr int kMostCpuSeconds = 3600;
+constexpr int kPoints = 20;            // landmarks beside the lesions
+
+SyntheticPatient make_drawn(int number, DrawnPatient& drawn) {
+  for (int attempt = 0;; ++attempt) {
+    drawn = draw_registration(number, attempt);
+    try {
+      return make_patient(drawn.patient);
+    } catch (const std::invalid_argument&) {
+      if (attempt + 1 == kMostAttempts) throw;
+    }
+  }
+}
+
+struct Landmark3d {
+  std::string name;
+  Eigen::Vector3d prone_in_lps;
+};
+
+/// The lesions, and voxels of gland or fat drawn evenly from the breast in front of the chest wall.
+std::vector<Landmark3d> landmarks_of(const Segmentation& truth, int number) {
+  std::vector<Landmark3d> all;
+  for (const Lesion& lesion : truth.lesions) all.push_back({lesion.id, lesion.centroid_in_lps});
+  CounterRandom random(number, 77);
+  const auto& f = truth.fractions;
+  while (all.size() < truth.lesions.size() + kPoints) {
+    const Eigen::Vector3i v(static_cast<int>(random.uniform(0, f.size.x())),
+                            static_cast<int>(random.uniform(0, f.size.y())),
+                            static_cast<int>(random.uniform(0, f.size.z())));
+    if (f(v.x(), v.y(), v.z()).fibroglandular > 0.7)
+      all.push_back({"P" + std::to_string(all.size()), f.position(v.x(), v.y(), v.z())});
+  }
+  return all;
+}
+
+std::string landmark_table(const TrueBreast& breast, const std::vector<TrueView>& views,
+                           const Detector& detector, int number) {
+  std::ostringstream csv;
+  csv << "name,mri_l_mm,mri_p_mm,mri_s_mm,cc_column,cc_row,mlo_column,mlo_row\n"
+      << std::fixed << std::setprecision(3);
+  for (const Landmark3d& l : landmarks_of(breast.truth(), number)) {
+    csv << l.name;
+    for (const double x : l.prone_in_lps) csv << "," << x;
+    for (const TrueView& view : views)
+      for (const double x : true_mark(breast, view, detector, l.prone_in_lps)) csv << "," << x;
+    csv << "\n";
+  }
+  return csv.str();
+}
+
+std::string toml_of(const SyntheticPatient& patient, const DrawnPatient& drawn,
+                    const std::vector<TrueView>& views, const Detector& detector) {
+  const std::string text = patient_toml(patient);
+  std::ostringstream toml;
+  toml << text.substr(0, text.find("[views.cc]"));
+  for (std::size_t n = 0; n < views.size(); ++n) {
+    const std::string key = "[views." + views[n].view.name;
+    toml << key << "]\nmammogram = \"" << views[n].view.name << ".png\"\nthickness_mm = "
+         << views[n].header_thickness_mm << "\nangle_deg = " << drawn.views[n].header_angle_deg
+         << "\n" << key << ".detector]\npixel_spacing_mm = " << detector.pixels->spacing_mm
+         << "\ncolumns = " << detector.pixels->columns << "\nrows = " << detector.pixels->rows
+         << "\n\n";
+  }
+  return toml.str();
+}
+
+json drawn_json(const DrawnPatient& drawn, const std::vector<TrueView>& views) {
+  json all{{"stiffness_ratio", drawn.stiffness_ratio},
+           {"volume_ml", drawn.patient.anatomy.volume_ml},
+           {"density", drawn.patient.anatomy.density}};
+  for (std::size_t n = 0; n < views.size(); ++n) {
+    const DrawnView& v = drawn.views[n];
+    all[v.name] = {{"roll_deg", v.roll_deg},         {"turn_deg", v.turn_deg},
+                   {"lift_mm", v.lift_mm},           {"clearance_mm", v.clearance_mm},
+                   {"shift_mm", v.shift_mm},         {"thickness_mm", views[n].view.thickness_mm},
+                   {"header_thickness_mm", views[n].header_thickness_mm}};
+  }
+  return all;
+}
+
+void run_stage_in(const fs::path& folder, const std::string& stage,
+                  std::vector<std::string> files, const std::string& view = "") {
+  const std::string product = files.back();
+  for (std::string& file : files) file = (folder / file).string();
+  if (!view.empty()) files.insert(files.begin(), view);
+  files.insert(files.end(), {"--patient", (folder / "patient.toml").string()});
+  const StageEnd end = run_stage_command(stage, files, folder / (stage + view + ".log"), kMostCpuSeconds);
+  if (end.exit_code == 0) return;
+  std::ifstream in(folder / (product + ".json"));
+  const json sidecar = in ? json::parse(in) : json::object();
+  const json reasons = sidecar.value("reasons", json::array());
+  throw std::runtime_error(stage + view + ": " +
+                           (reasons.empty() ? "ended with code " + std::to_string(end.exit_code)
+                                            : reasons.front().get<std::string>()));
+}
+
+}  // namespace
+
+void make_registration_case(int number, const fs::path& folder) {
+  if (fs::exists(folder / "patient.toml")) return;
+  fs::create_directories(folder);
+  DrawnPatient drawn;
+  const SyntheticPatient patient = make_drawn(number, drawn);
+  const TrueBreast breast(patient, drawn);
+  const Detector detector = synthetic_detector(drawn.patient.anatomy.side);
+  std::vector<TrueView> views;
+  for (const DrawnView& view : drawn.views) views.push_back(breast.compress_view(view));
+  for (const TrueView& view : views)
+    write_png(folder / (view.view.name + ".png"),
+              true_mammogram(breast, view, detector, drawn.patient.anatomy.seed));
+  write_nrrd(folder / "mri.nrrd", patient.scan.image);
+  write_text_atomically(folder / "landmarks.csv", landmark_table(breast, views, detector, number));
+  write_text_atomically(folder / "drawn.json", drawn_json(drawn, views).dump(1) + "\n");
+  write_text_atomically(folder / "patient.toml", toml_of(patient, drawn, views, detector));
+}
+
+void run_registration_case(const fs::path& folder) {
+  run_stage_in(folder, "segment", {"segmentation.seg.nrrd"});
+  run_stage_in(folder, "fit", {"segmentation.seg.nrrd", "fractions.nrrd", "prone.vtu"});
+  run_stage_in(folder, "unload",
+               {"segmentation.seg.nrrd", "fractions.nrrd", "prone.vtu", "unloaded.vtu"});
+  for (const char* view : {"cc", "mlo"})
+    run_stage_in(folder, "compress",
+                 {"segmentation.seg.nrrd", "fractions.nrrd", "unloaded.vtu", std::string(view) + ".vtu"},
+                 view);
+  run_stage_in(folder, "register",
+               {"segmentation.seg.nrrd", "fractions.nrrd", "cc.vtu", "mlo.vtu", "lesions.csv"});
+}
+
+}  // namespace mammotwin

@@ -1,0 +1,18 @@
+#pragma once
+
+#include "pipeline/evaluate/true_views.h"
+
+#include <filesystem>
+
+namespace mammotwin {
+
+/// Makes synthetic patient n in `folder`: mri.nrrd, cc.png, mlo.png, patient.toml, landmarks.csv
+/// (lesions first, then points spread through the gland) and drawn.json. What is there already is
+/// kept. Throws std::runtime_error where the truth cannot be made.
+void make_registration_case(int number, const std::filesystem::path& folder);
+
+/// Takes it through segment, fit, unload, compress and register, which skip what is current.
+/// Throws std::runtime_error with the reason of a stage that leaves no product.
+void run_registration_case(const std::filesystem::path& folder);
+
+}  // namespace mammotwin

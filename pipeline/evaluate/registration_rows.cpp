@@ -1,0 +1,166 @@
+#include "pipeline/evaluate/registration_rows.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <fstream>
+#include <numeric>
+
+#include "pipeline/frame/settings.h"
+#include "pipeline/patient.h"
+#include "pipeline/registered_view.h"
+#include "registration/landmark_table.h"
+
+namespace mammotwin {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+constexpr const char* kSpaces[] = {"cc", "mlo", "3d"};
+
+double quantile(std::vector<double> values, double fraction) {
+  std::sort(values.begin(), values.end());
+  return values[static_cast<std::size_t>(fraction * (values.size() - 1) + 0.5)];
+}
+
+json median_of(const std::vector<double>& values) {
+  return values.empty() ? json() : json(quantile(values, 0.5));
+}
+
+struct Views {
+  RegisteredView cc, mlo;
+  ViewRays cc_rays, mlo_rays;
+
+  static ViewRays rays(const RegisteredView& v) {
+    return {v.prone, v.compressed, v.projection.view(), v.projection.detector()};
+  }
+  Views(const fs::path& folder, const char* suffix, const Patient& patient)
+      : cc(read_registered_view("cc", folder / (std::string("cc") + suffix), patient.cc)),
+        mlo(read_registered_view("mlo", folder / (std::string("mlo") + suffix), patient.mlo)),
+        cc_rays(rays(cc)), mlo_rays(rays(mlo)) {}
+
+  std::map<std::string, TargetErrors> errors(const std::vector<LandmarkPair>& pairs) const {
+    return target_errors(pairs, {{"cc", {&cc.projection, &cc_rays}},
+                                 {"mlo", {&mlo.projection, &mlo_rays}}});
+  }
+};
+
+/// Marks of one view that lie inside their ellipses.
+struct Coverage {
+  std::vector<double> inside_50, inside_90, major;
+
+  void add(const RegisteredView& view, const LandmarkPair& pair) {
+    const ProjectedLandmark found = view.projection.project({pair.name, *pair.mri_in_lps});
+    const auto covariance = view.covariance(found.point);
+    if (!covariance) return;
+    const Eigen::Vector2d off =
+        view.projection.detector().detector_from_image(
+            pair.marks.at(view.projection.view().name)) - found.on_detector;
+    const SearchEllipse ninety = search_ellipse(*covariance, 0.9);
+    inside_50.push_back(contains(search_ellipse(*covariance, 0.5), off));
+    inside_90.push_back(contains(ninety, off));
+    major.push_back(ninety.major_mm);
+  }
+  static json mean(const std::vector<double>& values) {
+    if (values.empty()) return nullptr;
+    return std::accumulate(values.begin(), values.end(), 0.0) / values.size();
+  }
+};
+
+bool is_lesion(const LandmarkPair& pair) { return pair.name.front() == 'L'; }
+
+void add_coverage(const Views& views, const std::vector<LandmarkPair>& pairs, json& row) {
+  for (const bool lesions : {true, false}) {
+    Coverage coverage;
+    for (const LandmarkPair& pair : pairs)
+      if (is_lesion(pair) == lesions)
+        for (const RegisteredView* view : {&views.cc, &views.mlo}) coverage.add(*view, pair);
+    const std::string prefix = lesions ? "" : "points_";
+    row[prefix + "inside_50_ellipse"] = Coverage::mean(coverage.inside_50);
+    row[prefix + "inside_90_ellipse"] = Coverage::mean(coverage.inside_90);
+    row[prefix + "ellipse_major_mm"] = median_of(coverage.major);
+  }
+}
+
+void add_errors(const std::string& prefix, const std::map<std::string, TargetErrors>& errors,
+                bool with_model, json& row) {
+  for (const char* space : kSpaces) {
+    const auto found = errors.find(space);
+    const std::vector<double> values =
+        found == errors.end() ? std::vector<double>()
+        : with_model          ? found->second.with_model
+                              : found->second.without_model;
+    const std::string key = prefix + "tre_" + space + "_mm";
+    row[key] = median_of(values);
+    row["errors"][key] = values;
+  }
+}
+
+}  // namespace
+
+json empty_registration_row() {
+  json row = json::object();
+  for (const char* space : kSpaces)
+    for (const char* prefix : {"", "before_search_", "baseline_"})
+      row[std::string(prefix) + "tre_" + space + "_mm"] = nullptr;
+  for (const char* prefix : {"", "points_"})
+    for (const char* key : {"inside_50_ellipse", "inside_90_ellipse", "ellipse_major_mm"})
+      row[std::string(prefix) + key] = nullptr;
+  return row;
+}
+
+json registration_row(const fs::path& folder) {
+  Patient patient;
+  Settings settings;
+  patient.declare(settings);
+  patient.read(folder / "patient.toml", settings);
+  const std::vector<LandmarkPair> pairs = read_landmark_pairs(folder / "landmarks.csv");
+  json row = empty_registration_row();
+  add_errors("before_search_", Views(folder, ".vtu", patient).errors(pairs), true, row);
+  const Views registered(folder, "_registered.vtu", patient);
+  const auto errors = registered.errors(pairs);
+  add_errors("", errors, true, row);
+  add_errors("baseline_", errors, false, row);
+  add_coverage(registered, pairs, row);
+  std::ifstream sidecar(folder / "lesions.csv.json");
+  if (sidecar) {
+    const json said = json::parse(sidecar);
+    row["search"] = said.at("quality").value("search", json::object());
+    row["register_seconds"] = said.at("seconds");
+  }
+  return row;
+}
+
+std::string registration_summary(const json& cases) {
+  std::string text = "median, mean, 95th percentile [mm] over all landmarks; 3d from two marks\n";
+  for (const char* prefix : {"before_search_", "", "baseline_"})
+    for (const char* space : kSpaces) {
+      const std::string key = std::string(prefix) + "tre_" + space + "_mm";
+      std::vector<double> all;
+      for (const json& row : cases)
+        if (row.contains("errors"))
+          for (const double e : row["errors"].value(key, std::vector<double>())) all.push_back(e);
+      if (all.empty()) continue;
+      char line[160];
+      std::snprintf(line, sizeof line, "  %-26s %6.2f %6.2f %6.2f  n %zu\n", key.c_str(),
+                    quantile(all, 0.5), std::accumulate(all.begin(), all.end(), 0.0) / all.size(),
+                    quantile(all, 0.95), all.size());
+      text += line;
+    }
+  for (const char* key : {"inside_50_ellipse", "inside_90_ellipse", "ellipse_major_mm",
+                          "points_inside_50_ellipse", "points_inside_90_ellipse",
+                          "points_ellipse_major_mm"}) {
+    std::vector<double> all;
+    for (const json& row : cases)
+      if (row.contains(key) && row[key].is_number()) all.push_back(row[key]);
+    if (all.empty()) continue;
+    char line[160];
+    std::snprintf(line, sizeof line, "  %-26s mean %.3f, median %.3f over %zu patients\n", key,
+                  std::accumulate(all.begin(), all.end(), 0.0) / all.size(), quantile(all, 0.5),
+                  all.size());
+    text += line;
+  }
+  return text;
+}
+
+}  // namespace mammotwin

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace mammotwin {
+
+/// How far a registered synthetic patient's marks are from the truth in its landmarks.csv: medians
+/// over lesions and points after the search (`tre_*`), before it and for the baseline; fractions of
+/// the lesions' and view pairs inside the 50 and 90 % ellipses; all errors under `errors`.
+nlohmann::json registration_row(const std::filesystem::path& folder);
+
+/// A row's keys without values, for a patient that failed.
+nlohmann::json empty_registration_row();
+
+/// Over all cases' landmarks: median, mean and 95th percentile of each error, and the coverage.
+std::string registration_summary(const nlohmann::json& cases);
+
+}  // namespace mammotwin

@@ -1,0 +1,63 @@
+#pragma once
+
+#include "pipeline/synthesize/patient.h"
+#include "registration/compressed_view.h"
+#include "registration/detector.h"
+#include "solver/compress.h"
+
+#include <array>
+#include <string>
+
+namespace mammotwin {
+
+/// How a synthetic patient's view was really taken, against what its header says.
+struct DrawnView {
+  std::string name;              ///< "cc", "mlo"
+  double header_angle_deg = 0;
+  double roll_deg = 0;           ///< true positioner angle less the header's
+  double turn_deg = 0;           ///< of the breast on the detector, about the beam
+  double lift_mm = 0;            ///< of the plates' middle above the breast's centroid
+  double clearance_mm = 10;      ///< plates' edge to the chest wall
+  double shift_mm = 0;           ///< of the detector's middle, sideways
+  double compressed_fraction = 0.5;
+  double thickness_error_mm = 0; ///< of the header
+};
+
+/// Patient n of the evaluation, from n alone: body, tissue that is unlike the registering model's,
+/// and how each view was taken. The law is in pipeline/evaluate/README.md.
+struct DrawnPatient {
+  PatientOptions patient;
+  double stiffness_ratio = 1;  ///< fibroglandular over fat
+  std::array<DrawnView, 2> views;
+};
+DrawnPatient draw_registration(int number, int attempt = 0);
+
+/// A synthetic patient's breast in one true view.
+struct TrueView {
+  CompressedView view;
+  HermiteMesh compressed;
+  double header_thickness_mm = 0;
+};
+
+/// Truth by another model than the one that registers: exponential stiffening, springs three times
+/// and skin twice as stiff, a paddle tilted by 3 degrees, standing gravity, finer mesh. `unloaded`
+/// is the shape free of stress in this model, its configuration "prone" the body as made.
+class TrueBreast {
+ public:
+  TrueBreast(const SyntheticPatient& patient, const DrawnPatient& drawn);
+
+  const HermiteMesh& prone() const { return prone_; }
+  const Segmentation& truth() const { return truth_; }
+
+  /// Throws std::runtime_error where the plates do not come to the thickness.
+  TrueView compress_view(const DrawnView& drawn) const;
+
+ private:
+  Segmentation truth_;
+  double stiffness_ratio_;
+  Side side_;
+  MeshFile unloaded_;
+  HermiteMesh prone_;
+};
+
+}  // namespace mammotwin
