@@ -100,16 +100,14 @@ FlatSkin flatten(const TriangleSurface& skin, const BreastRegion& region) {
 
   SurfaceMesh mesh = to_cgal(skin);
   auto uv = mesh.add_property_map<Vertex, Kernel::Point_2>("v:uv").first;
-  const auto border = CGAL::Polygon_mesh_processing::longest_border(mesh).first;
+  auto border = CGAL::Polygon_mesh_processing::longest_border(mesh).first;
+  // CGAL lays the first of the four that it meets at (0, 0).
+  while (static_cast<int>(mesh.source(border)) != loop[place[0]]) border = mesh.next(border);
   // CGAL wants the corners in the order in which its border passes them.
-  int next = -1;
-  for (auto h = mesh.next(border); next != 1 && next != 3; h = mesh.next(h))
-    for (int c : {0, 1, 3})
-      if (static_cast<int>(mesh.target(h)) == loop[place[c]]) {
-        if (c == 0) next = 0;
-        else if (next == 0) next = c;
-      }
-  const bool swapped = next == 3;
+  const auto passes = [&](auto h, int c) { return static_cast<int>(mesh.target(h)) == loop[place[c]]; };
+  auto next = border;
+  while (!passes(next, 1) && !passes(next, 3)) next = mesh.next(next);
+  const bool swapped = passes(next, 3);
   const auto vertex = [&](int c) { return Vertex(loop[place[c]]); };
   const Border square(vertex(0), vertex(swapped ? 3 : 1), vertex(2), vertex(swapped ? 1 : 3));
   const auto error = parameterization::parameterize(mesh, MeanValue(square), border, uv);
