@@ -1,12 +1,13 @@
 #include "fitting/fit_breast.h"
 
+#include "fitting/fit_course.h"
 #include "fitting/fit_quality.h"
-#include "fitting/fit_samples.h"
 #include "fitting/mesh/jacobian_bound.h"
-#include "fitting/newton_step.h"
 #include "fitting/skin_to_fit.h"
 
 #include <algorithm>
+#include <array>
+#include <limits>
 #include <optional>
 #include <stdexcept>
 
@@ -14,10 +15,10 @@ namespace mammotwin {
 
 namespace {
 
-// Elements below these get emphasis.
-constexpr double wanted_scaled_jacobian = 0.15;
-constexpr double wanted_determinant = 0.03;  // of the mean
 constexpr int smallest_breast_voxels = 20000;  // 20 ml at 1 mm
+constexpr double good_skin_rms_mm = 1;
+// Columns along x and z that are tried in turn for an accuracy.
+constexpr std::array<int, 7> column_counts = {4, 5, 6, 7, 8, 10, 12};
 
 void check(const FitOptions& o) {
   const auto require = [](bool good, const std::string& message) {
@@ -25,8 +26,24 @@ void check(const FitOptions& o) {
   };
   require(o.elements.minCoeff() >= 1 && o.elements.maxCoeff() <= 16,
           "elements must be 1 to 16 in each direction");
-  require(o.smoothing >= 1e-12 && o.smoothing <= 1e-3, "smoothing must be 1e-12 to 1e-3");
+  require(!o.accuracy_mm || (*o.accuracy_mm >= 0.05 && *o.accuracy_mm <= 5),
+          "accuracy must be 0.05 to 5 mm");
+  require(!o.smoothing || (*o.smoothing >= 1e-12 && *o.smoothing <= 1e-3),
+          "smoothing must be 1e-12 to 1e-3");
   require(o.shape >= 0.1 && o.shape <= 10, "shape must be 0.1 to 10");
+}
+
+/// A variance of the data against curvature of the mesh: proportional to the square of the noise.
+double smoothing_for(double noise_mm) {
+  // 1e-8 at 0.29 mm, the noise of labels of 1 mm, was found on 20 breasts.
+  constexpr double known = 1e-8, its_noise_mm = 0.29;
+  const double ratio = noise_mm / its_noise_mm;
+  return std::clamp(known * ratio * ratio, 1e-10, 1e-6);
+}
+
+/// A surface rounded to voxels is uniformly wrong by up to half of one.
+double noise_of_labels(const Segmentation& s) {
+  return s.labels.spacing.mean() / std::sqrt(12.0);
 }
 
 void require_breast(const Segmentation& s) {
@@ -42,102 +59,11 @@ void require_breast(const Segmentation& s) {
                              " (is it the right side, and does the segmentation show a breast?)");
 }
 
-/// Weights of one part of the fit.
-struct Stage {
-  double data, mu, sobolev;
-  int steps;
-};
-
-/// The fit as it goes.
-class Fit {
- public:
-  Fit(const Slab& slab, HermiteMesh start, FitTarget& target, FitReport& report,
-      const FitProgress& progress)
-      : slab_(slab), start_(std::move(start)), nodes_(start_.nodes()),
-        emphasis_(start_.num_elements(), 0), target_(target),
-        newton_(start_.elements(), held_parameters(slab)), report_(report), progress_(progress) {}
-
-  HermiteMesh mesh() const { return HermiteMesh(nodes_, start_.elements()); }
-
-  void restart() {
-    nodes_ = start_.nodes();
-    emphasis_.assign(emphasis_.size(), 0);
-    target_.forget_feet();
-  }
-
-  /// Newton steps, closest points renewed before each, until they gain little.
-  void run(const Stage& stage, bool must_stay_proved) {
-    FitModel model(slab_, start_, stage.mu, stage.sobolev, emphasis_);
-    for (int step = 0; step < stage.steps; ++step) {
-      model.update(nodes_, target_.samples(mesh(), {stage.data}));
-      report_.skin_rms_by_iteration_mm.push_back(target_.skin_rms());
-      const StepReport done = newton_.step(model, must_stay_proved, nodes_);
-      ++report_.iterations;
-      if (progress_)
-        progress_(std::min(0.9, 0.2 + 0.03 * report_.iterations), "fitting the mesh");
-      if (done.cost_before - done.cost_after < smallest_gain * done.cost_before) break;
-    }
-  }
-
-  /// Gives more weight to elements that are badly shaped or near folding; false if there are none.
-  bool emphasise_poor() {
-    const std::vector<JacobianBound> bounds = bound_elements(mesh());
-    const std::vector<double> scaled = scaled_jacobians(mesh());
-    bool any = false;
-    for (std::size_t e = 0; e < scaled.size(); ++e)
-      if (bounds[e].lower < wanted_determinant || scaled[e] < wanted_scaled_jacobian)
-        ++emphasis_[e], any = true;
-    return any;
-  }
-
- private:
-  static constexpr double smallest_gain = 3e-4;  // of the cost, of which about 1 is energy that no fit can lose
-
-  Slab slab_;
-  HermiteMesh start_;
-  std::vector<HermiteMesh::Node> nodes_;
-  std::vector<int> emphasis_;
-  FitTarget& target_;
-  NewtonStep newton_;
-  FitReport& report_;
-  const FitProgress& progress_;
-};
-
-/// From the start to a mesh that is proved valid. Where the data folds it, the data waits.
-bool untangle(Fit& fit) {
-  constexpr double mu = 10;
-  fit.run({1, mu, 1e-6, 6}, false);
-  if (proved_valid(fit.mesh())) return true;
-  for (double sobolev : {1e-6, 1e-5, 1e-4}) {
-    fit.restart();
-    fit.run({0.02, mu, sobolev, 8}, false);
-    if (!proved_valid(fit.mesh())) continue;
-    fit.run({0.1, mu, 1e-6, 4}, true);
-    fit.emphasise_poor();
-    fit.run({1, mu, 1e-6, 4}, true);
-    return true;
-  }
-  return false;
-}
-
-/// Valid nodes by the recipe of fitting/README.md; empty if none were found.
-std::optional<HermiteMesh> fit_slab(const Slab& slab, const HermiteMesh& start, FitTarget& target,
-                                    const FitOptions& o, FitReport& report,
-                                    const FitProgress& progress) {
-  Fit fit(slab, start, target, report, progress);
-  if (!untangle(fit)) return std::nullopt;
-  fit.emphasise_poor();
-  fit.run({1, o.shape, o.smoothing, 5}, true);
-  for (int round = 0; round < 3 && fit.emphasise_poor(); ++round)
-    fit.run({1, o.shape, o.smoothing, 3}, true);
-  return fit.mesh();
-}
-
 void judge(FitReport& r) {
   const auto look = [&](bool bad, const std::string& reason) {
     if (bad) r.reasons.push_back(reason);
   };
-  look(std::max(r.skin_rms_mesh_to_data_mm, r.skin_rms_data_to_mesh_mm) > 1,
+  look(std::max(r.skin_rms_mesh_to_data_mm, r.skin_rms_data_to_mesh_mm) > good_skin_rms_mm,
        "The mesh's skin is more than 1 mm (RMS) off the labels'.");
   look(r.covered_fraction < 0.97, "Less than 97 % of the breast's voxels lie in the mesh.");
   look(r.covered_lesions < 0.99, "Part of a lesion lies outside the mesh.");
@@ -145,17 +71,17 @@ void judge(FitReport& r) {
   r.status = r.reasons.empty() ? "ok" : "look";
 }
 
-void measure(MeshFile& file, const Segmentation& s, const BreastRegion& region,
+void measure(MeshFile& file, const Segmentation& s, const TriangleSurface& data,
              const ChestWall& wall, FitReport& r) {
-  const TriangleSurface labelled = skin_as_labelled(s, region, wall);
   const SurfaceDistances skin =
-      surface_distances(file.mesh, file.faces, FaceLabel::skin, labelled);
-  file.fields["skin_distance_mm"] = skin_distance_field(file, labelled);
+      surface_distances(file.mesh, file.faces, FaceLabel::skin, data, s.nipple_in_lps);
+  file.fields["skin_distance_mm"] = skin_distance_field(file, data);
   r.skin_rms_mesh_to_data_mm = skin.rms_mesh_to_data;
   r.skin_rms_data_to_mesh_mm = skin.rms_data_to_mesh;
   r.skin_p95_mm = skin.p95;
   r.skin_max_mm = skin.max;
   r.farthest_in_lps = skin.farthest;
+  r.nipple_error_mm = skin.max_at_landmark;
   r.chest_wall_rms_mm = rms_to_faces(file.mesh, file.faces, FaceLabel::chest_wall, wall.labelled);
   r.min_jacobian_bound = bound_jacobian(file.mesh).lower;
   const std::vector<double> scaled = scaled_jacobians(file.mesh);
@@ -166,39 +92,124 @@ void measure(MeshFile& file, const Segmentation& s, const BreastRegion& region,
   judge(r);
 }
 
-}  // namespace
+/// One breast and what its fits share.
+class BreastFit {
+ public:
+  BreastFit(const Segmentation& s, const FitOptions& options, const FitProgress& progress,
+            const ScannedSkin* scan)
+      : s_(s), options_(options), progress_(progress), scan_(scan),
+        wall_(find_chest_wall(s.labels, s.region)),
+        skin_(scan ? scanned_skin_to_fit(scan->surface, s.region) : find_skin_to_fit(s, wall_)),
+        noise_mm_(scan ? scan->noise_mm : noise_of_labels(s)) {}
 
-FitResult fit_breast(const Segmentation& s, const FitOptions& options,
-                     const FitProgress& progress) {
-  check(options);
-  require_breast(s);
-  const auto tell = [&](double fraction, const char* what) {
-    if (progress) progress(fraction, what);
-  };
-  tell(0, "finding skin and chest wall");
-  const ChestWall wall = find_chest_wall(s.labels, s.region);
-  const SkinToFit skin = find_skin_to_fit(s, wall);
-  tell(0.1, "flattening the skin");
-  const FlatSkin flat = flatten(skin.surface, skin.region);
-  const Slab slab{options.elements};
-  const HermiteMesh start = straight_start(slab, skin.surface, flat, wall.height, skin.region);
+  /// Where the fit goes wrong at the region's edge, that edge is pulled in, twice at most.
+  FitResult with(const Eigen::Vector3i& elements) const {
+    FitResult best = once(elements, skin_);
+    SkinToFit skin = skin_;
+    for (double by : {6.0, 12.0}) {
+      if (good(best.report)) break;
+      skin = without_edges_near(best.report.farthest_in_lps, by, skin_, s_.lesions);
+      if (skin.surface.triangles.empty()) break;
+      FitResult next = once(elements, skin);
+      if (error(next.report) < error(best.report)) best = std::move(next);
+    }
+    return best;
+  }
 
-  FitResult result{{HermiteMesh({}, {}), {}, {}, {}, {}, {}}, {}};
-  result.report.elements = options.elements;
-  FitTarget target(slab, skin.surface, flat, wall.height);
-  if (!skin.doubt.empty()) result.report.reasons.push_back(skin.doubt);
-  const auto mesh = fit_slab(slab, start, target, options, result.report, progress);
-  if (!mesh) {
-    result.report.status = "not_converged";
-    result.report.reasons.push_back("No mesh was found whose elements are all valid; look at the "
-                             "segmentation's skin and chest wall, or try other element counts.");
+  /// The coarsest mesh that is as near to the data as asked, else the finest.
+  FitResult to_accuracy(double accuracy_mm) const {
+    FitResult result{{HermiteMesh({}, {}), {}, {}, {}, {}, {}}, {}};
+    for (int columns : column_counts) {
+      result = with({columns, columns, options_.elements.z()});
+      if (result.report.usable() && error(result.report) <= accuracy_mm) return result;
+    }
+    if (result.report.usable()) {
+      result.report.status = "look";
+      result.report.reasons.push_back("The accuracy that was asked for is not reached.");
+    }
     return result;
   }
-  result.mesh.mesh = *mesh;
-  result.mesh.faces = slab_faces(slab);
-  tell(0.9, "measuring the fit");
-  measure(result.mesh, s, skin.region, wall, result.report);
-  tell(1, "done");
+
+ private:
+  static double error(const FitReport& r) {
+    if (!r.usable()) return std::numeric_limits<double>::infinity();
+    return std::max(r.skin_rms_mesh_to_data_mm, r.skin_rms_data_to_mesh_mm);
+  }
+  static bool good(const FitReport& r) { return error(r) < good_skin_rms_mm; }
+
+  FitResult once(const Eigen::Vector3i& elements, const SkinToFit& skin) const {
+    tell(0.1, "flattening the skin");
+    const FlatSkin flat = flatten(skin.surface, skin.region);
+    const FitGoal goal{skin.surface, flat, wall_.height, skin.region, s_.nipple_in_lps};
+    const Slab slab = slab_around_nipple(elements, goal);
+    FitResult result{{HermiteMesh({}, {}), {}, {}, {}, {}, {}}, {}};
+    FitReport& report = result.report;
+    report.elements = elements;
+    report.noise_mm = noise_mm_;
+    report.smoothing = options_.smoothing.value_or(smoothing_for(noise_mm_));
+    const FitCourse course =
+        fit_slab(slab, goal, options_.shape, report.smoothing, report, progress_);
+    if (!skin.doubt.empty()) report.reasons.push_back(skin.doubt);
+    if (!course.valid) {
+      report.status = "not_converged";
+      report.reasons.push_back("No mesh was found whose elements are all valid; look at the "
+                               "segmentation's skin and chest wall, or try other element counts.");
+      report.farthest_in_lps = most_folded(course.mesh);
+      return result;
+    }
+    result.mesh.mesh = course.mesh;
+    result.mesh.faces = slab_faces(slab);
+    tell(0.9, "measuring the fit");
+    measure(result.mesh, s_, data(skin.region), wall_, report);
+    return result;
+  }
+
+  /// The skin that distances go to: neither closed nor smoothed.
+  TriangleSurface data(const BreastRegion& region) const {
+    return scan_ ? scanned_skin_to_fit(scan_->surface, region).surface
+                 : skin_as_labelled(s_, region, wall_);
+  }
+
+  static Eigen::Vector3d most_folded(const HermiteMesh& mesh) {
+    const std::vector<double> scaled = scaled_jacobians(mesh);
+    const auto at = std::min_element(scaled.begin(), scaled.end()) - scaled.begin();
+    return mesh.position({static_cast<int>(at), {0.5, 0.5, 1}});
+  }
+
+  void tell(double fraction, const char* what) const {
+    if (progress_) progress_(fraction, what);
+  }
+
+  const Segmentation& s_;
+  const FitOptions& options_;
+  const FitProgress& progress_;
+  const ScannedSkin* scan_;
+  ChestWall wall_;
+  SkinToFit skin_;
+  double noise_mm_;
+};
+
+/// Progress that never goes back, though several meshes may be tried.
+FitProgress growing(const FitProgress& progress) {
+  if (!progress) return {};
+  return [&progress, last = 0.0](double fraction, const std::string& what) mutable {
+    last = std::max(last, fraction);
+    progress(last, what);
+  };
+}
+
+}  // namespace
+
+FitResult fit_breast(const Segmentation& s, const FitOptions& options, const FitProgress& progress,
+                     const ScannedSkin* scan) {
+  check(options);
+  require_breast(s);
+  const FitProgress tell = growing(progress);
+  if (tell) tell(0, "finding skin and chest wall");
+  const BreastFit fit(s, options, tell, scan);
+  FitResult result =
+      options.accuracy_mm ? fit.to_accuracy(*options.accuracy_mm) : fit.with(options.elements);
+  if (tell) tell(1, "done");
   return result;
 }
 

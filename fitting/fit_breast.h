@@ -1,9 +1,11 @@
 #pragma once
 
 #include "fitting/mesh/mesh_file.h"
+#include "fitting/triangle_surface.h"
 #include "segmentation/tissue.h"
 
 #include <functional>
+#include <optional>
 #include <string>
 
 namespace mammotwin {
@@ -11,13 +13,22 @@ namespace mammotwin {
 using FitProgress = std::function<void(double fraction, const std::string& what)>;
 
 struct FitOptions {
-  Eigen::Vector3i elements{6, 6, 2};  ///< along x, z and from chest wall to skin, 1 to 16 each
+  Eigen::Vector3i elements{7, 7, 2};  ///< along x, z and from chest wall to skin, 1 to 16 each
+  /// Skin RMS, worse direction, 0.05 to 5 [mm]: with it the columns along x and z are as few of 4
+  /// to 12 as reach it. Labels of 1 mm are rough by 0.25 mm themselves.
+  std::optional<double> accuracy_mm;
   /// Weight of ∫ Σᵢⱼ |∂²x/∂uᵢ∂uⱼ|² du over u in [0,1]³ against mean squared distances [mm²],
-  /// 1e-12 to 1e-3. 1e-9 to 1e-7 change the skin's RMS by less than 0.02 mm.
-  double smoothing = 1e-8;
+  /// 1e-12 to 1e-3. Default: from the data's noise, 1e-8 (noise / 0.29 mm)².
+  std::optional<double> smoothing;
   /// Weight of the mean foldover-free energy against the same, 0.1 to 10. Lower follows the skin
   /// closer with worse shaped elements.
-  double shape = 1;
+  double shape = 0.3;
+};
+
+/// A skin that was scanned, in the segmentation's frame.
+struct ScannedSkin {
+  TriangleSurface surface;  ///< without holes, beyond the region on all sides [mm]
+  double noise_mm = 0;      ///< standard deviation of its points
 };
 
 /// Distances are to the label boundary without any smoothing, all of it inside the region.
@@ -25,10 +36,13 @@ struct FitReport {
   std::string status = "refused";    ///< ok, look, refused or not_converged
   std::vector<std::string> reasons;  ///< sentences; empty when ok
   Eigen::Vector3i elements = Eigen::Vector3i::Zero();
+  double noise_mm = 0;   ///< standard deviation of the data
+  double smoothing = 0;  ///< the weight that was used
   double skin_rms_mesh_to_data_mm = 0;
   double skin_rms_data_to_mesh_mm = 0;
   double skin_p95_mm = 0;         ///< the larger of both directions
   double skin_max_mm = 0;         ///< the larger of both directions
+  double nipple_error_mm = 0;     ///< largest within 15 mm of the nipple, both directions
   double chest_wall_rms_mm = 0;   ///< labelled muscle front to the mesh
   double min_jacobian_bound = 0;  ///< det(∂x/∂ξ) is at least this fraction of its mean, proved
   double min_scaled_jacobian = 0; ///< smallest over 7³ points an element
@@ -52,7 +66,8 @@ struct FitResult {
 /// Throws std::invalid_argument for options out of range and std::runtime_error, saying what to
 /// look at, where labels hold no breast or its skin cannot be laid on a square. Where no valid
 /// mesh was found the report says not_converged and the mesh has no elements.
+/// With `scan`, distances go to that skin and not to the labels'.
 FitResult fit_breast(const Segmentation& segmentation, const FitOptions& options,
-                     const FitProgress& progress = {});
+                     const FitProgress& progress = {}, const ScannedSkin* scan = nullptr);
 
 }  // namespace mammotwin

@@ -2,6 +2,8 @@
 
 #include <Eigen/LU>
 
+#include <cblas.h>
+
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -49,6 +51,26 @@ Eigen::MatrixXd gradient_matrix(const std::vector<double>& x, const Eigen::Vecto
   return matrix;
 }
 
+/// Typical length over the one that each element should have along each ξ.
+std::vector<Eigen::Vector3d> stretches(const Slab& slab, const HermiteMesh& start,
+                                       double mean_thickness) {
+  // Thin sheets beside a breast keep their thickness, folded or empty starts do not count.
+  constexpr double thickest = 0.4, thinnest = 4;
+  const auto of_column = [&](int direction, int i) {
+    const double n = slab.elements[direction];
+    const Grading& g = slab.grading[direction];
+    return 1 / (n * (g.place((i + 1) / n) - g.place(i / n)));
+  };
+  std::vector<Eigen::Vector3d> result;
+  for (int e = 0; e < start.num_elements(); ++e) {
+    const int i = e % slab.elements.x(), j = e / slab.elements.x() % slab.elements.y();
+    const double thickness = start.jacobian({e, Eigen::Vector3d::Constant(0.5)}).col(2).norm();
+    result.emplace_back(of_column(0, i), of_column(1, j),
+                        std::clamp(mean_thickness / thickness, thickest, thinnest));
+  }
+  return result;
+}
+
 /// ∫ Σᵢⱼ (∂²/∂uᵢ∂uⱼ)² of the basis over one of n₁ n₂ n₃ equal elements.
 Eigen::Matrix<double, 64, 64> smoothing_matrix(const Eigen::Vector3i& n) {
   // Gauss-Legendre with 4 points is exact for the squares of cubics' derivatives.
@@ -79,6 +101,13 @@ FitModel::FitModel(const Slab& slab, const HermiteMesh& start, double mu, double
   for (int n = 0; n < start.num_nodes(); ++n) centre_ += start.node(n).col(0) / start.num_nodes();
   const Eigen::Vector3d lengths = mean_lengths(start);
   gradients_ = {gradient_matrix(lobatto_points(), lengths), gradient_matrix(even_points(), lengths)};
+  stretch_ = stretches(slab, start, lengths.z());
+}
+
+FitModel::Gradients FitModel::gradients_of(const Shape& x, int element) const {
+  Gradients F = x * gradients(element).transpose();
+  for (int column = 0; column < F.cols(); ++column) F.col(column) *= stretch_[element][column % 3];
+  return F;
 }
 
 double FitModel::energy_weight(int element) const {
@@ -98,7 +127,7 @@ FitModel::Shape FitModel::shape(const std::vector<HermiteMesh::Node>& nodes, int
 double FitModel::smallest_determinant(const std::vector<HermiteMesh::Node>& nodes) const {
   std::vector<double> smallest(elements_.size());
   tbb::parallel_for(0, static_cast<int>(elements_.size()), [&](int e) {
-    const Eigen::Matrix<double, 3, Eigen::Dynamic> F = shape(nodes, e) * gradients(e).transpose();
+    const Gradients F = gradients_of(shape(nodes, e), e);
     smallest[e] = F.leftCols<3>().determinant();
     for (int q = 1; q < F.cols() / 3; ++q)
       smallest[e] = std::min(smallest[e], F.middleCols<3>(3 * q).determinant());
@@ -145,7 +174,7 @@ double FitModel::cost(const std::vector<HermiteMesh::Node>& nodes, int e) const 
   const Linear& l = linear_[e];
   double cost = 0.5 * flat.dot(l.a * flat) - l.b.dot(flat) + l.c;
   cost += 0.5 * sobolev_ * (x * smoothing_).cwiseProduct(x).sum();
-  const Eigen::Matrix<double, 3, Eigen::Dynamic> F = x * gradients(e).transpose();
+  const Gradients F = gradients_of(x, e);
   double energy = 0;
   for (int q = 0; q < F.cols() / 3; ++q) energy += energy_.value(F.middleCols<3>(3 * q));
   return cost + energy_weight(e) * energy;
@@ -163,27 +192,32 @@ FitModel::Quadratic FitModel::quadratic(const std::vector<HermiteMesh::Node>& no
   const Eigen::MatrixXd& gradients = this->gradients(e);
   const int num_points = static_cast<int>(gradients.rows() / 3);
   const double scale = energy_weight(e);
-  const Eigen::Matrix<double, 3, Eigen::Dynamic> F = x * gradients.transpose();
-  Eigen::Matrix<double, 3, Eigen::Dynamic> stress(3, 3 * num_points);
+  const Gradients F = gradients_of(x, e);
+  const Eigen::Vector3d& stretch = stretch_[e];
+  Gradients stress(3, 3 * num_points);
   std::vector<FoldoverEnergy::Hessian> tangent(num_points);
   for (int q = 0; q < num_points; ++q) {
     const Eigen::Matrix3d Fq = F.middleCols<3>(3 * q);
-    stress.middleCols<3>(3 * q) = scale * energy_.gradient(Fq).reshaped(3, 3);
+    stress.middleCols<3>(3 * q) =
+        scale * energy_.gradient(Fq).reshaped(3, 3) * stretch.asDiagonal();
     tangent[q] = scale * energy_.positive_hessian(Fq);
   }
   const Shape by_x = stress * gradients + sobolev_ * x * smoothing_;
   result.gradient += Eigen::Map<const ElementVector>(by_x.data());
 
-  Eigen::MatrixXd product(3 * num_points, 64);
+  Eigen::MatrixXd product(3 * num_points, 64), block(64, 64);
   for (int c = 0; c < 3; ++c)
     for (int b = 0; b <= c; ++b) {
       for (int q = 0; q < num_points; ++q) {
         Eigen::Matrix3d part;
         for (int i = 0; i < 3; ++i)
-          for (int j = 0; j < 3; ++j) part(i, j) = tangent[q](c + 3 * i, b + 3 * j);
+          for (int j = 0; j < 3; ++j)
+            part(i, j) = stretch[i] * stretch[j] * tangent[q](c + 3 * i, b + 3 * j);
         product.middleRows<3>(3 * q).noalias() = part * gradients.middleRows<3>(3 * q);
       }
-      Eigen::MatrixXd block = gradients.transpose() * product;
+      cblas_dgemm(CblasColMajor, CblasTrans, CblasNoTrans, 64, 64, 3 * num_points, 1,
+                  gradients.data(), 3 * num_points, product.data(), 3 * num_points, 0,
+                  block.data(), 64);
       if (b == c) block += sobolev_ * smoothing_;
       for (int p = 0; p < 64; ++p)
         for (int r = 0; r < 64; ++r) {

@@ -17,8 +17,9 @@ struct PlaneSample {
 ///   ½ Σ weight (n · (x − target))² + ½ sobolev ∫ Σᵢⱼ |∂²x/∂uᵢ∂uⱼ|² du + mu · mean e(F)
 ///
 /// u in [0,1]³ runs through the whole slab; e is the foldover-free energy of F = ∂x/∂ξ with
-/// column i divided by a typical element's length along ξᵢ₊₁, at 5³ Lobatto points an element,
-/// all of equal weight (quadrature weights would let corners degenerate). An element may be
+/// column i divided by the length that the element should have along ξᵢ₊₁ (across the skin the mean
+/// times what the slab's grading asks, through it the start's), at 5³ Lobatto points an element, all of equal weight
+/// (quadrature weights would let corners degenerate). An element may be
 /// given emphasis n > 0: its energy counts 4ⁿ times and is taken at 9³ even points, for folds
 /// that hide between the 5³.
 class FitModel {
@@ -28,7 +29,7 @@ class FitModel {
   using ElementMatrix = Eigen::MatrixXd;
 
   /// Quadratic model of one element's share around the nodes it was made for. The Hessian
-  /// leaves out what would make it indefinite.
+  /// leaves out what would make it indefinite. BLAS must run on one thread (OneBlasThread).
   struct Quadratic {
     double cost = 0;
     ElementVector gradient;
@@ -49,9 +50,11 @@ class FitModel {
 
  private:
   using Shape = Eigen::Matrix<double, 3, 64>;
+  using Gradients = Eigen::Matrix<double, 3, Eigen::Dynamic>;  ///< F of every point side by side
   Shape shape(const std::vector<HermiteMesh::Node>& nodes, int element) const;
   double smallest_determinant(const std::vector<HermiteMesh::Node>& nodes) const;
   const Eigen::MatrixXd& gradients(int element) const { return gradients_[emphasis_[element] > 0]; }
+  Gradients gradients_of(const Shape& x, int element) const;
   double energy_weight(int element) const;  ///< of each of its points
 
   struct Linear {  ///< samples of one element: ½ xᵀ A x − bᵀ x + c over all 192 parameters
@@ -67,6 +70,7 @@ class FitModel {
   /// Without and with emphasis: row 3q + i is ∂/∂ξᵢ₊₁ of every basis function at point q, scaled.
   std::array<Eigen::MatrixXd, 2> gradients_;
   Eigen::Matrix<double, 64, 64> smoothing_;
+  std::vector<Eigen::Vector3d> stretch_;    ///< of each element: typical length over wanted one
   std::vector<Linear> linear_;
   FoldoverEnergy energy_;
 };

@@ -16,6 +16,8 @@ namespace {
 // Triangles of about 1 to 2 mm: their sagitta on a nipple of 5 mm radius is 0.05 mm.
 constexpr int face_divisions = 20;
 
+constexpr double landmark_reach_mm = 15;  // a nipple with its areola's rim
+
 struct Distances {
   std::vector<double> values, weights;
 };
@@ -54,14 +56,18 @@ double quantile(const Distances& d, double share) {
 }  // namespace
 
 SurfaceDistances surface_distances(const HermiteMesh& mesh, const std::vector<FaceLabels>& faces,
-                                   FaceLabel label, const TriangleSurface& data) {
+                                   FaceLabel label, const TriangleSurface& data,
+                                   const Eigen::Vector3d& landmark) {
   const TriangleSurface own = face_mesh(mesh, faces, label, face_divisions).surface;
   const Distances to_data = distances(own, ClosestPoint(data));
   const Distances to_mesh = distances(data, ClosestPoint(own));
   SurfaceDistances result{rms(to_data), rms(to_mesh),
-                          std::max(quantile(to_data, 0.95), quantile(to_mesh, 0.95)), 0,
+                          std::max(quantile(to_data, 0.95), quantile(to_mesh, 0.95)), 0, 0,
                           Eigen::Vector3d::Zero()};
   const auto consider = [&](const Distances& d, const TriangleSurface& surface) {
+    for (std::size_t v = 0; v < d.values.size(); ++v)
+      if ((surface.vertices[v] - landmark).norm() < landmark_reach_mm)
+        result.max_at_landmark = std::max(result.max_at_landmark, d.values[v]);
     const auto at = std::max_element(d.values.begin(), d.values.end());
     if (*at <= result.max) return;
     result.max = *at;

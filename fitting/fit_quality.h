@@ -12,12 +12,14 @@ struct SurfaceDistances {
   double rms_mesh_to_data = 0, rms_data_to_mesh = 0;
   double p95 = 0;                                      ///< the larger of both directions
   double max = 0;                                      ///< the larger of both directions
+  double max_at_landmark = 0;                          ///< within 15 mm of the landmark
   Eigen::Vector3d farthest = Eigen::Vector3d::Zero();  ///< where max was met [mm, LPS]
 };
 
 /// Between the mesh's faces of one label and a triangle surface: from every vertex of each.
 SurfaceDistances surface_distances(const HermiteMesh& mesh, const std::vector<FaceLabels>& faces,
-                                   FaceLabel label, const TriangleSurface& data);
+                                   FaceLabel label, const TriangleSurface& data,
+                                   const Eigen::Vector3d& landmark);
 
 /// Signed distance [mm] to a triangle surface (positive outside of it) on the mesh's skin, 0 on its
 /// other faces: something to look at.

@@ -15,6 +15,9 @@ constexpr int skin_samples = 8;  // a side of a face, mesh to data
 constexpr int wall_samples = 7;  // a side of a face
 // Beyond this the labelled wall is taken for an error (a tumour in the muscle) and loses weight.
 constexpr double wall_trust_mm = 10;
+// A nipple is a thousandth of the skin: without weight of its own it is smoothed away by 3 to 6 mm.
+constexpr double nipple_weight = 20;
+constexpr double nipple_width_mm = 10;
 
 /// Coordinate that is constant along edge 0 to 3 (u = 0, u = 1, v = 0, v = 1).
 int held_coordinate(int edge) { return edge / 2; }
@@ -35,18 +38,23 @@ std::vector<double> length_shares(const TriangleSurface& skin, const std::vector
 }  // namespace
 
 FitTarget::FitTarget(const Slab& slab, const TriangleSurface& skin, const FlatSkin& flat,
-                     const HeightField& wall)
-    : slab_(slab), skin_(skin), flat_(flat), wall_(wall), closest_(skin),
+                     const HeightField& wall, const Eigen::Vector3d& nipple)
+    : slab_(slab), skin_(skin), flat_(flat), wall_(wall), nipple_(nipple), closest_(skin),
       areas_(skin.vertex_areas()) {
   const double total = std::accumulate(areas_.begin(), areas_.end(), 0.0);
   for (double& a : areas_) a /= total;
   forget_feet();
 }
 
+double FitTarget::importance(const Eigen::Vector3d& x) const {
+  return 1 + nipple_weight *
+                 std::exp(-(x - nipple_).squaredNorm() / (2 * nipple_width_mm * nipple_width_mm));
+}
+
 void FitTarget::forget_feet() {
   const Eigen::Vector2d size(slab_.elements.x(), slab_.elements.y());
   feet_.clear();
-  for (const auto& uv : flat_.uv) feet_.push_back(uv.cwiseProduct(size));
+  for (const auto& uv : flat_.uv) feet_.push_back(slab_.graded(uv).cwiseProduct(size));
   for (int edge = 0; edge < 4; ++edge) {
     edge_feet_[edge].clear();
     for (int v : flat_.edges[edge]) edge_feet_[edge].push_back(feet_[v]);
@@ -73,7 +81,7 @@ void FitTarget::add_data_to_mesh(const SkinPatches& patches, double weight,
     const SkinPatches::Point foot = patches.at(feet_[v]);
     squared[v] = areas_[v] * (foot.x - skin_.vertices[v]).squaredNorm();
     out[first + v] = {patches.mesh_point(feet_[v]), foot.normal(), skin_.vertices[v],
-                      weight * areas_[v]};
+                      weight * areas_[v] * importance(skin_.vertices[v])};
   });
   skin_rms_ = std::sqrt(std::accumulate(squared.begin(), squared.end(), 0.0));
 }
@@ -113,7 +121,7 @@ void FitTarget::add_mesh_to_data(const SkinPatches& patches, double weight,
     const SkinPatches::Point at = patches.at(st);
     const ClosestPoint::Hit hit = closest_(at.x);
     areas[m] = at.by_s.cross(at.by_t).norm();
-    out[first + m] = {patches.mesh_point(st), hit.normal, hit.x, areas[m]};
+    out[first + m] = {patches.mesh_point(st), hit.normal, hit.x, areas[m] * importance(at.x)};
   });
   const double total = std::accumulate(areas.begin(), areas.end(), 0.0);
   for (int m = 0; m < nx * ny; ++m) out[first + m].weight *= weight / total;

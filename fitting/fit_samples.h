@@ -10,7 +10,7 @@ namespace mammotwin {
 class FitTarget {
  public:
   FitTarget(const Slab& slab, const TriangleSurface& skin, const FlatSkin& flat,
-            const HeightField& wall);
+            const HeightField& wall, const Eigen::Vector3d& nipple);
 
   /// How strongly each kind of mean squared distance counts.
   struct Weights {
@@ -28,6 +28,7 @@ class FitTarget {
   double skin_rms() const { return skin_rms_; }
 
  private:
+  double importance(const Eigen::Vector3d& x) const;  ///< 1, more round the nipple
   void add_data_to_mesh(const SkinPatches& patches, double weight, std::vector<PlaneSample>& out);
   void add_edges(const SkinPatches& patches, double weight, std::vector<PlaneSample>& out);
   void add_mesh_to_data(const SkinPatches& patches, double weight, std::vector<PlaneSample>& out);
@@ -37,6 +38,7 @@ class FitTarget {
   const TriangleSurface& skin_;
   const FlatSkin& flat_;
   const HeightField& wall_;
+  Eigen::Vector3d nipple_;
   ClosestPoint closest_;
   std::vector<double> areas_;                            ///< share of each vertex, sum 1
   std::vector<SkinPatches::Coordinates> feet_;           ///< of each vertex

@@ -115,9 +115,9 @@ NewtonStep::~NewtonStep() = default;
 
 StepReport NewtonStep::step(const FitModel& model, bool must_stay_proved,
                             std::vector<HermiteMesh::Node>& nodes) {
+  const OneBlasThread one_thread;
   StepReport report;
   report.cost_before = report.cost_after = system_->assemble(model, nodes);
-  const OneBlasThread one_thread;
   system_->factor.factorize(system_->matrix);
   if (system_->factor.info() != Eigen::Success) return report;
   const Eigen::VectorXd direction = -system_->factor.solve(system_->gradient);

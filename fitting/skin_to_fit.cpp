@@ -18,6 +18,7 @@ constexpr double snap_mm = 0.1;  // a twentieth of the spacing
 constexpr std::array<int, 3> closings = {2, 3, 5};                 // voxels
 constexpr std::array<double, 7> pulls = {3, 6, 9, 12, 15, 18, 21};  // [mm]
 constexpr double lesion_margin_mm = 3;
+constexpr double edge_reach_mm = 40;  // an element and a half
 
 /// Edges named by bits: x_min, x_max, z_min, z_max.
 BreastRegion pulled_in(BreastRegion r, int edges, double by) {
@@ -57,7 +58,7 @@ std::string doubt_of(int edges, double by) {
   constexpr std::array<const char*, 4> edge_names = {"right", "left", "lower", "upper"};
   for (int e = 0; e < 4; ++e)
     if (edges >> e & 1) names += (names.empty() ? "" : " and ") + std::string(edge_names[e]);
-  return "The labels' skin is too ragged at the breast's " + names + " edge; the mesh ends " +
+  return "The skin is too ragged or too steep at the breast's " + names + " edge; the mesh ends " +
          std::to_string(static_cast<int>(by)) + " mm inside it there.";
 }
 
@@ -84,6 +85,29 @@ SkinToFit find_skin_to_fit(const Segmentation& s, const ChestWall& wall) {
   throw std::runtime_error("fit: the skin surface cannot be laid on a square: " + reason +
                            "; look at the segmentation for holes, or for a breast that the "
                            "field of view or the region's planes cut");
+}
+
+SkinToFit without_edges_near(const Eigen::Vector3d& place, double by, const SkinToFit& skin,
+                             const std::vector<Lesion>& lesions) {
+  const BreastRegion& r = skin.region;
+  int edges = 0;
+  const std::array<double, 4> distance = {place.x() - r.x_min, r.x_max - place.x(),
+                                          place.z() - r.z_min, r.z_max - place.z()};
+  for (int e = 0; e < 4; ++e)
+    if (distance[e] < edge_reach_mm) edges |= 1 << e;
+  const BreastRegion region = pulled_in(r, edges, by);
+  if (edges == 0 || !holds_lesions(region, lesions)) return {{}, region, ""};
+  const TriangleSurface surface = cropped(skin.surface, region, snap_mm);
+  if (!why_not_a_square(surface, region).empty()) return {{}, region, ""};
+  return {surface, region, doubt_of(edges, by)};
+}
+
+SkinToFit scanned_skin_to_fit(const TriangleSurface& scan, const BreastRegion& region) {
+  const TriangleSurface skin = cropped(scan, region, snap_mm);
+  if (const std::string reason = why_not_a_square(skin, region); !reason.empty())
+    throw std::runtime_error("fit: the scanned skin cannot be laid on a square: " + reason +
+                             "; does the scan cover the breast's surroundings?");
+  return {skin, region, ""};
 }
 
 TriangleSurface skin_as_labelled(const Segmentation& s, const BreastRegion& region,

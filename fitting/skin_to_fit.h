@@ -20,6 +20,15 @@ struct SkinToFit {
 /// nothing helps.
 SkinToFit find_skin_to_fit(const Segmentation& segmentation, const ChestWall& wall);
 
+/// The same skin with the region's edges within 40 mm of a place pulled in by `by` [mm], never
+/// past a lesion; without triangles where no edge is near or that leaves no disc.
+SkinToFit without_edges_near(const Eigen::Vector3d& place, double by, const SkinToFit& skin,
+                             const std::vector<Lesion>& lesions);
+
+/// A scanned skin inside the region. Throws std::runtime_error if that is no disc with four
+/// corners.
+SkinToFit scanned_skin_to_fit(const TriangleSurface& scan, const BreastRegion& region);
+
 /// The skin as labelled: neither closed nor smoothed.
 TriangleSurface skin_as_labelled(const Segmentation& segmentation, const BreastRegion& region,
                                  const ChestWall& wall);

@@ -106,7 +106,7 @@ Eigen::MatrixXd fit_skin(const Slab& slab, const TriangleSurface& skin, const Fl
   for (const auto& t : skin.triangles) {
     const Eigen::Vector2d e1 = flat.uv[t[1]] - flat.uv[t[0]], e2 = flat.uv[t[2]] - flat.uv[t[0]];
     const double area = std::abs(e1.x() * e2.y() - e1.y() * e2.x()) / 2;
-    for (int v : t) fit.add(flat.uv[v], skin.vertices[v], area / 3);
+    for (int v : t) fit.add(slab.graded(flat.uv[v]), skin.vertices[v], area / 3);
   }
   return fit.solve(region);
 }
@@ -117,8 +117,8 @@ Eigen::MatrixXd fit_wall(const Slab& slab, const HeightField& wall, const Breast
   for (int b = 0; b < samples; ++b)
     for (int a = 0; a < samples; ++a) {
       const Eigen::Vector2d uv((a + 0.5) / samples, (b + 0.5) / samples);
-      const double x = region.x_min + uv.x() * (region.x_max - region.x_min);
-      const double z = region.z_min + uv.y() * (region.z_max - region.z_min);
+      const double x = region.x_min + slab.grading[0].place(uv.x()) * (region.x_max - region.x_min);
+      const double z = region.z_min + slab.grading[1].place(uv.y()) * (region.z_max - region.z_min);
       fit.add(uv, {x, wall(x, z), z}, 1.0 / (samples * samples));
     }
   return fit.solve(region);

@@ -2,6 +2,7 @@
 
 #include "fitting/chest_wall.h"
 #include "fitting/flatten.h"
+#include "fitting/grading.h"
 #include "fitting/mesh/mesh_file.h"
 
 namespace mammotwin {
@@ -10,6 +11,12 @@ namespace mammotwin {
 /// Global coordinates u, v, w in [0,1] run through all elements of a direction.
 struct Slab {
   Eigen::Vector3i elements;
+  std::array<Grading, 2> grading = {};  ///< along x and z
+
+  /// Where a point of the flattened skin lies in the slab.
+  Eigen::Vector2d graded(const Eigen::Vector2d& uv) const {
+    return {grading[0](uv.x()), grading[1](uv.y())};
+  }
 
   int num_nodes() const { return (elements.array() + 1).prod(); }
   int node(int i, int j, int k) const {

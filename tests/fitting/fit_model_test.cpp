@@ -11,6 +11,7 @@ namespace mammotwin {
 namespace {
 
 const Slab slab{{2, 2, 1}};
+const Slab graded{{2, 2, 1}, {Grading(0.5, 1, 0.12, 2), Grading(0.4, 1, 0.12, 2)}};
 
 std::vector<PlaneSample> some_samples(const HermiteMesh& mesh) {
   std::mt19937 random(4);
@@ -33,7 +34,7 @@ double total(const FitModel& model, const std::vector<HermiteMesh::Node>& nodes)
 
 TEST(FitModel, GradientMatchesDifferences) {
   const HermiteMesh mesh = distorted_mesh(slab.elements, 1.5);
-  FitModel model(slab, mesh, 1, 1e-6, {0, 0, 0, 1});
+  FitModel model(graded, mesh, 1, 1e-6, {0, 0, 0, 1});
   model.update(mesh.nodes(), some_samples(mesh));
   std::vector<HermiteMesh::Node> nodes = mesh.nodes();
   for (int e : {0, 3}) {
