@@ -24,7 +24,7 @@ void add(TissueVolumes& sum, const Fractions& f, double volume) {
 
 }  // namespace
 
-TissueVolumes tissue_in_mesh(const HermiteMesh& mesh, const TissueSampler& sample) {
+TissueVolumes tissue_in_mesh(const HermiteMesh& mesh, const FractionSampler& sample) {
   TissueVolumes sum;
   for (int e = 0; e < mesh.num_elements(); ++e)
     for (int q = 0; q < 64; ++q) {

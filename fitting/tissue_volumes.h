@@ -14,10 +14,10 @@ struct TissueVolumes {
 };
 
 /// Fractions of a cell of `volume` [mm³] around a position in LPS [mm].
-using TissueSampler = std::function<Fractions(const Eigen::Vector3d& x, double volume)>;
+using FractionSampler = std::function<Fractions(const Eigen::Vector3d& x, double volume)>;
 
 /// What the mesh's 4³ Gauss points an element hold, each with the fractions of its cell.
-TissueVolumes tissue_in_mesh(const HermiteMesh& mesh, const TissueSampler& sample);
+TissueVolumes tissue_in_mesh(const HermiteMesh& mesh, const FractionSampler& sample);
 
 /// What the voxels of the region in front of the muscle hold.
 TissueVolumes tissue_in_voxels(const Segmentation& segmentation);

@@ -20,11 +20,27 @@ void declare(StageDeclaration& stage, Arguments& args) {
   stage.options_from("fit.", true);
 }
 
-StagePlan plan(const Arguments&, const Patient&) { return {{}, {"fit."}}; }
+StagePlan plan(const Arguments&, const Patient& patient) {
+  StagePlan plan{{}, {"fit."}};
+  if (const auto scan = patient.scan_file()) {
+    plan.inputs.push_back(*scan);
+    plan.setting_prefixes.push_back("scan.");
+  }
+  return plan;
+}
+
+/// The skin that was scanned, in the segmentation's frame, where the patient has no image.
+std::optional<ScannedSkin> scanned_skin(const Patient& patient) {
+  const auto scan = patient.scan_file();
+  if (!scan) return std::nullopt;
+  return read_scanned_breast(*scan, patient.scan_options()).skin;
+}
 
 Outcome run(const Arguments& args, StageRun& stage) {
   const Segmentation segmentation = read_segmentation(args.segmentation, args.fractions);
-  const auto [mesh, report] = fit_breast(segmentation, stage.patient.fit, stage.progress);
+  const std::optional<ScannedSkin> scan = scanned_skin(stage.patient);
+  const auto [mesh, report] =
+      fit_breast(segmentation, stage.patient.fit, stage.progress, scan ? &*scan : nullptr);
   if (report.usable()) {
     write_mesh_file(stage.products.write_main(), mesh);
     write_exf(stage.products.write(args.mesh.stem().string() + ".exf"), mesh.mesh);

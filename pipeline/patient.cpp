@@ -26,6 +26,7 @@ void refuse_unknown(const std::string& where, const std::string& key, const Sett
 
 void Patient::declare(Settings& settings) {
   declare_inputs(settings);
+  declare_scan(settings);
   declare_segment(settings);
   declare_fit(settings);
   declare_gravity(settings, gravity);
@@ -52,6 +53,38 @@ void Patient::declare_inputs(Settings& s) {
   s.point("nipple.point_lps_mm", nipple_lps_mm_, {-kFarthestMm, kFarthestMm, "mm"},
           "the nipple, patient LPS; default: what stands out of the skin there");
   s.path("nipple.markups", nipple_markups_, "the nipple as 3D Slicer markups (.mrk.json)");
+}
+
+void Patient::declare_scan(Settings& s) {
+  s.path("scan.path", scan_, "scanned skin instead of an image: PLY, STL, OBJ, OFF or XYZ");
+  s.number("scan.unit_mm", scan_options_.unit_mm, {1e-6, 1e6, "mm"}, "length of the file's unit");
+  s.point("scan.base_point", scan_options_.base_point, {-1e9, 1e9},
+          "a point of the plane that the breast stands on, in the file's axes and unit; default: "
+          "behind the scan's rim");
+  s.point("scan.base_normal", scan_options_.base_normal, {-1e9, 1e9},
+          "its normal, in the file's axes");
+  s.number("scan.base_depth_mm", scan_options_.base_depth_mm, {2, 100, "mm"},
+           "how far behind the rim's plane the base lies where it is not given");
+  s.point("scan.up", scan_up_, {-1e9, 1e9},
+          "direction to the head in the file's axes; default [0, 0, 1]");
+}
+
+std::optional<fs::path> Patient::scan_file() const {
+  if (!scan_) return std::nullopt;
+  if (mri_ || labels_)
+    throw std::runtime_error(file_.string() + ": scan.path stands beside mri.path or labels.path; "
+                             "expected one of them");
+  return resolve(*scan_);
+}
+
+ScanOptions Patient::scan_options() const {
+  ScanOptions options = scan_options_;
+  if (options.base_point.has_value() != options.base_normal.has_value())
+    throw std::runtime_error(file_.string() + ": scan.base_point and scan.base_normal belong "
+                             "together; expected both or none");
+  options.up = scan_up_.value_or(options.up);
+  options.side = side_.value_or(Side::left);
+  return options;
 }
 
 void Patient::declare_segment(Settings& s) {
@@ -158,7 +191,7 @@ SegmentInput Patient::segment_input() const {
   if (!input.mri && !input.label_map)
     throw std::runtime_error(file_.string() +
                              ": no image: set mri.path (DICOM folder, NIfTI, NRRD, "
-                             "MHA) or labels.path, or put the series in " +
+                             "MHA), labels.path or scan.path, or put the series in " +
                              default_mri.string());
   input.series = series_;
   if (pre_) input.pre = resolve(*pre_);
@@ -172,6 +205,7 @@ SegmentInput Patient::segment_input() const {
 }
 
 std::vector<fs::path> Patient::segment_files() const {
+  if (const auto scan = scan_file()) return {*scan};
   const SegmentInput input = segment_input();
   std::vector<fs::path> files;
   for (const auto& path : {input.mri, input.pre, input.label_map, input.nipple_markups})

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "fitting/fit_breast.h"
+#include "fitting/scanned_breast.h"
 #include "pipeline/compression_settings.h"
 #include "pipeline/frame/settings.h"
 #include "pipeline/gravity_settings.h"
@@ -42,6 +42,11 @@ class Patient {
   /// Every file or folder that `segment_input` names.
   std::vector<std::filesystem::path> segment_files() const;
 
+  /// The scanned skin that stands for an image, with its path resolved; empty where there is none.
+  std::optional<std::filesystem::path> scan_file() const;
+  /// How it is read. Throws std::runtime_error where half of a base plane is given.
+  ScanOptions scan_options() const;
+
   SegmentOptions segment;
   FitOptions fit;
   CompressionSettings compression;
@@ -63,6 +68,7 @@ class Patient {
 
  private:
   void declare_inputs(Settings& settings);
+  void declare_scan(Settings& settings);
   void declare_segment(Settings& settings);
   void declare_fit(Settings& settings);
   void read_lesions(const std::string& file, const nlohmann::json& list);
@@ -71,7 +77,9 @@ class Patient {
 
   std::filesystem::path file_;
   std::optional<Side> side_;
-  std::optional<std::filesystem::path> mri_, pre_, labels_, nipple_markups_;
+  std::optional<std::filesystem::path> mri_, pre_, labels_, scan_, nipple_markups_;
+  ScanOptions scan_options_;
+  std::optional<Eigen::Vector3d> scan_up_;
   std::optional<std::string> series_, pre_series_;
   std::map<ForeignTissue, std::vector<int>> label_values_;
   std::optional<Eigen::Vector3d> nipple_lps_mm_;

@@ -1,7 +1,9 @@
-// segment: MRI or label map -> tissue labels and fractions of one breast.
+// segment: MRI, label map or scanned skin -> tissue labels and fractions of one breast.
 
 #include "segmentation/segment.h"
 
+#include "fitting/scanned_breast.h"
+#include "fitting/tissue_volumes.h"
 #include "pipeline/frame/stage.h"
 #include "segmentation/segmentation_file.h"
 
@@ -14,13 +16,14 @@ struct Arguments {
 
 void declare(StageDeclaration& stage, Arguments& args) {
   stage.product("segmentation", args.segmentation, "tissue labels to write (.seg.nrrd)");
-  for (const char* prefix : {"side", "mri.", "labels.", "nipple."})
+  for (const char* prefix : {"side", "mri.", "labels.", "scan.", "nipple."})
     stage.options_from(prefix, false);
   stage.options_from("segment.", true);
 }
 
 StagePlan plan(const Arguments&, const Patient& patient) {
-  return {patient.segment_files(), {"side", "mri.", "labels.", "nipple.", "segment.", "lesions."}};
+  return {patient.segment_files(),
+          {"side", "mri.", "labels.", "scan.", "nipple.", "segment.", "lesions."}};
 }
 
 Status status_of(SegmentStatus status) {
@@ -35,7 +38,29 @@ Status status_of(SegmentStatus status) {
   throw std::logic_error("unknown segmentation status");
 }
 
+/// A scan has no tissue to tell apart: the breast in front of the base plane is all fat.
+Outcome run_scan(const std::filesystem::path& file, StageRun& stage) {
+  const ScannedBreast scanned = read_scanned_breast(file, stage.patient.scan_options());
+  const Segmentation& s = scanned.segmentation;
+  write_segmentation(stage.products.write_main(), s);
+  write_fractions(stage.products.write("fractions.nrrd"), s.fractions);
+  SegmentQuality quality;
+  quality.side = s.region.side;
+  quality.contrast = "scan";
+  quality.breast_volume_ml = quality.fat_ml = tissue_in_voxels(s).total();
+  quality.nipple_in_lps = s.nipple_in_lps;
+  quality.notes = {"a scanned skin: tissue in front of the base plane is taken as homogeneous (fat)",
+                   "the nipple was taken as the most anterior skin point"};
+  nlohmann::json json = to_json(quality);
+  json["scan"] = {{"points", scanned.points},
+                  {"outliers", scanned.outliers},
+                  {"holes", scanned.holes},
+                  {"noise_mm", scanned.skin.noise_mm}};
+  return {Status::ok, {}, json};
+}
+
 Outcome run(const Arguments&, StageRun& stage) {
+  if (const auto scan = stage.patient.scan_file()) return run_scan(*scan, stage);
   const SegmentResult result =
       segment(stage.patient.segment_input(), stage.patient.segment, stage.progress);
   stage.progress(0.95, "writing");

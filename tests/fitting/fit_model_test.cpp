@@ -1,6 +1,7 @@
 #include "fitting/fit_model.h"
 
 #include "fitting/newton_step.h"
+#include "fitting/one_blas_thread.h"
 #include "tests/fitting/distorted_mesh.h"
 
 #include <gtest/gtest.h>
@@ -24,6 +25,8 @@ std::vector<PlaneSample> some_samples(const HermiteMesh& mesh) {
   }
   return samples;
 }
+
+const OneBlasThread one_thread;  // as NewtonStep has it
 
 double total(const FitModel& model, const std::vector<HermiteMesh::Node>& nodes) {
   double sum = 0;
