@@ -118,7 +118,7 @@ void say(const nlohmann::json& row) {
   std::cerr << row["name"].get<std::string>() << " " << row["side"].get<std::string>() << ": "
             << row["status"].get<std::string>();
   for (const char* key : {"skin_rms_mesh_to_data_mm", "skin_rms_data_to_mesh_mm", "skin_p95_mm",
-                          "skin_max_mm", "chest_wall_rms_mm", "min_scaled_jacobian",
+                          "skin_max_mm", "nipple_error_mm", "chest_wall_rms_mm", "min_scaled_jacobian",
                           "covered_fraction", "seconds"})
     if (row.contains(key)) std::cerr << "  " << key << " " << row[key];
   if (!row["reason"].is_null()) std::cerr << "  " << row["reason"].get<std::string>();
