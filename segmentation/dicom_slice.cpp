@@ -17,7 +17,7 @@ using gdcm::DataSet;
 using gdcm::Tag;
 
 const Tag modality_tag(0x0008, 0x0060), description_tag(0x0008, 0x103e),
-    series_uid_tag(0x0020, 0x000e), series_number_tag(0x0020, 0x0011), position_tag(0x0020, 0x0032),
+    series_uid_tag(0x0020, 0x000e), patient_id_tag(0x0010, 0x0020), series_number_tag(0x0020, 0x0011), position_tag(0x0020, 0x0032),
     orientation_tag(0x0020, 0x0037), spacing_tag(0x0028, 0x0030), rows_tag(0x0028, 0x0010),
     columns_tag(0x0028, 0x0011), frames_tag(0x0028, 0x0008), temporal_position_tag(0x0020, 0x0100),
     acquisition_tag(0x0020, 0x0012), echo_tag(0x0018, 0x0086), slice_distance_tag(0x0018, 0x0088),
@@ -170,6 +170,7 @@ std::vector<DicomSlice> read_dicom_slices(const std::filesystem::path& file) {
   if (slice.placement.rows == 0 || slice.placement.columns == 0) return {};
   slice.modality = text(set, modality_tag);
   slice.series_uid = text(set, series_uid_tag);
+  slice.patient_id = text(set, patient_id_tag);
   slice.series_number = text(set, series_number_tag);
   slice.series_description = text(set, description_tag);
   slice.image_type = text(set, image_type_tag);

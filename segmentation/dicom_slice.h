@@ -15,7 +15,7 @@ struct DicomSlice {
   int frame = 0;  ///< in a multi-frame object
   SlicePlacement placement;
   std::string modality;    ///< "MR" serves
-  std::string series_uid;  ///< compared, never shown
+  std::string series_uid, patient_id;  ///< compared, never shown
   std::string series_number;
   std::string series_description;
   std::string image_type;        ///< "ORIGINAL\\PRIMARY", "DERIVED\\SECONDARY\\..."

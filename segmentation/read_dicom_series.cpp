@@ -136,6 +136,15 @@ Series choose_by_rule(std::vector<Series> all, std::vector<std::string>& notes) 
   return chosen;
 }
 
+void check_one_patient(const std::vector<Series>& all) {
+  std::set<std::string> patients;
+  for (const Series& series : all) patients.insert(series.slices.front().patient_id);
+  if (patients.size() > 1)
+    throw std::runtime_error("holds " + std::to_string(all.size()) + " MR series of " +
+                             std::to_string(patients.size()) + " patients (by PatientID): " +
+                             list(all) + "; expected one patient's, or name one with mri.series");
+}
+
 Series choose_series(std::vector<Series> all, const std::string& wanted,
                      std::vector<std::string>& notes) {
   std::vector<Series> matching;
@@ -143,6 +152,7 @@ Series choose_series(std::vector<Series> all, const std::string& wanted,
     if (wanted.empty() ? series.slices.size() >= least_slices
                        : series.number == wanted || series.uid == wanted)
       matching.push_back(series);
+  if (wanted.empty()) check_one_patient(matching);
   if (matching.size() > 1 && wanted.empty()) return choose_by_rule(std::move(matching), notes);
   if (matching.size() > 1)
     throw std::runtime_error("mri.series names " + std::to_string(matching.size()) +

@@ -58,7 +58,7 @@ TEST_F(RealPatient, Mri6e4da81a) {
   expect_positions_in_both_views("6e4da81a");
 }
 
-TEST_F(RealPatient, TwoSeriesInOneFolderAreRefusedAndListed) {
+TEST_F(RealPatient, TwoPatientsInOneFolderAreRefusedAndListed) {
   const fs::path folder = patient("two", "[mri]\npath = \"mri\"\n") / "mri";
   fs::create_directory(folder);
   for (const std::string name : {"6e4da81a", "8af60052"})
@@ -67,7 +67,7 @@ TEST_F(RealPatient, TwoSeriesInOneFolderAreRefusedAndListed) {
       fs::create_symlink(file.path(), folder / (name + file.path().filename().string()));
   const CommandResult result = run("segment", "two");
   EXPECT_EQ(result.exit_code, 1);
-  for (const char* part : {"holds 2 MR series", "series 7", "series 18", "mri.series"})
+  for (const char* part : {"holds 2 MR series of 2 patients", "series 7", "series 18", "mri.series"})
     EXPECT_NE(result.text.find(part), std::string::npos) << part << "\n" << result.text;
 }
 
