@@ -34,8 +34,8 @@ Pose GravitySettings::imaged_as(const std::string& patient_position) const {
 
 void declare_gravity(Settings& s, GravitySettings& gravity) {
   s.choice("gravity", gravity.imaged, kPoses,
-           "how the patient lay or stood when imaged, default as the image's header says, else prone; none: "
-           "the shape is taken as free of stress");
+           "how the patient lay or stood when imaged, default as the image's header says, else prone, for a "
+           "scan none; none: the shape is taken as free of stress");
   s.number("unload.density_kg_per_m3", gravity.density_kg_per_m3, {500, 2000, "kg/m^3"},
            "density of the breast");
   s.path("unload.second_state", gravity.second_state,
