@@ -7,13 +7,13 @@
 #include "solver/press/checkpoint.h"
 #include "solver/press/compression_figures.h"
 #include "solver/press/finish.h"
+#include "solver/press/plate_way.h"
 #include "solver/press/press.h"
 #include "solver/press/solution_fields.h"
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <sstream>
 #include <stdexcept>
 #include <utility>
 
@@ -22,13 +22,6 @@ namespace mammotwin {
 namespace {
 
 constexpr double kStepGrowth = 1.5;
-
-std::string in_mm(double length) {
-  std::ostringstream text;
-  text.precision(4);
-  text << length << " mm";
-  return text.str();
-}
 
 State extrapolated(const State& now, const State& before, double ahead) {
   State then = now;
@@ -57,7 +50,7 @@ void check_shape(const CompressionProblem& problem) {
     throw std::invalid_argument("the mesh is folded: det dX/dxi is not positive everywhere");
 }
 
-/// One compression under way: where the plates start and end, and the load steps between.
+/// One compression under way: the load steps along the plates' way.
 class Compression {
  public:
   Compression(const CompressionProblem& problem, const CompressionOptions& options,
@@ -66,9 +59,6 @@ class Compression {
   CompressionResult run_from(const CompressionResult& near);
 
  private:
-  void check_thickness() const;
-  void place_ends();
-  double longest_way() const;
   bool begin(State& state);
   bool settle(State& state);
   void place(double fraction);
@@ -81,10 +71,10 @@ class Compression {
 
   const CompressionProblem& problem_;
   const CompressionOptions& options_;
-  const Progress& progress_;
-  const CompressionRestart& restart_;
+  const Progress progress_;
+  const CompressionRestart restart_;
   Press press_;
-  PlacedPlates start_, end_;
+  const PlateWay way_;
   CompressionCheckpoint good_;  ///< the last good step
   bool lost_ = false;           ///< the breast has slipped out
   CompressionReport report_;
@@ -96,65 +86,22 @@ Compression::Compression(const CompressionProblem& problem, const CompressionOpt
       options_(options),
       progress_(progress),
       restart_(restart),
-      press_(problem, options) {
-  check_thickness();
+      press_(problem, options),
+      way_(press_.frame(), problem, options.moving) {
   good_.tilt = problem.plates.paddle_tilt;
-  place_ends();
   report_.target_thickness_mm = problem.plates.thickness;
   report_.free_thickness_mm = press_.frame().extent(problem.mesh.mesh.nodes());
   report_.dof = press_.breast().dofs->num_equations();
 }
 
-void Compression::check_thickness() const {
-  const double thickness = problem_.plates.thickness;
-  const double extent = press_.frame().extent(problem_.mesh.mesh.nodes());
-  if (!(std::isfinite(thickness) && thickness > 0 && thickness < extent))
-    throw std::invalid_argument("thickness is " + in_mm(thickness) +
-                                "; expected between 0 and the breast's own " + in_mm(extent) +
-                                " along the beam");
-}
-
-void Compression::place_ends() {
-  const PlateFrame& frame = press_.frame();
-  const double half = problem_.plates.thickness / 2;
-  const double middle = frame.centroid_height() + problem_.plates.lift;
-  const auto [low, high] = frame.touching_heights();
-  const bool beside = middle <= low || middle >= high;
-  if (beside || (middle - half <= low && middle + half >= high))
-    throw std::invalid_argument("plates never touch: the breast reaches from " + in_mm(low) +
-                                " to " + in_mm(high) + " between plates at " +
-                                in_mm(middle - half) + " and " + in_mm(middle + half));
-  end_ = frame.place(middle - half, middle + half, good_.tilt);
-  start_ = frame.place(std::min(low, middle - half), std::max(high, middle + half), good_.tilt);
-}
-
-void Compression::place(double fraction) {
-  double support = fraction, paddle = fraction;
-  if (options_.moving == Moving::paddle) {
-    const double lift = end_.support_height - start_.support_height;
-    const double share = lift / (lift + start_.paddle_height - end_.paddle_height);
-    support = fraction < share ? fraction / share : 1;
-    paddle = fraction < share ? 0 : (fraction - share) / (1 - share);
-  }
-  const auto between = [](double a, double b, double f) { return a + f * (b - a); };
-  press_.put(press_.frame().place(between(start_.support_height, end_.support_height, support),
-                                  between(start_.paddle_height, end_.paddle_height, paddle),
-                                  good_.tilt));
-}
-
-/// Of the plates, the longer one of two that move together, to their places in the end [mm].
-double Compression::longest_way() const {
-  const double support = end_.support_height - start_.support_height;
-  const double paddle = start_.paddle_height - end_.paddle_height;
-  return options_.moving == Moving::paddle ? support + paddle : std::max(support, paddle);
-}
+void Compression::place(double fraction) { press_.put(way_.at(fraction, good_.tilt)); }
 
 /// Turns the paddle by the secant method until its spring and the breast are in balance.
 NewtonReport Compression::balance_tilt(NewtonReport report, State& state) {
   constexpr int most_rounds = 10;
   constexpr double most_turn = 4, most_tilt = 30;  // [deg]
-  constexpr double least_slope = -0.5, first_slope = -1.5;
-  double slope = first_slope;
+  constexpr double least_slope = -0.5;
+  double slope = kTiltSlope;
   for (int round = 0; report.usable() && round < most_rounds; ++round) {
     const double error = press_.tilt_error(state), tilt = press_.placed().paddle_tilt;
     if (std::abs(error) <= kTiltTolerance) return report;
@@ -236,7 +183,7 @@ void Compression::judge(const LoadSteppingReport& load) {
 
 /// Brings the breast to rest under gravity, the plates away; false where it does not come to rest.
 bool Compression::settle(State& state) {
-  press_.put(start_);
+  press_.put(way_.start());
   press_.take_plates_away();
   if (problem_.gravity.isZero()) return true;
   const LoadSteppingReport load = raise_body_force(
@@ -278,7 +225,7 @@ bool Compression::begin(State& state) {
 }
 
 LoadSteppingReport Compression::close_plates(State& state) {
-  const double longest = std::min(1.0, options_.longest_move / longest_way());
+  const double longest = std::min(1.0, options_.longest_move / way_.longest());
   const LoadSteppingReport load = step_load(
       state,
       {std::min(longest, options_.first_step), longest * options_.smallest_step,
@@ -324,7 +271,7 @@ CompressionResult Compression::run_from(const CompressionResult& near) {
   state.pressure = near.pressure;
   const double apart = near.plates.paddle_height - near.plates.support_height;
   place(1);
-  press_.move_paddle(end_.support_height + problem_.plates.thickness + apart -
+  press_.move_paddle(press_.placed().support_height + problem_.plates.thickness + apart -
                          near.report.target_thickness_mm,
                      good_.tilt);
   NewtonReport newton = press_.squeeze(state, near.penalty);

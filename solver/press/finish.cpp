@@ -10,8 +10,6 @@ namespace mammotwin {
 
 namespace {
 
-constexpr double kTiltSlope = -1.5;  // of moment / spring − tilt over tilt: a guess
-
 /// Paddle moves that bring the thickness to the one asked: where only the plates' edges press, the
 /// breast's extent follows the paddle by a fraction.
 class ThicknessSecant {

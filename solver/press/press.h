@@ -10,6 +10,8 @@ namespace mammotwin {
 
 /// Turns of the paddle that its spring still asks for when it counts as balanced [deg].
 constexpr double kTiltTolerance = 0.05;
+/// Of moment / spring − tilt over tilt: a guess to start a secant with.
+constexpr double kTiltSlope = -1.5;
 
 /// A breast and the two plates about it: moves the plates, measures what they do, and brings the
 /// breast to equilibrium between them. It has no load history but friction's.
