@@ -27,11 +27,6 @@ Eigen::Vector3d gravity_in_lps(Pose pose) {
   throw std::logic_error("unknown pose");
 }
 
-Pose GravitySettings::imaged_as(const std::string& patient_position) const {
-  if (imaged) return *imaged;
-  return patient_position.ends_with("S") ? Pose::supine : Pose::prone;
-}
-
 void declare_gravity(Settings& s, GravitySettings& gravity) {
   s.choice("gravity", gravity.imaged, kPoses,
            "how the patient lay or stood when imaged, default as the image's header says, else prone, for a "

@@ -20,13 +20,10 @@ Eigen::Vector3d gravity_in_lps(Pose pose);
 
 /// What patient.toml says of gravity.
 struct GravitySettings {
-  std::optional<Pose> imaged;         ///< not given: what the image says, else prone
+  std::optional<Pose> imaged;         ///< not given: Patient::imaged_pose
   double density_kg_per_m3 = 1000;  ///< of breast tissue: fat 920, fibroglandular 1035
   std::optional<std::filesystem::path> second_state;  ///< the same breast in another pose
   Pose second_gravity = Pose::supine;
-
-  /// `patient_position`: DICOM's code ("HFP": head first, prone); empty where it is not known.
-  Pose imaged_as(const std::string& patient_position) const;
 
   double density() const { return density_kg_per_m3 * 1e-9; }  ///< [kg/mm³]
 };

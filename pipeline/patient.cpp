@@ -69,6 +69,12 @@ void Patient::declare_scan(Settings& s) {
           "direction to the head in the file's axes; default [0, 0, 1]");
 }
 
+Pose Patient::imaged_pose(const std::string& patient_position) const {
+  if (gravity.imaged) return *gravity.imaged;
+  if (scan_) return Pose::none;
+  return patient_position.ends_with("S") ? Pose::supine : Pose::prone;
+}
+
 std::optional<fs::path> Patient::scan_file() const {
   if (!scan_) return std::nullopt;
   if (mri_ || labels_)

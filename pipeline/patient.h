@@ -44,6 +44,11 @@ class Patient {
 
   /// The scanned skin that stands for an image, with its path resolved; empty where there is none.
   std::optional<std::filesystem::path> scan_file() const;
+
+  /// How the patient lay when imaged: as the settings say; else none for a scan, which is free of
+  /// stress as it stood; else as the image's header says, prone where it does not.
+  /// `patient_position`: DICOM's code ("HFP": head first, prone); empty where it is not known.
+  Pose imaged_pose(const std::string& patient_position) const;
   /// How it is read. Throws std::runtime_error where half of a base plane is given.
   ScanOptions scan_options() const;
 

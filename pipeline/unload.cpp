@@ -85,9 +85,7 @@ Outcome run(const Arguments& args, StageRun& stage) {
   const Segmentation segmentation = read_segmentation(args.segmentation, args.fractions);
   const MeanFractions mean(segmentation.fractions);
   const MeshFile prone = read_mesh_file(args.mesh);
-  const bool of_scan = patient.scan_file() && !patient.gravity.imaged;  // as it stood, free of stress
-  const Pose imaged =
-      of_scan ? Pose::none : patient.gravity.imaged_as(patient_position(args.segmentation));
+  const Pose imaged = patient.imaged_pose(patient_position(args.segmentation));
   const auto problem_with = [&](double factor) {
     CompressionProblem problem = breast_problem(prone, mean, patient.compression, factor);
     problem.gravity = gravity_in_lps(imaged);

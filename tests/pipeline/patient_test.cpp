@@ -81,11 +81,18 @@ TEST_F(PatientTest, RefusesALabelValueWithTwoMeanings) {
 }
 
 TEST_F(PatientTest, GravityIsTheHeadersUnlessItIsGiven) {
-  EXPECT_EQ(patient_.gravity.imaged_as(""), Pose::prone);
-  EXPECT_EQ(patient_.gravity.imaged_as("FFP"), Pose::prone);
-  EXPECT_EQ(patient_.gravity.imaged_as("HFS"), Pose::supine);
+  EXPECT_EQ(patient_.imaged_pose(""), Pose::prone);
+  EXPECT_EQ(patient_.imaged_pose("FFP"), Pose::prone);
+  EXPECT_EQ(patient_.imaged_pose("HFS"), Pose::supine);
   read("gravity = \"none\"\n");
-  EXPECT_EQ(patient_.gravity.imaged_as("HFS"), Pose::none);
+  EXPECT_EQ(patient_.imaged_pose("HFS"), Pose::none);
+}
+
+TEST_F(PatientTest, AScanIsFreeOfStressUnlessAPoseIsGiven) {
+  read("[scan]\npath = \"a.ply\"\n");
+  EXPECT_EQ(patient_.imaged_pose(""), Pose::none);
+  read("gravity = \"standing\"\n[scan]\npath = \"a.ply\"\n");
+  EXPECT_EQ(patient_.imaged_pose(""), Pose::standing);
 }
 
 TEST_F(PatientTest, KeepsASeriesIdentifierOutOfTheParameters) {
