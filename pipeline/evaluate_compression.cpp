@@ -9,7 +9,7 @@
 #include "pipeline/evaluate/breast_inputs.h"
 #include "pipeline/evaluate/compression_row.h"
 #include "pipeline/evaluate/compression_summary.h"
-#include "pipeline/frame/evaluation.h"
+#include "pipeline/frame/plain_command.h"
 #include "pipeline/frame/products.h"
 
 namespace mammotwin {
@@ -112,7 +112,7 @@ int run(const Arguments& args) {
 
 int main(int argc, char** argv) {
   using namespace mammotwin;
-  return run_evaluation<Arguments>(argc, argv, "evaluate-compression",
+  return run_plain_command<Arguments>(argc, argv, "evaluate-compression",
                                    "Compresses synthetic breasts and patients' label maps, and writes how each ended",
                                    declare, run);
 }

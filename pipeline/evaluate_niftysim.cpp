@@ -5,7 +5,7 @@
 #include <iostream>
 
 #include "pipeline/evaluate/niftysim/comparison.h"
-#include "pipeline/frame/evaluation.h"
+#include "pipeline/frame/plain_command.h"
 #include "pipeline/frame/products.h"
 
 namespace mammotwin {
@@ -55,7 +55,7 @@ int run(Arguments args) {
 
 int main(int argc, char** argv) {
   using namespace mammotwin;
-  return run_evaluation<Arguments>(argc, argv, "evaluate-niftysim",
+  return run_plain_command<Arguments>(argc, argv, "evaluate-niftysim",
                                    "Compresses a breast as NiftySim did and compares the displacement of its nodes",
                                    declare, run);
 }

@@ -9,7 +9,7 @@
 
 #include "pipeline/evaluate/registration_case.h"
 #include "pipeline/evaluate/registration_rows.h"
-#include "pipeline/frame/evaluation.h"
+#include "pipeline/frame/plain_command.h"
 #include "pipeline/frame/products.h"
 
 namespace mammotwin {
@@ -93,7 +93,7 @@ int run(const Arguments& args) {
 
 int main(int argc, char** argv) {
   using namespace mammotwin;
-  return run_evaluation<Arguments>(
+  return run_plain_command<Arguments>(
       argc, argv, "evaluate-registration",
       "Registers synthetic patients with mammograms of another model, and writes how far off the marks are",
       declare, run);

@@ -7,7 +7,7 @@
 #include "pipeline/evaluate/breast_inputs.h"
 #include "pipeline/evaluate/stage_command.h"
 #include "pipeline/evaluate/unload_rows.h"
-#include "pipeline/frame/evaluation.h"
+#include "pipeline/frame/plain_command.h"
 #include "pipeline/frame/products.h"
 
 namespace mammotwin {
@@ -113,7 +113,7 @@ int run(const Arguments& args) {
 
 int main(int argc, char** argv) {
   using namespace mammotwin;
-  return run_evaluation<Arguments>(argc, argv, "evaluate-unload",
+  return run_plain_command<Arguments>(argc, argv, "evaluate-unload",
                                    "Unloads patients' breasts with three stiffnesses and writes how well that went",
                                    declare, run);
 }

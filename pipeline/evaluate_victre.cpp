@@ -4,7 +4,7 @@
 #include <iostream>
 
 #include "pipeline/evaluate/victre/victre_comparison.h"
-#include "pipeline/frame/evaluation.h"
+#include "pipeline/frame/plain_command.h"
 #include "pipeline/frame/products.h"
 
 namespace mammotwin {
@@ -43,7 +43,7 @@ int run(const Arguments& args) {
 
 int main(int argc, char** argv) {
   using namespace mammotwin;
-  return run_evaluation<Arguments>(argc, argv, "evaluate-victre",
+  return run_plain_command<Arguments>(argc, argv, "evaluate-victre",
                                    "Compresses VICTRE's phantom as FEBio did and compares tissue and outline",
                                    declare, run);
 }

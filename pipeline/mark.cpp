@@ -1,6 +1,6 @@
 // mark: marks on mammograms of a registered patient -> where they can be in MRI and in the other view.
 
-#include "pipeline/frame/evaluation.h"
+#include "pipeline/frame/plain_command.h"
 #include "pipeline/registered_view.h"
 #include "pipeline/view_header.h"
 #include "registration/markups.h"
@@ -152,7 +152,7 @@ int run(const Arguments& args) {
 
 int main(int argc, char** argv) {
   using namespace mammotwin;
-  return run_evaluation<Arguments>(
+  return run_plain_command<Arguments>(
       argc, argv, "mark",
       "Marks on mammograms of a registered patient: their curves through MRI and in the other view, and "
       "from two marks the point in MRI",

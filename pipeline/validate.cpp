@@ -1,6 +1,6 @@
 // validate: the paper's gel cylinder, squeezed in four ways, against other codes -> validation.json, pictures.
 
-#include "pipeline/frame/evaluation.h"
+#include "pipeline/frame/plain_command.h"
 #include "pipeline/frame/products.h"
 #include "pipeline/validation/claims.h"
 #include "pipeline/validation/gel_figures.h"
@@ -77,7 +77,7 @@ int run(const Arguments& args) {
 
 int main(int argc, char** argv) {
   using namespace mammotwin;
-  return run_evaluation<Arguments>(argc, argv, "validate",
+  return run_plain_command<Arguments>(argc, argv, "validate",
                                    "Squeezes the paper's gel cylinder in four ways and compares with other codes",
                                    declare, run);
 }

@@ -13,7 +13,7 @@ namespace mammotwin {
 /// `main` of a command that is not a stage: declares its arguments, parses, runs. Exit code 2 where
 /// the command line is wrong, 1 where `run` throws, else what `run` returns.
 template <class Arguments, class Declare, class Run>
-int run_evaluation(int argc, char** argv, const std::string& name, const std::string& about,
+int run_plain_command(int argc, char** argv, const std::string& name, const std::string& about,
                    Declare declare, Run run) {
   prepare_process(argv);
   CLI::App app(about);
