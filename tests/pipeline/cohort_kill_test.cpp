@@ -14,18 +14,13 @@
 #include <thread>
 
 #include "tests/pipeline/cohort_folder.h"
+#include "tests/pipeline/kills.h"
 
 namespace mammotwin {
 namespace {
 
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
-
-/// MAMMOTWIN_KILLS sets how often; the default keeps the test short.
-int num_kills() {
-  const char* asked = std::getenv("MAMMOTWIN_KILLS");
-  return asked ? std::atoi(asked) : 20;
-}
 
 class KilledRun : public CohortFolderTest {
  protected:

@@ -4,6 +4,7 @@
 #include "fitting/mesh/mesh_file.h"
 #include "segmentation/segmentation_file.h"
 #include "tests/pipeline/command.h"
+#include "tests/pipeline/kills.h"
 #include "tests/pipeline/scratch_folder.h"
 #include "tests/solver/dome_breast.h"
 
@@ -22,12 +23,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
-
-/// MAMMOTWIN_KILLS sets how often.
-int num_kills() {
-  const char* asked = std::getenv("MAMMOTWIN_KILLS");
-  return asked ? std::atoi(asked) : 20;
-}
 
 class InterruptedCompression : public ScratchFolder {
  protected:
