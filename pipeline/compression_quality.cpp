@@ -1,5 +1,7 @@
 #include "pipeline/compression_quality.h"
 
+#include "pipeline/quality_limits.h"
+
 #include <cmath>
 #include <cstdio>
 
@@ -7,13 +9,6 @@ namespace mammotwin {
 namespace {
 
 using nlohmann::json;
-
-// Beyond these a person should look (issue of trust, not of arithmetic): the lesion error that
-// people accept is millimetres, and tissue keeps its volume.
-constexpr double kThicknessErrorMm = 0.1;
-constexpr double kVolumeChange = 0.01;
-constexpr double kPenetrationMm = 0.1;
-constexpr double kLeastShareOfSaneJ = 0.99;
 
 json history_json(const CompressionReport& report) {
   json history = json::array();
@@ -75,22 +70,22 @@ Outcome judge_compression(const CompressionReport& r, double angle_deg, bool ass
     outcome.status = Status::look;
     outcome.reasons.push_back(reason);
   };
-  doubt(std::abs(r.thickness_mm - r.target_thickness_mm) > kThicknessErrorMm,
+  doubt(std::abs(r.thickness_mm - r.target_thickness_mm) > limits::thickness_error_mm,
         sentence("the breast ended %.2f mm thick where %.2f mm were asked", r.thickness_mm,
                  r.target_thickness_mm));
-  doubt(std::abs(r.volume_change) > kVolumeChange,
+  doubt(std::abs(r.volume_change) > limits::volume_change,
         sentence("its volume changed by %.2f %%; expected under %.0f %%", 100 * r.volume_change,
-                 100 * kVolumeChange));
-  doubt(r.max_penetration_mm > kPenetrationMm,
+                 100 * limits::volume_change));
+  doubt(r.max_penetration_mm > limits::penetration_mm,
         sentence("a plate went %.3f mm into the breast; expected under %.1f mm",
-                 r.max_penetration_mm, kPenetrationMm));
+                 r.max_penetration_mm, limits::penetration_mm));
   doubt(r.held_by_friction > 0,
         sentence("between plates without friction the breast slips out; a friction coefficient of "
                  "%.2f was taken to hold it",
                  r.held_by_friction, 0));
-  doubt(r.J_within_half < kLeastShareOfSaneJ,
+  doubt(r.J_within_half < limits::share_of_sane_J,
         sentence("volume is locally kept within half at %.1f %% of the points; expected %.0f %%",
-                 100 * r.J_within_half, 100 * kLeastShareOfSaneJ));
+                 100 * r.J_within_half, 100 * limits::share_of_sane_J));
   return outcome;
 }
 

@@ -3,6 +3,8 @@
 #include "pipeline/report/report.h"
 
 #include "pipeline/frame/stage.h"
+#include "pipeline/view_header.h"
+#include "registration/mammogram_header.h"
 
 namespace mammotwin {
 namespace {
@@ -25,9 +27,14 @@ bool is_input(const std::filesystem::path& file, const std::filesystem::path& pa
   return name.front() != '.' && name != "picture.png" && name.rfind(page.filename().string(), 0) != 0;
 }
 
-/// Whatever the folder holds, but for the page itself.
-StagePlan plan(const Arguments& args, const Patient&) {
-  StagePlan plan;
+constexpr const char* kViews[] = {"cc", "mlo"};
+
+/// Whatever the folder holds, but for the page itself; and the mammograms that it is shown on.
+StagePlan plan(const Arguments& args, const Patient& patient) {
+  StagePlan plan{{}, {"views."}};
+  for (const char* view : kViews)
+    if (const auto& file = patient.view(view).mammogram; file && std::filesystem::exists(patient.resolve(*file)))
+      plan.inputs.push_back(patient.resolve(*file));
   for (const auto& entry : std::filesystem::directory_iterator(args.results))
     if (entry.is_regular_file() && is_input(entry.path(), args.page))
       plan.inputs.push_back(entry.path());
@@ -35,10 +42,33 @@ StagePlan plan(const Arguments& args, const Patient&) {
   return plan;
 }
 
+RealMammogram read_mammogram(const Patient& patient, const std::string& view, Side side) {
+  std::vector<std::string> remarks;  // register has said them
+  const std::filesystem::path path = patient.resolve(*patient.view(view).mammogram);
+  RealMammogram real{view, is_dicom(path) ? read_mammogram_dicom(path) : read_mammogram_png(path),
+                     with_header(patient, view, side, remarks).detector(view, side)};
+  if (!real.detector.pixels) throw std::runtime_error("its pixel spacing is not known");
+  return real;
+}
+
+/// Grey values only: nothing of a header comes to the page.
+void add_mammograms(const Patient& patient, PatientResults& results) {
+  for (const ViewResult& view : results.views) {
+    if (!patient.view(view.view.name).mammogram) continue;
+    try {
+      results.mammograms.push_back(read_mammogram(patient, view.view.name, view.view.side));
+    } catch (const std::exception& error) {
+      results.notes.push_back("the mammogram of " + view.view.name + " is not shown: " + error.what());
+    }
+  }
+}
+
 Outcome run(const Arguments& args, StageRun& stage) {
   stage.progress(0, "drawing");
-  write_report(args.results, stage.products.write_main(), MAMMOTWIN_VERSION);
-  if (args.picture) write_report_picture(args.results, stage.products.write("picture.png"));
+  PatientResults results = read_patient_results(args.results);
+  add_mammograms(stage.patient, results);
+  write_report(results, stage.products.write_main(), MAMMOTWIN_VERSION);
+  if (args.picture) write_report_picture(results, stage.products.write("picture.png"));
   return {};
 }
 

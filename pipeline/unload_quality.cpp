@@ -1,5 +1,7 @@
 #include "pipeline/unload_quality.h"
 
+#include "pipeline/quality_limits.h"
+
 #include <cmath>
 #include <cstdio>
 
@@ -7,9 +9,6 @@ namespace mammotwin {
 namespace {
 
 using nlohmann::json;
-
-// Strain beyond which a neo-Hookean breast with these moduli is not to be believed unseen.
-constexpr double kStretch = 1.5;
 
 template <class... Values>
 std::string sentence(const char* format, Values... values) {
@@ -88,7 +87,7 @@ Outcome judge_unloading(const UnloadingRecord& record) {
     outcome.status = Status::look;
     outcome.reasons.push_back(reason);
   };
-  doubt(record.report.stretch_p95 > kStretch,
+  doubt(record.report.stretch_p95 > limits::stretch_p95,
         sentence("hanging stretches 5 %% of the breast by more than %.2f; are the stiffnesses too "
                  "low?", record.report.stretch_p95));
   for (const auto& [name, pose] : record.poses) {

@@ -57,13 +57,12 @@ std::optional<Figure> convergence_figure(const PatientResults& results) {
   Picture picture(kWidth, kHeight);
   const double pitch = (kWidth - kLeft - kRight) / count, scale = (kHeight - kTop - kBottom) / most;
   const double floor = kHeight - kBottom;
-  picture.text({4, 10}, "iterations", 9.5, palette::ink);
   picture.text({kLeft + (kWidth - kLeft - kRight) / 2, kHeight - 4}, "thickness reached [mm]", 9.5,
                palette::ink, Anchor::middle);
   std::string alt = "Newton iterations of each load step.";
   double x = kLeft;
   for (const Series& series : all) {
-    picture.text({x, kTop - 12}, series.name, 9.5, series.colour, Anchor::start, true);
+    picture.text({x, kTop - 12}, series.name + ", iterations", 9.5, series.colour, Anchor::start, true);
     int sum = 0;
     for (const Bar& bar : series.bars) {
       const double height = scale * bar.iterations, width = std::max(1.0, pitch - kGap);

@@ -1,4 +1,5 @@
 #include "pipeline/report/mesh_surface.h"
+#include "pipeline/report/mammogram_raster.h"
 #include "pipeline/report/palette.h"
 #include "pipeline/report/panel.h"
 #include "pipeline/report/view_figures.h"
@@ -26,6 +27,15 @@ DetectorImage shown(const PatientResults& results, const ViewResult& view) {
                                 view.detector, kPixel_mm));
 }
 
+/// Where the baseline puts a lesion: as the table says, which knows how register laid it on a mammogram.
+Eigen::Vector2d baseline_of(const PatientResults& results, const std::string& view,
+                            const ProjectedLandmark& p) {
+  for (const LesionRow& row : results.rows)
+    if (row.view == view && row.lesion == p.landmark.id && row.baseline_u_mm && row.baseline_v_mm)
+      return {*row.baseline_u_mm, *row.baseline_v_mm};
+  return p.baseline_on_detector;
+}
+
 /// Lesions that lie behind the edge, where no mammogram shows them.
 std::vector<std::string> behind_edge(const PatientResults& results, const ViewProjection& projection) {
   std::vector<std::string> names;
@@ -39,7 +49,8 @@ double left_of_window(const PatientResults& results, const ViewProjection& proje
   double left = 0;
   for (const Landmark& lesion : results.lesions()) {
     const ProjectedLandmark p = projection.project(lesion);
-    left = std::min({left, p.on_detector.x() - kMargin_mm, p.baseline_on_detector.x() - kMargin_mm});
+    const double baseline = baseline_of(results, projection.view().name, p).x();
+    left = std::min({left, p.on_detector.x() - kMargin_mm, baseline - kMargin_mm});
   }
   return left;
 }
@@ -89,7 +100,7 @@ void draw_ellipse(Panel& panel, const LesionRow& row) {
 void draw_landmarks(Panel& panel, const PatientResults& results, const ViewProjection& projection) {
   for (const Landmark& lesion : results.lesions()) {
     const ProjectedLandmark p = projection.project(lesion);
-    panel.baseline_mark(on_plane(p.baseline_on_detector), lesion.id);
+    panel.baseline_mark(on_plane(baseline_of(results, projection.view().name, p)), lesion.id);
     panel.lesion_mark(on_plane(p.on_detector), 5, lesion.id, true);
   }
   for (const LesionRow& row : results.rows)
@@ -108,33 +119,70 @@ std::string described(const PatientResults& results, const ViewProjection& proje
   return text;
 }
 
-}  // namespace
+/// What the picture of a view consists of, before its background is chosen.
+struct DetectorView {
+  ViewProjection projection;
+  DetectorImage simulated;
+  Section section;
+  std::string name;    ///< "L-CC"
+  std::string hidden;  ///< sentences on lesions that no mammogram shows
+};
 
-Figure detector_figure(const PatientResults& results, const ViewResult& view) {
-  const ViewProjection projection(results.prone->mesh, view.file.mesh, view.view, view.detector);
-  const DetectorImage image = shown(results, view);
+DetectorView detector_view(const PatientResults& results, const ViewResult& view) {
+  ViewProjection projection(results.prone->mesh, view.file.mesh, view.view, view.detector);
+  DetectorImage image = shown(results, view);
   const Section section =
       detector_section(image, view.view.side, left_of_window(results, projection));
-  Picture picture(section.width_mm() * kScale, section.height_mm() * kScale + 20);
-  Panel panel(picture, section, 0, 18, kScale);
-  panel.image(raster_of(image, section));
-  panel.edge_line({0, section.window.min().y(), 0}, {0, section.window.max().y(), 0});
-  draw_landmarks(panel, results, projection);
-  const bool right = view.view.side == Side::right;
-  const bool oblique = std::abs(view.view.angle_deg) > 15;
-  panel.sides("", "", oblique ? "superior-lateral" : "lateral",
-              oblique ? "inferior-medial" : "medial", true);
-  panel.scale_bar(20, palette::paper);
-  const std::string name = (right ? "R-" : "L-") + title_of_view(view.view.name);
-  panel.title(name);
   std::string hidden;
   for (const std::string& lesion : behind_edge(results, projection))
     hidden += " Lesion " + lesion + " lies behind the detector's edge: a mammogram would not show it.";
-  return {picture,
-          name + " on the detector, simulated from the compressed model (cone beam, source at " +
-              word::number(view.detector.source_distance_mm, 0) +
-              " mm). Ring: lesion by the model; ellipse: holds it with 90 % probability; cross: without physics; triangle: nipple." + hidden,
-          "Simulated " + name + " mammogram." + described(results, projection) + hidden};
+  const std::string name =
+      (view.view.side == Side::right ? "R-" : "L-") + title_of_view(view.view.name);
+  return {std::move(projection), std::move(image), section, name, hidden};
+}
+
+Picture drawn(const PatientResults& results, const DetectorView& view, const Raster& background,
+              const std::string& title) {
+  const Section& section = view.section;
+  Picture picture(section.width_mm() * kScale, section.height_mm() * kScale + 20);
+  Panel panel(picture, section, 0, 18, kScale);
+  panel.image(background);
+  panel.edge_line({0, section.window.min().y(), 0}, {0, section.window.max().y(), 0});
+  draw_landmarks(panel, results, view.projection);
+  const bool oblique = std::abs(view.projection.view().angle_deg) > 15;
+  panel.sides("", "", oblique ? "superior-lateral" : "lateral",
+              oblique ? "inferior-medial" : "medial", true);
+  panel.scale_bar(20, palette::paper);
+  panel.title(title);
+  return picture;
+}
+
+std::string legend(const PatientResults& results, const std::string& view) {
+  bool ellipse = false;
+  for (const LesionRow& row : results.rows) ellipse |= row.view == view && row.ellipse_major_mm;
+  return std::string(" Ring: lesion by the model; ") +
+         (ellipse ? "ellipse: holds it with 90 % probability; " : "") +
+         "cross: without physics; triangle: nipple.";
+}
+
+}  // namespace
+
+Figure detector_figure(const PatientResults& results, const ViewResult& view) {
+  const DetectorView seen = detector_view(results, view);
+  return {drawn(results, seen, raster_of(seen.simulated, seen.section), seen.name + ", simulated"),
+          seen.name + " on the detector, simulated from the compressed model (cone beam, source at " +
+              word::number(view.detector.source_distance_mm, 0) + " mm)." +
+              legend(results, view.view.name) + seen.hidden,
+          "Simulated " + seen.name + " mammogram." + described(results, seen.projection) + seen.hidden};
+}
+
+Figure mammogram_figure(const PatientResults& results, const ViewResult& view,
+                        const RealMammogram& real) {
+  const DetectorView seen = detector_view(results, view);
+  return {drawn(results, seen, mammogram_raster(real, seen.section, kPixel_mm), seen.name + ", mammogram"),
+          "The patient's own " + seen.name + " mammogram with the predicted places." +
+              legend(results, view.view.name) + seen.hidden,
+          "The patient's " + seen.name + " mammogram." + described(results, seen.projection) + seen.hidden};
 }
 
 }  // namespace mammotwin

@@ -1,10 +1,10 @@
 #include "pipeline/report/mri_figure.h"
 
+#include "pipeline/report/breast_window.h"
 #include "pipeline/report/mesh_surface.h"
 #include "pipeline/report/palette.h"
 #include "pipeline/report/panel.h"
 #include "pipeline/report/word.h"
-#include "registration/position_grid.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,59 +14,7 @@ namespace {
 
 constexpr double kWidth = 720;      // [pt]
 constexpr double kGap = 12;         // [pt] between panels
-constexpr double kMargin_mm = 12;   // round the breast
-
-/// Grey values are shown between these fractions of the voxels in the window.
-constexpr double kDarkest = 0.01, kBrightest = 0.995;
-
 constexpr Colour kDark{0.16, 0.17, 0.19};
-
-struct Window {
-  float low = 0, high = 1;
-};
-
-template <class Grid>
-Eigen::AlignedBox3d extent(const Grid& grid) {
-  const Eigen::Vector3i last = grid.size - Eigen::Vector3i::Ones();
-  return {grid.origin, grid.position(last.x(), last.y(), last.z())};
-}
-
-Eigen::AlignedBox3d breast_box(const PatientResults& results) {
-  const auto& labels = results.segmentation->labels;
-  const Eigen::AlignedBox3d image = extent(labels);
-  Eigen::AlignedBox3d box;
-  if (results.prone) {
-    box = bounding_box(results.prone->mesh);
-  } else {
-    const BreastRegion& region = results.segmentation->region;
-    box = Eigen::AlignedBox3d(Eigen::Vector3d(region.x_min, image.min().y(), region.z_min),
-                              Eigen::Vector3d(region.x_max, image.max().y(), region.z_max));
-  }
-  for (const Landmark& lesion : results.lesions()) box.extend(lesion.prone_in_lps);
-  const Eigen::Vector3d margin = Eigen::Vector3d::Constant(kMargin_mm);
-  return Eigen::AlignedBox3d((box.min() - margin).eval(), (box.max() + margin).eval())
-      .intersection(image);
-}
-
-template <class T>
-T nearest(const Volume<T>& volume, const Eigen::Vector3d& x, T outside) {
-  const Eigen::Vector3i v = volume.index(x).array().round().template cast<int>();
-  return volume.contains(v.x(), v.y(), v.z()) ? volume(v.x(), v.y(), v.z()) : outside;
-}
-
-Window grey_window(const Volume<float>& image, const Eigen::AlignedBox3d& box) {
-  std::vector<float> values;
-  const Eigen::Vector3i low = image.index(box.min()).array().ceil().cast<int>().max(0);
-  const Eigen::Vector3i high =
-      image.index(box.max()).cast<int>().cwiseMin(image.size - Eigen::Vector3i::Ones());
-  for (int k = low.z(); k <= high.z(); k += 2)
-    for (int j = low.y(); j <= high.y(); j += 2)
-      for (int i = low.x(); i <= high.x(); i += 2) values.push_back(image(i, j, k));
-  if (values.empty()) return {};
-  std::sort(values.begin(), values.end());
-  const auto at = [&](double f) { return values[static_cast<std::size_t>(f * (values.size() - 1))]; };
-  return {at(kDarkest), std::max(at(kBrightest), at(kDarkest) + 1e-6f)};
-}
 
 class Slices {
  public:
@@ -85,8 +33,7 @@ class Slices {
 
   Colour grey(const Eigen::Vector3d& x) const {
     if (!results_.mri) return kDark;
-    const double value = (nearest(*results_.mri, x, 0.0f) - window_.low) / (window_.high - window_.low);
-    const double g = std::clamp(value, 0.0, 1.0);
+    const double g = window_.of(nearest(*results_.mri, x, 0.0f));
     return {g, g, g};
   }
 
@@ -123,7 +70,7 @@ class Slices {
   const PatientResults& results_;
   const Landmark& lesion_;
   Eigen::AlignedBox3d box_;
-  Window window_;
+  GreyWindow window_;
   std::vector<ElementFace> faces_;
 };
 

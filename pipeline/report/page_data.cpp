@@ -2,15 +2,19 @@
 
 #include "pipeline/report/base64.h"
 #include "pipeline/report/convergence_figure.h"
+#include "pipeline/report/fit_error.h"
 #include "pipeline/report/force_figure.h"
 #include "pipeline/report/frames_figure.h"
 #include "pipeline/report/lesion_data.h"
 #include "pipeline/report/mri_figure.h"
+#include "pipeline/report/quality_limit.h"
 #include "pipeline/report/quality_table.h"
 #include "pipeline/report/render_figure.h"
+#include "pipeline/report/result_file.h"
 #include "pipeline/report/scene_data.h"
 #include "pipeline/report/verdict.h"
 #include "pipeline/report/view_figures.h"
+#include "pipeline/report/volume_data.h"
 #include "pipeline/report/word.h"
 
 namespace mammotwin {
@@ -31,29 +35,34 @@ void add_mri(const PatientResults& results, json& page) {
   if (results.segmentation)
     for (const Landmark& lesion : results.lesions())
       page["mri"].push_back(figure_data(mri_figure(results, lesion)));
-  page["has_mri"] = !page["mri"].empty();
+  page["has_mri"] = !page["mri"].empty() || results.segmentation.has_value();
+  page["has_volume"] = results.segmentation.has_value();
+  if (page["has_volume"]) page["volume"] = volume_data(results).dump();
 }
 
 void add_views(const PatientResults& results, json& page) {
-  for (const char* list : {"detectors", "renders", "cuts", "force"}) page[list] = json::array();
+  for (const char* list : {"detectors", "renders", "cuts", "course"}) page[list] = json::array();
   page["has_views"] = results.prone && !results.views.empty();
   page["has_scene"] = page["has_views"];
   if (!page["has_views"]) return;
   page["scene"] = scene_data(results).dump();
   page["renders"].push_back(figure_data(render_figure(results, nullptr)));
   for (const ViewResult& view : results.views) {
+    if (const RealMammogram* real = results.mammogram(view.view.name))
+      page["detectors"].push_back(figure_data(mammogram_figure(results, view, *real)));
     page["detectors"].push_back(figure_data(detector_figure(results, view)));
     page["renders"].push_back(figure_data(render_figure(results, &view)));
     for (const Landmark& lesion : results.lesions())
       page["cuts"].push_back(figure_data(compressed_figure(results, view, lesion)));
   }
-  if (const auto figure = force_figure(results)) page["force"].push_back(figure_data(*figure));
-  if (const auto figure = convergence_figure(results)) page["force"].push_back(figure_data(*figure));
+  if (const auto figure = force_figure(results)) page["course"].push_back(figure_data(*figure));
+  if (const auto figure = convergence_figure(results)) page["course"].push_back(figure_data(*figure));
+  page["has_course"] = !page["course"].empty();
 }
 
 void add_lesions(const PatientResults& results, json& page) {
   page["lesions"] = lesion_data(results.rows);
-  page["has_lesions"] = !results.rows.empty();
+  page["has_rows"] = !results.rows.empty();
   bool ellipses = false;
   for (const LesionRow& row : results.rows) ellipses |= row.ellipse_major_mm.has_value();
   page["frames"] = figure_data(frames_figure());
@@ -64,14 +73,38 @@ void add_lesions(const PatientResults& results, json& page) {
                  "on real patients, so look in a region and not at a point.";
 }
 
+json quality_row(const std::string& product, const QualityFigure& figure, const json& quality) {
+  const auto expected = expectation(product, figure.key, quality);
+  return {{"name", figure.name},
+          {"value", figure.value},
+          {"unit", figure.unit},
+          {"expected", expected ? expected->words : ""},
+          {"held", expected ? expected->held ? "ok" : "look" : ""}};
+}
+
 void add_quality(const PatientResults& results, json& page) {
   page["quality"] = json::array();
   for (const StageRecord& stage : results.stages) {
+    const json quality = stage.sidecar.value("quality", json::object());
     json figures = json::array();
-    for (const QualityFigure& f : quality_figures(stage.sidecar.value("quality", json::object())))
-      figures.push_back({{"name", f.name}, {"value", f.value}, {"unit", f.unit}});
+    for (const QualityFigure& f : quality_figures(quality))
+      figures.push_back(quality_row(stage.product, f, quality));
     if (!figures.empty()) page["quality"].push_back({{"product", stage.product}, {"figures", figures}});
   }
+}
+
+void add_fit(const PatientResults& results, json& page) {
+  page["fit"] = json::array();
+  if (const auto figure = fit_figure(results)) page["fit"].push_back(figure_data(*figure));
+}
+
+/// Links to the files beside the page.
+void add_files(const PatientResults& results, json& page) {
+  page["files"] = json::array();
+  for (const std::string& name : results.files)
+    if (const std::string words = described_file(name); !words.empty())
+      page["files"].push_back({{"file", name}, {"words", words}});
+  page["has_files"] = !page["files"].empty();
 }
 
 /// The fit in a sentence, from the figures that every fit reports.
@@ -146,8 +179,12 @@ json page_data(const PatientResults& results, const std::string& version) {
   add_lesions(results, page);
   add_views(results, page);
   add_mri(results, page);
+  add_fit(results, page);
   add_quality(results, page);
   add_provenance(results, page);
+  add_files(results, page);
+  page["has_lesions"] = page["has_rows"] || page["has_views"];
+  page["has_fit"] = !page["fit"].empty() || page["fit_summary"] != "" || page["unload_summary"] != "";
   return page;
 }
 

@@ -11,6 +11,8 @@
 extern "C" {
 MAMMOTWIN_EMBEDDED(page_html)
 MAMMOTWIN_EMBEDDED(page_css)
+MAMMOTWIN_EMBEDDED(page_js)
+MAMMOTWIN_EMBEDDED(planes_js)
 MAMMOTWIN_EMBEDDED(viewer_js)
 MAMMOTWIN_EMBEDDED(three_min_js)
 MAMMOTWIN_EMBEDDED(OrbitControls_js)
@@ -52,6 +54,11 @@ std::string inside_script(std::string json) {
 std::string render_page(const nlohmann::json& page) {
   mustache::data data = mustache_data(page);
   data.set("css", MAMMOTWIN_TEXT(page_css));
+  data.set("page_js", MAMMOTWIN_TEXT(page_js));
+  if (page.contains("volume")) {
+    data.set("volume", inside_script(page["volume"].get<std::string>()));
+    data.set("planes_js", MAMMOTWIN_TEXT(planes_js));
+  }
   if (page.contains("scene")) {
     data.set("scene", inside_script(page["scene"].get<std::string>()));
     data.set("three_js", MAMMOTWIN_TEXT(three_min_js));

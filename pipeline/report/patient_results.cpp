@@ -33,6 +33,12 @@ const ViewResult* PatientResults::view(const std::string& name) const {
   return nullptr;
 }
 
+const RealMammogram* PatientResults::mammogram(const std::string& view) const {
+  for (const RealMammogram& real : mammograms)
+    if (real.view == view) return &real;
+  return nullptr;
+}
+
 const nlohmann::json* PatientResults::sidecar(const std::string& product) const {
   for (const StageRecord& stage : stages)
     if (stage.product == product) return &stage.sidecar;

@@ -2,6 +2,7 @@
 
 #include "fitting/mesh/mesh_file.h"
 #include "registration/lesion_table.h"
+#include "registration/mammogram_image.h"
 #include "segmentation/tissue.h"
 
 #include <nlohmann/json.hpp>
@@ -25,6 +26,13 @@ struct ViewResult {
   Detector detector;
 };
 
+/// A view's real mammogram, on the detector that the view was registered with.
+struct RealMammogram {
+  std::string view;  ///< "cc" or "mlo"
+  MammogramImage image;
+  Detector detector;  ///< with its pixel grid
+};
+
 /// Whatever a patient's result folder holds; a stage that was refused has left only its sidecar.
 struct PatientResults {
   std::string patient;
@@ -32,14 +40,18 @@ struct PatientResults {
   std::optional<Volume<float>> mri;
   std::optional<Segmentation> segmentation;
   std::optional<MeshFile> prone;
+  std::optional<HermiteMesh> unloaded;  ///< the same elements, free of stress
   std::vector<ViewResult> views;
   std::vector<LesionRow> rows;
+  std::vector<RealMammogram> mammograms;  ///< those that the patient's file names and that could be read
+  std::vector<std::string> files;         ///< names of the folder's files, sorted
   std::vector<std::string> notes;  ///< products that exist and could not be read, with the reason
 
   /// Lesions and nipple in the prone MRI: of the segmentation, else of the lesion table.
   std::vector<Landmark> lesions() const;
   std::optional<Eigen::Vector3d> nipple() const;
   const ViewResult* view(const std::string& name) const;
+  const RealMammogram* mammogram(const std::string& view) const;
   const nlohmann::json* sidecar(const std::string& product) const;
 };
 

@@ -37,7 +37,7 @@ bool is_plain(const json& value) {
 void unfold(const std::string& path, const json& value, std::vector<QualityFigure>& figures) {
   if (is_plain(value)) {
     const auto [name, unit] = name_and_unit(path);
-    figures.push_back({name, shown_value(value), unit});
+    figures.push_back({name, shown_value(value), unit, ""});
     return;
   }
   std::size_t number = 0;
@@ -77,8 +77,11 @@ std::vector<QualityFigure> quality_figures(const json& quality) {
   std::vector<QualityFigure> figures;
   if (!quality.is_object()) return figures;
   for (const auto& [key, value] : quality.items())
-    if (std::find(std::begin(kElsewhere), std::end(kElsewhere), key) == std::end(kElsewhere))
+    if (std::find(std::begin(kElsewhere), std::end(kElsewhere), key) == std::end(kElsewhere)) {
+      const std::size_t first = figures.size();
       unfold(key, value, figures);
+      for (std::size_t n = first; n < figures.size(); ++n) figures[n].key = key;
+    }
   return figures;
 }
 

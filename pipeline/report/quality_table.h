@@ -10,6 +10,7 @@ namespace mammotwin {
 /// A figure as a person reads it: "skin rms mesh to data", "0.220", "mm".
 struct QualityFigure {
   std::string name, value, unit;
+  std::string key;  ///< in the sidecar; of an unfolded one that of its list or object
 };
 
 /// One line for each figure under a sidecar's `quality`, units taken from the ends of the names;

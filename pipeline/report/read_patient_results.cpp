@@ -2,6 +2,7 @@
 
 #include "segmentation/segmentation_file.h"
 
+#include <algorithm>
 #include <fstream>
 #include <functional>
 #include <stdexcept>
@@ -81,9 +82,14 @@ PatientResults read_patient_results(const fs::path& folder) {
   });
   try_read(folder / "prone.vtu", results,
            [&] { results.prone = read_mesh_file(folder / "prone.vtu"); });
+  try_read(folder / "unloaded.vtu", results,
+           [&] { results.unloaded = read_mesh_file(folder / "unloaded.vtu").mesh; });
   try_read(folder / "lesions.csv", results,
            [&] { results.rows = read_lesion_table(folder / "lesions.csv"); });
   for (const char* view : kViews) read_view(folder, view, results);
+  for (const auto& entry : fs::directory_iterator(folder))
+    if (entry.is_regular_file()) results.files.push_back(entry.path().filename().string());
+  std::sort(results.files.begin(), results.files.end());
   return results;
 }
 

@@ -3,12 +3,11 @@
 #include "pipeline/report/depth_image.h"
 #include "pipeline/report/mesh_surface.h"
 #include "pipeline/report/palette.h"
+#include "pipeline/report/surface_render.h"
 #include "pipeline/report/word.h"
 #include "registration/position_grid.h"
 
 #include <Eigen/Geometry>
-
-#include <cmath>
 
 namespace mammotwin {
 namespace {
@@ -16,43 +15,14 @@ namespace {
 constexpr double kWidth = 350, kHeight = 300;  // [pt]
 constexpr double kPixelsPerPoint = 2;
 constexpr int kSamples = 10;                   // squares a side of an element's face
+constexpr double kTurn = 0.7, kRise = 0.35;    // of the eye [rad]
 constexpr double kSkinOpacity = 0.55;          // lesions show through
-
-/// Rows: right, up and towards the eye, for an eye in front of the patient, 40 degrees to the side
-/// and 20 above, in LPS.
-Eigen::Matrix3d eye_axes(Side side) {
-  const double turn = (side == Side::left ? 1 : -1) * 0.7, rise = 0.35;  // [rad]
-  const Eigen::Vector3d eye(std::sin(turn) * std::cos(rise), -std::cos(turn) * std::cos(rise),
-                            std::sin(rise));
-  const Eigen::Vector3d right = Eigen::Vector3d::UnitZ().cross(eye).normalized();
-  Eigen::Matrix3d axes;
-  axes << right.transpose(), eye.cross(right).transpose(), eye.transpose();
-  return axes;
-}
-
-Colour shaded(const Colour& base, const Eigen::Vector3d& normal) {
-  const Eigen::Vector3d light = Eigen::Vector3d(-0.4, 0.6, 0.7).normalized();
-  const double lit = 0.55 + 0.45 * std::abs(normal.dot(light));
-  return {base.red * lit, base.green * lit, base.blue * lit, 1};
-}
 
 Colour surface_colour(FaceLabel label) {
   switch (label) {
     case FaceLabel::chest_wall: return palette::muscle;
     case FaceLabel::cut: return palette::fat;
     default: return palette::skin;
-  }
-}
-
-/// Draws the triangles that face the eye, or those that turn away from it.
-void draw_surface(DepthImage& image, const TriangleSurface& surface, const Eigen::Matrix3d& axes,
-                  bool facing) {
-  for (std::size_t i = 0; i < surface.triangles.size(); ++i) {
-    std::array<Eigen::Vector3d, 3> x;
-    for (int k = 0; k < 3; ++k) x[k] = axes * surface.points[surface.triangles[i][k]];
-    const Eigen::Vector3d normal = (x[1] - x[0]).cross(x[2] - x[0]).normalized();
-    if ((normal.z() > 0) != facing) continue;
-    image.triangle(x, shaded(surface_colour(surface.labels[i]), normal));
   }
 }
 
@@ -78,7 +48,7 @@ struct Scene {
 };
 
 Scene make_scene(const MeshFile& file, const HermiteMesh& mesh, Side side) {
-  Scene scene{triangulate(mesh, outer_faces(file), kSamples), eye_axes(side), {}};
+  Scene scene{triangulate(mesh, outer_faces(file), kSamples), eye_axes(side, kTurn, kRise), {}};
   for (const Eigen::Vector3d& x : scene.surface.points)
     scene.window.extend((scene.axes * x).head<2>().eval());
   return scene;
@@ -105,8 +75,9 @@ Figure render_figure(const PatientResults& results, const ViewResult* view) {
   const Eigen::Vector2d corner =
       scene.window.center() - 0.5 * pixel_mm * Eigen::Vector2d(width, height);
   DepthImage far_side(width, height, corner, pixel_mm), near_side(width, height, corner, pixel_mm);
-  draw_surface(far_side, scene.surface, scene.axes, false);
-  draw_surface(near_side, scene.surface, scene.axes, true);
+  const auto colour = [&](std::size_t i) { return surface_colour(scene.surface.labels[i]); };
+  draw_surface(far_side, scene.surface, scene.axes, false, colour);
+  draw_surface(near_side, scene.surface, scene.axes, true, colour);
 
   Picture picture(kWidth, kHeight);
   if (view)

@@ -10,18 +10,17 @@
 
 namespace mammotwin {
 
-void write_report(const std::filesystem::path& folder, const std::filesystem::path& page,
+void write_report(const PatientResults& results, const std::filesystem::path& page,
                   const std::string& version) {
-  const PatientResults results = read_patient_results(folder);
   std::ofstream out(page, std::ios::binary);
   out << render_page(page_data(results, version));
   out.close();
   if (!out) throw std::runtime_error(page.string() + ": cannot be written; is the disk full?");
 }
 
-void write_report_picture(const std::filesystem::path& folder, const std::filesystem::path& png) {
+void write_report_picture(const PatientResults& results, const std::filesystem::path& png) {
   constexpr double kPixelsPerPoint = 2;
-  overview_picture(read_patient_results(folder)).write_png(png, kPixelsPerPoint);
+  overview_picture(results).write_png(png, kPixelsPerPoint);
 }
 
 void write_frames_picture(const std::filesystem::path& png) {

@@ -1,6 +1,7 @@
 #include "pipeline/report/scene_data.h"
 
 #include "pipeline/report/base64.h"
+#include "pipeline/report/fit_error.h"
 #include "pipeline/report/mesh_surface.h"
 #include "pipeline/report/palette.h"
 #include "registration/position_grid.h"
@@ -35,19 +36,31 @@ std::string packed_triangles(const TriangleSurface& surface) {
   return packed(numbers);
 }
 
-std::string packed_colours(const TriangleSurface& surface) {
+/// Colours of the points, each from its triangles' label and its own index.
+template <class ColourOf>
+std::string packed_colours(const TriangleSurface& surface, ColourOf colour_of) {
   std::vector<float> numbers(3 * surface.points.size());
-  for (std::size_t i = 0; i < surface.triangles.size(); ++i) {
-    const Colour c = surface.labels[i] == FaceLabel::chest_wall ? palette::muscle
-                     : surface.labels[i] == FaceLabel::cut      ? palette::fat
-                                                                : palette::skin;
+  for (std::size_t i = 0; i < surface.triangles.size(); ++i)
     for (const int point : surface.triangles[i]) {
+      const Colour c = colour_of(surface.labels[i], point);
       numbers[3 * point] = static_cast<float>(c.red);
       numbers[3 * point + 1] = static_cast<float>(c.green);
       numbers[3 * point + 2] = static_cast<float>(c.blue);
     }
-  }
   return packed(numbers);
+}
+
+Colour tissue_colour(FaceLabel label, int) {
+  return label == FaceLabel::chest_wall ? palette::muscle
+         : label == FaceLabel::cut      ? palette::fat
+                                        : palette::skin;
+}
+
+/// The fit's error on the skin; the faces that have none keep a grey.
+std::string packed_fit_errors(const TriangleSurface& surface, const std::vector<double>& errors) {
+  return packed_colours(surface, [&](FaceLabel label, int point) {
+    return label == FaceLabel::skin ? fit_error_colour(errors[point]) : palette::grid;
+  });
 }
 
 json number_list(const Eigen::Vector3d& x) { return {x.x(), x.y(), x.z()}; }
@@ -79,23 +92,32 @@ std::vector<Mark> marks_of(const PatientResults& results) {
   return marks;
 }
 
-json view_data(const PatientResults& results, const ViewResult& view,
-               const std::vector<ElementFace>& faces, const std::vector<Mark>& marks) {
-  const PointCarrier carrier(results.prone->mesh, view.file.mesh);
+/// The breast's surface and the marks in one configuration.
+json state_data(const std::string& name, const PatientResults& results, const HermiteMesh& mesh,
+                const std::vector<ElementFace>& faces, const std::vector<Mark>& marks) {
+  const PointCarrier carrier(results.prone->mesh, mesh);
   json places = json::array();
   for (const Mark& mark : marks)
     places.push_back(number_list(carrier.carry(mark.landmark.prone_in_lps).in_lps));
+  return {{"name", name},
+          {"points", packed_points(triangulate(mesh, faces, kSamples).points)},
+          {"marks", places}};
+}
+
+json view_data(const PatientResults& results, const ViewResult& view,
+               const std::vector<ElementFace>& faces, const std::vector<Mark>& marks) {
   const ViewFrame& frame = view.view.frame;
   const Eigen::AlignedBox3d box = bounding_box(in_view_frame(view.file.mesh, frame));
   const AffineBaseline baseline(results.prone->mesh, view.view);
   const double low = baseline.prone_low_mm();
-  return {{"name", title_of_view(view.view.name)},
-          {"points", packed_points(triangulate(view.file.mesh, faces, kSamples).points)},
-          {"marks", places},
-          {"support", plate(frame, box, 0)},
-          {"paddle", plate(frame, box, view.view.thickness_mm)},
-          {"support_open", plate(frame, box, low)},
-          {"paddle_open", plate(frame, box, low + baseline.prone_extent_mm())}};
+  json data = state_data(title_of_view(view.view.name), results, view.file.mesh, faces, marks);
+  data["thickness_mm"] = view.view.thickness_mm;
+  data["open_mm"] = baseline.prone_extent_mm();
+  data["support"] = plate(frame, box, 0);
+  data["paddle"] = plate(frame, box, view.view.thickness_mm);
+  data["support_open"] = plate(frame, box, low);
+  data["paddle_open"] = plate(frame, box, low + baseline.prone_extent_mm());
+  return data;
 }
 
 }  // namespace
@@ -104,20 +126,25 @@ json scene_data(const PatientResults& results) {
   const std::vector<ElementFace> faces = outer_faces(*results.prone);
   const TriangleSurface surface = triangulate(results.prone->mesh, faces, kSamples);
   const std::vector<Mark> marks = marks_of(results);
-  json mark_list = json::array(), views = json::array();
+  json mark_list = json::array(), states = json::array(), views = json::array();
   for (const Mark& mark : marks)
     mark_list.push_back({{"name", mark.landmark.id},
-                         {"prone", number_list(mark.landmark.prone_in_lps)},
                          {"radius_mm", mark.radius_mm},
                          {"colour", hex(mark.colour)}});
+  states.push_back(state_data("Prone", results, results.prone->mesh, faces, marks));
+  if (results.unloaded && results.unloaded->num_elements() == results.prone->mesh.num_elements())
+    states.push_back(state_data("Unloaded", results, *results.unloaded, faces, marks));
   for (const ViewResult& view : results.views)
     views.push_back(view_data(results, view, faces, marks));
-  return {{"triangles", packed_triangles(surface)},
-          {"prone", packed_points(surface.points)},
-          {"colours", packed_colours(surface)},
-          {"marks", mark_list},
-          {"views", views},
-          {"turn", results.views.front().view.side == Side::left ? 1 : -1}};
+  json scene = {{"triangles", packed_triangles(surface)},
+                {"tissue", packed_colours(surface, tissue_colour)},
+                {"marks", mark_list},
+                {"states", states},
+                {"views", views},
+                {"turn", results.views.front().view.side == Side::left ? 1 : -1}};
+  const std::vector<double> errors = fit_errors(results, faces, kSamples);
+  if (!errors.empty()) scene["fit_error"] = packed_fit_errors(surface, errors);
+  return scene;
 }
 
 }  // namespace mammotwin

@@ -14,4 +14,8 @@ Figure compressed_figure(const PatientResults& results, const ViewResult& view,
 /// tissue fractions), lesions, nipple, and the baseline's lesions beside them.
 Figure detector_figure(const PatientResults& results, const ViewResult& view);
 
+/// The same places on the patient's own mammogram of that view, in the same window.
+Figure mammogram_figure(const PatientResults& results, const ViewResult& view,
+                        const RealMammogram& real);
+
 }  // namespace mammotwin

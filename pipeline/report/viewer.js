@@ -15,8 +15,9 @@
 
   const numbers = (text, Type) => new Type(Uint8Array.from(atob(text), c => c.charCodeAt(0)).buffer);
   const triangles = numbers(scene.triangles, Uint32Array);
-  const prone = numbers(scene.prone, Float32Array);
-  const views = scene.views.map(v => Object.assign({}, v, { points: numbers(v.points, Float32Array) }));
+  const unpacked = state => Object.assign({}, state, { points: numbers(state.points, Float32Array) });
+  const states = scene.states.map(unpacked), views = scene.views.map(unpacked);
+  const rest = states[states.length - 1];  // compression begins at the shape free of stress
   const mix = (a, b, t) => a + (b - a) * t;
   const mixed = (a, b, t) => a.map((value, i) => mix(value, b[i], t));
 
@@ -27,8 +28,8 @@
 
   const geometry = new THREE.BufferGeometry();
   geometry.setIndex(new THREE.BufferAttribute(triangles, 1));
-  geometry.setAttribute("position", new THREE.BufferAttribute(new Float32Array(prone), 3));
-  geometry.setAttribute("color", new THREE.BufferAttribute(numbers(scene.colours, Float32Array), 3));
+  geometry.setAttribute("position", new THREE.BufferAttribute(new Float32Array(states[0].points), 3));
+  geometry.setAttribute("color", new THREE.BufferAttribute(numbers(scene.tissue, Float32Array), 3));
   const skin = side => new THREE.MeshPhongMaterial({
     vertexColors: THREE.VertexColors, transparent: true, opacity: 0.5, depthWrite: false, shininess: 12, side: side });
   const back = new THREE.Mesh(geometry, skin(THREE.BackSide));
@@ -68,7 +69,7 @@
   geometry.computeBoundingSphere();
   const centre = geometry.boundingSphere.center, radius = geometry.boundingSphere.radius;
   controls.target.copy(centre);
-  camera.position.set(centre.x + scene.turn * 2.6 * radius, centre.y - 3.2 * radius, centre.z + 1.4 * radius);
+  camera.position.set(centre.x + scene.turn * 2 * radius, centre.y - 2.5 * radius, centre.z + 1.1 * radius);
   camera.lookAt(controls.target);
 
   const draw = () => {
@@ -84,30 +85,59 @@
   let chosen = views[0];
   const slider = document.getElementById("viewer-compression");
   const amount = document.getElementById("viewer-amount");
-  const update = () => {
-    const t = slider.value / 100;
-    amount.textContent = slider.value + " %";
+  const show = (points, marked) => {
     const p = geometry.attributes.position;
-    for (let i = 0; i < p.array.length; ++i) p.array[i] = mix(prone[i], chosen.points[i], t);
+    for (let i = 0; i < p.array.length; ++i) p.array[i] = points(i);
     p.needsUpdate = true;
     geometry.computeVertexNormals();
-    marks.forEach((mark, i) => mark.position.fromArray(mixed(scene.marks[i].prone, chosen.marks[i], t)));
+    marks.forEach((mark, i) => mark.position.fromArray(marked(i)));
+  };
+  const showState = () => {
+    slider.disabled = true;
+    amount.textContent = "no plates";
+    show(i => chosen.points[i], i => chosen.marks[i]);
+  };
+  const showView = () => {
+    const t = slider.value / 100;
+    slider.disabled = false;
+    amount.textContent = slider.value + " %, plates " + mix(chosen.open_mm, chosen.thickness_mm, t).toFixed(0) + " mm apart";
+    show(i => mix(rest.points[i], chosen.points[i], t), i => mixed(rest.marks[i], chosen.marks[i], t));
     const blend = (from, to) => to.map((corner, i) => mixed(from[i], corner, t));
     place(support, blend(chosen.support_open, chosen.support));
     place(paddle, blend(chosen.paddle_open, chosen.paddle));
+  };
+  const update = () => {
+    support.visible = paddle.visible = Boolean(chosen.paddle);
+    if (chosen.paddle) showView(); else showState();
+    root.dataset.lesion = marks.length ? marks[0].position.toArray().map(x => x.toFixed(2)).join(" ") : "";
     draw();
   };
 
-  views.forEach((view, i) => {
-    const label = document.createElement("label");
-    const button = document.createElement("input");
+  const choice = (group, parent, text, checked, onChoice) => {
+    const label = document.createElement("label"), button = document.createElement("input");
     button.type = "radio";
-    button.name = "viewer-view";
-    button.checked = i === 0;
-    button.addEventListener("change", () => { chosen = view; update(); });
-    label.append(button, " " + view.name);
-    document.getElementById("viewer-views").append(label);
-  });
+    button.name = group;
+    button.checked = checked;
+    button.addEventListener("change", onChoice);
+    label.append(button, " " + text);
+    document.getElementById(parent).append(label);
+  };
+  states.concat(views).forEach(state =>
+    choice("viewer-view", "viewer-views", state.name, state === chosen, () => { chosen = state; update(); }));
+  const paint = colours => {
+    geometry.setAttribute("color", new THREE.BufferAttribute(numbers(colours, Float32Array), 3));
+    const seeThrough = colours === scene.tissue;
+    for (const material of [back.material, front.material]) {
+      material.opacity = seeThrough ? 0.5 : 1;
+      material.depthWrite = !seeThrough;
+    }
+    draw();
+  };
+  if (scene.fit_error) {
+    document.getElementById("viewer-paint").hidden = false;
+    choice("viewer-colour", "viewer-colours", "tissue", true, () => paint(scene.tissue));
+    choice("viewer-colour", "viewer-colours", "fit error", false, () => paint(scene.fit_error));
+  }
   slider.addEventListener("input", update);
   controls.addEventListener("change", draw);
   window.addEventListener("resize", draw);

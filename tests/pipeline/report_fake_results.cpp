@@ -162,6 +162,10 @@ PatientResults fake_results(Side side) {
   r.segmentation = segmentation(side);
   r.mri = mri_of(*r.segmentation);
   r.prone = prone_mesh(side);
+  r.prone->fields["skin_distance_mm"] = interpolate_field(
+      r.prone->mesh, [&](const MeshPoint& p) { return 0.01 * r.prone->mesh.position(p).z(); });
+  r.unloaded = r.prone->mesh;
+  r.files = {"cc.vtu", "cc.vtu.json", "lesions.csv"};
   r.views.push_back(squeezed(*r.prone, side, "cc", 0));
   r.views.push_back(squeezed(*r.prone, side, "mlo", 45));
   const Landmark nipple{"nipple", r.segmentation->nipple_in_lps};

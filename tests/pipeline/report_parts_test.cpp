@@ -1,6 +1,11 @@
 #include "pipeline/report/base64.h"
 #include "pipeline/report/depth_image.h"
+#include "pipeline/report/fit_error.h"
+#include "pipeline/report/mammogram_raster.h"
+#include "pipeline/report/mesh_field.h"
 #include "pipeline/report/mesh_surface.h"
+#include "pipeline/report/palette.h"
+#include "pipeline/report/quality_limit.h"
 #include "pipeline/report/quality_table.h"
 #include "pipeline/report/section.h"
 #include "pipeline/report/verdict.h"
@@ -93,6 +98,61 @@ TEST(Base64, PadsAsOthersRead) {
   EXPECT_EQ(base64("", 0), "");
   EXPECT_EQ(base64("f", 1), "Zg==");  // RFC 4648, section 10
   EXPECT_EQ(base64("foobar", 6), "Zm9vYmFy");
+}
+
+// The made-up error is 0.01 z over |z| <= 60 mm.
+TEST(FitFigure, SaysTheRangeOfTheErrorThatItPaints) {
+  const auto figure = fit_figure(fake_results(Side::left));
+  ASSERT_TRUE(figure);
+  EXPECT_NE(figure->caption.find("from -0.60 mm (inside) to 0.60 mm (outside)"), std::string::npos);
+}
+
+TEST(FitFigure, GrowsRedderOutsideAndBluerInside) {
+  EXPECT_GT(fit_error_colour(0.5).red, fit_error_colour(0.5).blue);
+  EXPECT_LT(fit_error_colour(-0.5).red, fit_error_colour(-0.5).blue);
+  EXPECT_EQ(fit_error_colour(1).green, fit_error_colour(7).green);  // ends at 1 mm
+}
+
+// A field that is linear in position is its own cubic interpolant.
+TEST(MeshField, ReadsWhatWasInterpolated) {
+  const HermiteMesh mesh = block_mesh({0, 0, 0}, {2, 3, 4}, {2, 1, 2});
+  const auto linear = [&](const MeshPoint& p) {
+    return mesh.position(p).dot(Eigen::Vector3d(1, -2, 0.5));
+  };
+  const MeshField field(mesh, interpolate_field(mesh, linear));
+  for (const Eigen::Vector3d& xi : {Eigen::Vector3d(0.1, 0.7, 0.4), Eigen::Vector3d(1, 0, 0.9)})
+    EXPECT_NEAR(field.at({3, xi}), linear({3, xi}), 1e-12);
+  EXPECT_THROW(MeshField(mesh, PointField{1, {1.0, 2.0}}), std::invalid_argument);
+}
+
+// Pixels of 0.5 mm from the edge: columns 0 to 9 are dark, the rest bright.
+TEST(MammogramRaster, PutsPixelsWhereTheDetectorHasThem) {
+  RealMammogram real{"cc", {20, 20, std::vector<float>(400, 100)}, Detector{}};
+  real.detector.pixels = PixelGrid{0.5, 20, 20, ImageEdge::left, true};
+  for (int row = 0; row < 20; ++row)
+    for (int column = 0; column < 10; ++column) real.image.grey[row * 20 + column] = 0;
+  const Section section{2, 0, {0}, {1, true},
+                        Eigen::AlignedBox3d(Eigen::Vector3d(-2, -4, 0), Eigen::Vector3d(14, 4, 0))};
+  Raster raster = mammogram_raster(real, section, 1);
+  EXPECT_EQ(raster(1, 4).red, palette::grid.red);  // behind the edge
+  EXPECT_EQ(raster(4, 4).red, 0);                  // u = 2.5 mm
+  EXPECT_EQ(raster(9, 4).red, 1);                  // u = 7.5 mm
+  EXPECT_EQ(raster(15, 4).red, palette::grid.red); // past the image
+}
+
+TEST(QualityLimit, SaysWhatIsExpectedAndWhetherItHolds) {
+  const nlohmann::json quality = {{"volume_change", -0.03}, {"thickness_mm", 50.05},
+                                  {"target_thickness_mm", 50.0}, {"force_N", 80}};
+  const auto volume = expectation("cc.vtu", "volume_change", quality);
+  ASSERT_TRUE(volume);
+  EXPECT_EQ(volume->words, "within ± 0.01");
+  EXPECT_FALSE(volume->held);
+  const auto thickness = expectation("mlo.vtu", "thickness_mm", quality);
+  ASSERT_TRUE(thickness);
+  EXPECT_EQ(thickness->words, "50.00 ± 0.10 mm");
+  EXPECT_TRUE(thickness->held);
+  EXPECT_FALSE(expectation("cc.vtu", "force_N", quality));
+  EXPECT_FALSE(expectation("prone.vtu", "volume_change", quality));
 }
 
 }  // namespace

@@ -42,11 +42,26 @@ const std::string& whole_page() {
 }
 
 TEST(ReportPage, ShowsEveryFigureOfAFinishedChain) {
-  // Two lesions: an MRI figure each, two cuts each; two detectors; prone and two renders; force; convergence;
-  // frames.
-  EXPECT_EQ(count(whole_page(), "<figure"), 2u + 4u + 2u + 3u + 1u + 1u + 1u);
+  // Two lesions: an MRI figure each, two cuts each; two detectors; prone and two renders; fit; force;
+  // convergence; frames. (What planes.js makes is not in the text as "<figure".)
+  EXPECT_EQ(count(whole_page(), "<figure"), 2u + 4u + 2u + 3u + 1u + 1u + 1u + 1u);
   EXPECT_NE(whole_page().find("OK: every stage passed"), std::string::npos);
   EXPECT_NE(whole_page().find("not a medical device"), std::string::npos);
+}
+
+TEST(ReportPage, TellsInTheOrderInWhichItIsRead) {
+  std::size_t last = 0;
+  for (const char* id : {"verdict", "lesions", "mri", "breast", "fit", "course", "quality", "provenance", "files"}) {
+    const std::size_t at = whole_page().find("<section id=\"" + std::string(id) + "\"");
+    ASSERT_NE(at, std::string::npos) << id;
+    EXPECT_GT(at, last) << id;
+    last = at;
+  }
+}
+
+TEST(ReportPage, LinksToFilesThatAPersonOpens) {
+  EXPECT_EQ(count(whole_page(), "<a href=\"cc.vtu\">"), 1u);
+  EXPECT_EQ(whole_page().find("href=\"cc.vtu.json\""), std::string::npos);
 }
 
 // 11 to 16 iterations in six steps, 81 in all, and 20 at the end of each view.
@@ -93,7 +108,7 @@ TEST(ReportPage, IsWrittenWhenTheFirstStageRefused) {
   write_text(folder / "segmentation.seg.nrrd.json",
              R"({"status": "refused", "stage": "segment", "version": "0.1.0",
                  "reasons": ["the 100.8 mm hole between slices 40 and 41"]})");
-  write_report(folder, folder / "report.html", "0.1.0");
+  write_report(read_patient_results(folder), folder / "report.html", "0.1.0");
   const std::string page = text_of(folder / "report.html");
   EXPECT_NE(page.find("Refused"), std::string::npos);
   EXPECT_NE(page.find("the 100.8 mm hole between slices 40 and 41"), std::string::npos);

@@ -1,0 +1,202 @@
+// Three linked planes through the MRI with its labels, drawn in plain canvases; the still pictures
+// stay where the browser cannot inflate the image.
+(function () {
+  "use strict";
+  const root = document.getElementById("planes");
+  if (typeof DecompressionStream === "undefined") return;
+  const volume = JSON.parse(document.getElementById("volume").textContent);
+  const [nx, ny, nz] = volume.size;
+  const step = [1, nx, nx * ny];
+
+  // An axis of the patient that grows to the right and one that grows (or falls) downwards.
+  const PLANES = [
+    { name: "Axial", normal: 2, right: 0, down: 1, falls: false, ends: ["R", "L", "A", "P"] },
+    { name: "Sagittal", normal: 0, right: 1, down: 2, falls: true, ends: ["A", "P", "S", "I"] },
+    { name: "Coronal", normal: 1, right: 0, down: 2, falls: true, ends: ["R", "L", "S", "I"] },
+  ];
+  const LETTERS = ["L", "P", "S"];
+  const LESION = "#ff5c9a", CROSS = "rgba(90, 210, 255, .75)";
+  const NEAR_MM = 6;  // a place is ringed on slices that pass this close
+
+  const clamp = (value, low, high) => Math.min(Math.max(value, low), high);
+  const position = (axis, index) => volume.origin[axis] + volume.spacing[axis] * index;
+  const voxel = at => at.map((x, axis) =>
+    clamp(Math.round((x - volume.origin[axis]) / volume.spacing[axis]), 0, volume.size[axis] - 1));
+  const shown = (axis, index) => LETTERS[axis] + " " + position(axis, index).toFixed(1).replace("-", "−");
+
+  let grey = null, labels = null, cursor = voxel(volume.places.length ? volume.places[0].at
+    : volume.size.map((n, axis) => position(axis, n / 2)));
+  const colours = new Map(volume.tissues.map(t => [t.value, t.colour]));
+  const names = new Map(volume.tissues.map(t => [t.value, t.name]));
+  const strength = document.getElementById("planes-labels");
+  const status = document.getElementById("planes-status");
+
+  async function inflate(text) {
+    const packed = atob(text), bytes = new Uint8Array(packed.length);
+    for (let i = 0; i < packed.length; ++i) bytes[i] = packed.charCodeAt(i);
+    const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"));
+    return new Uint8Array(await new Response(stream).arrayBuffer());
+  }
+
+  // The slice through the cursor, a pixel a voxel.
+  function slice(plane) {
+    const width = volume.size[plane.right], height = volume.size[plane.down];
+    const image = plane.memory.getContext("2d").createImageData(width, height);
+    const alpha = strength.value / 100;
+    for (let row = 0; row < height; ++row) {
+      const down = plane.falls ? height - 1 - row : row;
+      let from = cursor[plane.normal] * step[plane.normal] + down * step[plane.down];
+      for (let column = 0, to = 4 * row * width; column < width; ++column, to += 4, from += step[plane.right]) {
+        const g = grey ? grey[from] : 40, colour = colours.get(labels[from]);
+        for (let c = 0; c < 3; ++c) image.data[to + c] = colour ? g + alpha * (colour[c] - g) : g;
+        image.data[to + 3] = 255;
+      }
+    }
+    plane.memory.getContext("2d").putImageData(image, 0, 0);
+  }
+
+  // Canvas coordinates of a voxel index along the plane's axes.
+  const across = (plane, index) => (index + 0.5) / volume.size[plane.right] * plane.canvas.width;
+  const downwards = (plane, index) => {
+    const n = volume.size[plane.down];
+    return ((plane.falls ? n - 1 - index : index) + 0.5) / n * plane.canvas.height;
+  };
+
+  function drawCross(plane, context) {
+    const x = across(plane, cursor[plane.right]), y = downwards(plane, cursor[plane.down]);
+    context.strokeStyle = CROSS;
+    context.lineWidth = devicePixelRatio;
+    context.beginPath();
+    context.moveTo(x, 0);
+    context.lineTo(x, plane.canvas.height);
+    context.moveTo(0, y);
+    context.lineTo(plane.canvas.width, y);
+    context.stroke();
+  }
+
+  function drawPlaces(plane, context) {
+    const scale = plane.canvas.width / (volume.size[plane.right] * volume.spacing[plane.right]);
+    context.strokeStyle = context.fillStyle = LESION;
+    context.lineWidth = 2 * devicePixelRatio;
+    context.font = "600 " + 13 * devicePixelRatio + "px system-ui, sans-serif";
+    context.textAlign = "start";
+    for (const place of volume.places) {
+      const away = place.at[plane.normal] - position(plane.normal, cursor[plane.normal]);
+      if (Math.abs(away) > NEAR_MM) continue;
+      const index = place.at.map((x, axis) => (x - volume.origin[axis]) / volume.spacing[axis]);
+      const x = across(plane, index[plane.right]), y = downwards(plane, index[plane.down]);
+      context.beginPath();
+      context.arc(x, y, 7 * scale, 0, 2 * Math.PI);
+      context.stroke();
+      context.fillText(place.name.replace("Lesion ", ""), x + 8 * scale, y - 4 * scale);
+    }
+  }
+
+  function drawEnds(plane, context) {
+    const w = plane.canvas.width, h = plane.canvas.height, r = devicePixelRatio;
+    context.fillStyle = "#fff";
+    context.textAlign = "center";
+    context.font = "600 " + 12 * r + "px system-ui, sans-serif";
+    [[9, h / r / 2], [w / r - 9, h / r / 2], [w / r / 2, 14], [w / r / 2, h / r - 6]].forEach(([x, y], i) =>
+      context.fillText(plane.ends[i], x * r, y * r));
+  }
+
+  function draw(plane) {
+    const canvas = plane.canvas, context = canvas.getContext("2d");
+    canvas.width = Math.round(canvas.clientWidth * devicePixelRatio);
+    canvas.height = Math.round(canvas.clientHeight * devicePixelRatio);
+    slice(plane);
+    context.drawImage(plane.memory, 0, 0, canvas.width, canvas.height);
+    drawCross(plane, context);
+    drawPlaces(plane, context);
+    drawEnds(plane, context);
+    plane.slider.value = cursor[plane.normal];
+    plane.slider.setAttribute("aria-valuetext", shown(plane.normal, cursor[plane.normal]) + " mm");
+    plane.output.textContent = shown(plane.normal, cursor[plane.normal]) + " mm";
+  }
+
+  function update() {
+    PLANES.forEach(draw);
+    const value = labels[cursor.reduce((sum, index, axis) => sum + index * step[axis], 0)];
+    status.textContent = cursor.map((index, axis) => shown(axis, index)).join(", ") + " mm: " +
+      (names.get(value) || "air");
+  }
+
+  function move(axis, by) {
+    cursor[axis] = clamp(cursor[axis] + by, 0, volume.size[axis] - 1);
+    update();
+  }
+
+  function pointAt(plane, event) {
+    const box = plane.canvas.getBoundingClientRect();
+    const part = (at, n) => clamp(Math.floor(at * n), 0, n - 1);
+    cursor[plane.right] = part((event.clientX - box.left) / box.width, volume.size[plane.right]);
+    const n = volume.size[plane.down], down = part((event.clientY - box.top) / box.height, n);
+    cursor[plane.down] = plane.falls ? n - 1 - down : down;
+    update();
+  }
+
+  function listen(plane) {
+    const canvas = plane.canvas, down = plane.falls ? -1 : 1;
+    canvas.addEventListener("pointerdown", event => { canvas.setPointerCapture(event.pointerId); pointAt(plane, event); });
+    canvas.addEventListener("pointermove", event => { if (event.buttons & 1) pointAt(plane, event); });
+    canvas.addEventListener("wheel", event => {
+      if (document.activeElement !== canvas) return;  // the page scrolls until a plane is chosen
+      event.preventDefault();
+      move(plane.normal, Math.sign(event.deltaY));
+    }, { passive: false });
+    const keys = { ArrowLeft: [plane.right, -1], ArrowRight: [plane.right, 1], ArrowUp: [plane.down, -down],
+                   ArrowDown: [plane.down, down], PageUp: [plane.normal, 1], PageDown: [plane.normal, -1] };
+    canvas.addEventListener("keydown", event => {
+      if (!keys[event.key]) return;
+      event.preventDefault();
+      move(keys[event.key][0], keys[event.key][1]);
+    });
+    plane.slider.addEventListener("input", () => { cursor[plane.normal] = Number(plane.slider.value); update(); });
+  }
+
+  function build(plane) {
+    const figure = document.createElement("figure");
+    const width = volume.size[plane.right] * volume.spacing[plane.right];
+    const height = volume.size[plane.down] * volume.spacing[plane.down];
+    figure.style.flexGrow = width;  // one scale in all three
+    figure.innerHTML = "<canvas tabindex='0' role='img'></canvas><label><span></span> <input type='range' min='0'> <output></output></label>";
+    plane.canvas = figure.querySelector("canvas");
+    plane.canvas.style.aspectRatio = width + " / " + height;
+    plane.canvas.setAttribute("aria-label", plane.name + " plane through the cross; arrow keys move the cross, page keys the plane");
+    figure.querySelector("span").textContent = plane.name;
+    plane.slider = figure.querySelector("input");
+    plane.slider.max = volume.size[plane.normal] - 1;
+    plane.output = figure.querySelector("output");
+    plane.memory = document.createElement("canvas");
+    plane.memory.width = volume.size[plane.right];
+    plane.memory.height = volume.size[plane.down];
+    listen(plane);
+    document.getElementById("planes-row").append(figure);
+  }
+
+  function addPlaces() {
+    for (const place of volume.places) {
+      const button = document.createElement("button");
+      button.type = "button";
+      button.textContent = place.name;
+      button.addEventListener("click", () => { cursor = voxel(place.at); update(); });
+      document.getElementById("planes-places").append(button);
+    }
+  }
+
+  async function start() {
+    labels = await inflate(volume.labels);
+    if (volume.grey) grey = await inflate(volume.grey);
+    else strength.value = 95;
+    addPlaces();
+    PLANES.forEach(build);
+    root.hidden = false;
+    document.querySelectorAll("details.stills").forEach(d => { d.open = false; });
+    strength.addEventListener("input", update);
+    window.addEventListener("resize", update);
+    update();
+    root.dataset.ready = "true";
+  }
+  start();
+})();

@@ -1,0 +1,83 @@
+#include "pipeline/report/quality_limit.h"
+
+#include "pipeline/quality_limits.h"
+#include "pipeline/report/word.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace mammotwin {
+namespace {
+
+constexpr double kNone = INFINITY;
+
+struct Limit {
+  const char *product, *key;
+  double low, high;
+  const char* unit;
+};
+
+// Those of segment and fit repeat segmentation/segment_mri.cpp, segment.cpp and fitting/fit_breast.cpp.
+constexpr Limit kLimits[] = {
+    {"segmentation.seg.nrrd", "breast_volume_ml", 30, 4000, " ml"},
+    {"segmentation.seg.nrrd", "chest_wall_doubt", -kNone, 0.12, ""},
+    {"segmentation.seg.nrrd", "signal_to_noise", 8, kNone, ""},
+    {"segmentation.seg.nrrd", "volume_ratio", 0.4, kNone, ""},
+    {"prone.vtu", "skin_rms_mesh_to_data_mm", -kNone, 1, " mm"},
+    {"prone.vtu", "skin_rms_data_to_mesh_mm", -kNone, 1, " mm"},
+    {"prone.vtu", "chest_wall_rms_mm", -kNone, 2, " mm"},
+    {"prone.vtu", "covered_fraction", 0.97, kNone, ""},
+    {"prone.vtu", "covered_lesions", 0.99, kNone, ""},
+    {"prone.vtu", "min_jacobian_bound", 0, kNone, ""},
+    {"unloaded.vtu", "stretch_p95", -kNone, limits::stretch_p95, ""},
+};
+
+constexpr Limit kOfViews[] = {
+    {"", "volume_change", -limits::volume_change, limits::volume_change, ""},
+    {"", "max_penetration_mm", -kNone, limits::penetration_mm, " mm"},
+    {"", "J_within_half", limits::share_of_sane_J, kNone, ""},
+    {"", "held_by_friction", -kNone, 0, ""},
+};
+
+std::string shown(double value, const char* unit) {
+  const int decimals = std::abs(value) >= 10 || value == std::round(value) ? 0 : 2;
+  return word::number(value, decimals) + unit;
+}
+
+std::string words_of(const Limit& limit) {
+  if (std::isinf(limit.low)) return "at most " + shown(limit.high, limit.unit);
+  if (std::isinf(limit.high)) return (limit.low == 0 ? "above " : "at least ") + shown(limit.low, limit.unit);
+  if (limit.low == -limit.high) return "within ± " + shown(limit.high, limit.unit);
+  return shown(limit.low, "") + " to " + shown(limit.high, limit.unit);
+}
+
+bool holds(const Limit& limit, double value) {
+  if (limit.low == 0 && std::isinf(limit.high)) return value > 0;
+  return value >= limit.low && value <= limit.high;
+}
+
+/// A view's thickness is judged against the one that was asked for.
+std::optional<QualityExpectation> thickness(const nlohmann::json& quality) {
+  if (!quality.contains("target_thickness_mm") || !quality["target_thickness_mm"].is_number()) return {};
+  const double target = quality["target_thickness_mm"];
+  return QualityExpectation{word::number(target, 2) + " ± " + shown(limits::thickness_error_mm, " mm"),
+                            std::abs(quality["thickness_mm"].get<double>() - target) <= limits::thickness_error_mm};
+}
+
+}  // namespace
+
+std::optional<QualityExpectation> expectation(const std::string& product, const std::string& key,
+                                              const nlohmann::json& quality) {
+  if (!quality.contains(key) || !quality[key].is_number()) return {};
+  const bool view = product == "cc.vtu" || product == "mlo.vtu";
+  if (view && key == "thickness_mm") return thickness(quality);
+  const auto find = [&](auto begin, auto end, const std::string& of) -> std::optional<QualityExpectation> {
+    const auto at = std::find_if(begin, end, [&](const Limit& l) { return of == l.product && key == l.key; });
+    if (at == end) return {};
+    return QualityExpectation{words_of(*at), holds(*at, quality[key].get<double>())};
+  };
+  return view ? find(std::begin(kOfViews), std::end(kOfViews), "")
+              : find(std::begin(kLimits), std::end(kLimits), product);
+}
+
+}  // namespace mammotwin
