@@ -196,7 +196,7 @@
     strength.addEventListener("input", update);
     window.addEventListener("resize", update);
     update();
-    root.dataset.ready = "true";
+    root.dataset.ready = performance.now().toFixed(0);  // [ms] since the page was asked for
   }
   start();
 })();
