@@ -17,6 +17,8 @@
 #include "pipeline/report/volume_data.h"
 #include "pipeline/report/word.h"
 
+#include <algorithm>
+
 namespace mammotwin {
 namespace {
 
@@ -89,6 +91,7 @@ void add_quality(const PatientResults& results, json& page) {
     json figures = json::array();
     for (const QualityFigure& f : quality_figures(quality))
       figures.push_back(quality_row(stage.product, f, quality));
+    std::stable_partition(figures.begin(), figures.end(), [](const json& row) { return row["expected"] != ""; });
     if (!figures.empty()) page["quality"].push_back({{"product", stage.product}, {"figures", figures}});
   }
 }

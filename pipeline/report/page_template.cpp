@@ -39,6 +39,7 @@ mustache::data mustache_data(const nlohmann::json& value) {
   if (value.is_boolean())
     return mustache::data{value.get<bool>() ? mustache::data::type::bool_true
                                             : mustache::data::type::bool_false};
+  if (value == "") return mustache::data{mustache::data::type::bool_false};  // its section is left out
   return mustache::data{value.is_string() ? value.get<std::string>() : value.dump()};
 }
 

@@ -113,6 +113,7 @@ TEST(ReportPage, IsWrittenWhenTheFirstStageRefused) {
   EXPECT_NE(page.find("Refused"), std::string::npos);
   EXPECT_NE(page.find("the 100.8 mm hole between slices 40 and 41"), std::string::npos);
   EXPECT_EQ(page.find("id=\"viewer\""), std::string::npos);
+  EXPECT_NE(page.find("<h1>Patient refused</h1>"), std::string::npos);  // of a side nothing is known
 }
 
 TEST(ReportPage, NotesAProductThatCannotBeRead) {
