@@ -24,7 +24,7 @@ void declare(StageDeclaration& stage, Arguments& args) {
 
 bool is_input(const std::filesystem::path& file, const std::filesystem::path& page) {
   const std::string name = file.filename().string();
-  return name.front() != '.' && name != "picture.png" && name.rfind(page.filename().string(), 0) != 0;
+  return name.front() != '.' && name != "picture.png" && name.rfind("scene", 0) != 0 && name.rfind(page.filename().string(), 0) != 0;
 }
 
 constexpr const char* kViews[] = {"cc", "mlo"};

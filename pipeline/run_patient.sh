@@ -1,6 +1,6 @@
 #!/bin/sh
 # run_patient.sh STAGE: takes patient $P through the stages up to STAGE (all of them for "patient"),
-# or makes a synthetic one ("synthesize", environment: SEED).
+# and on to a scene for 3D Slicer ("slicer"), or makes a synthetic one ("synthesize", environment: SEED).
 # Environment: P (name of the patient's folder), DATA, RESULTS (folders), FORCE (1: run anyway),
 # BIN (folder of the programs).
 set -u
@@ -31,6 +31,7 @@ compress() {
 }
 register() { "$BIN/mammotwin-register" "$out/segmentation.seg.nrrd" "$out/fractions.nrrd" "$out/cc.vtu" "$out/mlo.vtu" "$out/lesions.csv" "$@"; }
 report() { "$BIN/mammotwin-report" "$out" "$out/report.html" "$@"; }
+slicer() { "$BIN/mammotwin-slicer" "$out" "$out/scene.mrml" "$@"; }
 
 for stage in segment fit unload compress register report; do
   "$stage" "$@" || {
@@ -41,6 +42,8 @@ for stage in segment fit unload compress register report; do
   }
   [ "$stage" != "$last" ] || exit 0
 done
+
+[ "$last" != slicer ] || slicer "$@" || exit
 
 echo
 echo "Results of $P: $out (open $out/report.html)"

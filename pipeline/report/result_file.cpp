@@ -7,7 +7,6 @@ namespace {
 
 constexpr std::pair<const char*, const char*> kByName[] = {
     {"lesions.csv", "lesions in MRI, CC and MLO as a table (spreadsheet)"},
-    {"scene.mrml", "everything in place as a scene (3D Slicer)"},
     {"segmentation.seg.nrrd", "tissue labels (3D Slicer)"},
     {"fractions.nrrd", "share of each tissue a voxel (3D Slicer)"},
     {"mri.nrrd", "MRI, bias-corrected (3D Slicer)"},
@@ -22,7 +21,6 @@ constexpr std::pair<const char*, const char*> kByName[] = {
 constexpr std::pair<const char*, const char*> kByEnd[] = {
     {".mrk.json", "lesions and nipple as markups (3D Slicer)"},
     {".exf", "Hermite mesh (OpenCMISS-Zinc)"},
-    {".vtp", "surface of the breast (3D Slicer, ParaView)"},
     {".png", "picture (a slide)"},
     {".nrrd", "field on a grid (3D Slicer)"},
 };

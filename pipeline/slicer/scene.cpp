@@ -1,0 +1,83 @@
+#include "pipeline/slicer/scene.h"
+
+#include "pipeline/report/fit_error.h"
+#include "pipeline/report/palette.h"
+#include "pipeline/slicer/scene_nodes.h"
+#include "pipeline/slicer/surface_file.h"
+
+#include <algorithm>
+
+namespace mammotwin {
+namespace {
+
+constexpr int kSamples = 8;  // squares a side of an element's face
+constexpr const char* kError = "skin_distance_mm";
+
+class Scene {
+ public:
+  Scene(const PatientResults& results, const FileWriter& write) : results_(results), write_(write) {}
+
+  std::string text() {
+    add_images();
+    if (results_.prone) add_surfaces();
+    for (const char* state : {"prone", "unloaded", "cc", "mlo"}) add_lesions(state);
+    for (const char* view : {"cc", "mlo"}) add_transform(view);
+    return nodes_.text();
+  }
+
+ private:
+  bool has(const std::string& file) const {
+    return std::binary_search(results_.files.begin(), results_.files.end(), file);
+  }
+
+  void add_images() {
+    std::string mri;
+    for (const char* view : {"cc", "mlo"})
+      if (has("mri_in_" + std::string(view) + ".nrrd"))
+        nodes_.add_volume("MRI in " + title_of_view(view), "mri_in_" + std::string(view) + ".nrrd");
+    if (has("mri.nrrd")) {
+      mri = nodes_.add_volume("MRI", "mri.nrrd");
+      nodes_.show_in_slices(mri);
+    }
+    if (has("segmentation.seg.nrrd")) nodes_.add_segmentation("Tissue", "segmentation.seg.nrrd", mri);
+  }
+
+  void add_surface(const std::string& state, const HermiteMesh& mesh, const PointNumbers& numbers = {}) {
+    const std::string file = "scene_" + state + ".vtp";
+    write_surface(write_(file), triangulate(mesh, outer_faces(*results_.prone), kSamples), numbers);
+    nodes_.add_model("Breast " + state, file, palette::skin, state == "prone", numbers.name);
+  }
+
+  void add_surfaces() {
+    PointNumbers errors{kError, fit_errors(results_, outer_faces(*results_.prone), kSamples)};
+    if (errors.values.empty()) errors.name.clear();
+    add_surface("prone", results_.prone->mesh, errors);
+    if (results_.unloaded && results_.unloaded->num_elements() == results_.prone->mesh.num_elements())
+      add_surface("unloaded", *results_.unloaded);
+    for (const ViewResult& view : results_.views) add_surface(view.view.name, view.file.mesh);
+  }
+
+  void add_lesions(const std::string& state) {
+    const std::string file = "lesions_" + state + ".mrk.json";
+    if (has(file)) nodes_.add_markups("Lesions " + state, file, palette::lesion, state == "prone");
+  }
+
+  /// The field on the compressed grid that says where its tissue was prone: what Slicer, as ITK,
+  /// resamples the prone MRI with.
+  void add_transform(const std::string& view) {
+    const std::string file = "prone_from_" + view + ".nrrd";
+    if (has(file)) nodes_.add_transform("Prone to " + title_of_view(view), file);
+  }
+
+  const PatientResults& results_;
+  const FileWriter& write_;
+  SceneNodes nodes_;
+};
+
+}  // namespace
+
+std::string slicer_scene(const PatientResults& results, const FileWriter& write) {
+  return Scene(results, write).text();
+}
+
+}  // namespace mammotwin

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "pipeline/report/mesh_surface.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace mammotwin {
+
+/// Numbers at a surface's points, by name; empty values: none.
+struct PointNumbers {
+  std::string name;
+  std::vector<double> values;
+};
+
+/// Writes triangles as VTK's XML polygon data (.vtp), LPS in mm, which its field "SPACE" says to
+/// 3D Slicer. Throws std::runtime_error if the file cannot be written.
+void write_surface(const std::filesystem::path& path, const TriangleSurface& surface,
+                   const PointNumbers& numbers = {});
+
+}  // namespace mammotwin
