@@ -1,7 +1,5 @@
 #include "pipeline/report/verdict.h"
 
-#include "pipeline/report/word.h"
-
 #include <algorithm>
 #include <iterator>
 
@@ -36,20 +34,14 @@ std::string without_prefix(const std::string& text, const std::string& stage) {
   return text.starts_with(stage + ": ") ? text.substr(stage.size() + 2) : text;
 }
 
+/// Without seconds and memory, which would make the page another at every run.
 json stage_row(const StageRecord& record) {
   const std::string status = record.sidecar.value("status", "unknown");
   const Grade* grade = grade_of(status);
-  const auto measured = [&](const char* key, int decimals, const char* unit) {
-    return record.sidecar.contains(key) && record.sidecar[key].is_number()
-               ? word::number(record.sidecar[key].get<double>(), decimals) + unit
-               : std::string();
-  };
   return {{"stage", stage_of(record)},
           {"product", record.product},
           {"status", status},
-          {"status_text", grade ? grade->text : status},
-          {"seconds", measured("seconds", 1, " s")},
-          {"memory", measured("peak_memory_mb", 0, " MB")}};
+          {"status_text", grade ? grade->text : status}};
 }
 
 }  // namespace
