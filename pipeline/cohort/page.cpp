@@ -114,6 +114,7 @@ std::string outlier_rows(const std::vector<Distribution>& distributions, const L
                                                                         figures_by_patient.end());
   std::stable_sort(ordered.begin(), ordered.end(),
                    [](const auto& a, const auto& b) { return a.second.size() > b.second.size(); });
+  if (ordered.size() > kMostOutlyingPatients) ordered.resize(kMostOutlyingPatients);
   std::string rows;
   for (const auto& [patient, figures] : ordered)
     rows +=
@@ -126,9 +127,9 @@ std::string outliers_html(const std::vector<Distribution>& distributions, const 
   if (rows.empty()) return {};
   return "<h2 id=\"outliers\">Outliers</h2>\n" +
          table_html(
-             "Figures more than 1.5 interquartile ranges outside the quartiles, for the " +
+             "Figures more than 1.5 interquartile ranges outside the quartiles, for the up to " +
                  std::to_string(kMostOutlyingPatients) +
-                 " patients who have most of them. An outlier is a reason to look, not an error.",
+                 " patients who have most of them; those of others stand below their figures. An outlier is a reason to look, not an error.",
              {"patient", "how many", "which"}, rows);
 }
 

@@ -2,6 +2,7 @@
 
 #include "pipeline/cohort/distribution.h"
 #include "pipeline/cohort/histogram.h"
+#include "pipeline/cohort/page.h"
 #include "pipeline/cohort/tables.h"
 
 namespace mammotwin {
@@ -83,6 +84,20 @@ TEST(Tables, KeepAReasonOnOneLine) {
 TEST(RunAgain, QuotesFoldersForAShell) {
   EXPECT_EQ((RunAgain{"make", "my data", "it's $HOME"}).command("042"),
             "make patient P=042 DATA='my data' RESULTS='it'\\''s $HOME'");
+}
+
+// 160 patients between 1 and 5, and 40 at 1000: the fence stands near 10, and all 40 lie outside.
+TEST(CohortPage, NamesTheThirtyPatientsThatItPromises) {
+  std::vector<double> values;
+  for (int n = 0; n < 160; ++n) values.push_back(1 + n % 5);
+  values.resize(200, 1000);
+  const std::string page = cohort_page(cohort_of(values), {});
+  const std::size_t first = page.find("id=\"outliers\""), last = page.find("id=\"distributions\"");
+  ASSERT_NE(first, std::string::npos);
+  int rows = 0;
+  for (std::size_t at = page.find("<tr><th scope=\"row\">", first); at < last; ++rows)
+    at = page.find("<tr><th scope=\"row\">", at + 1);
+  EXPECT_EQ(rows, 30);
 }
 
 }  // namespace
