@@ -35,6 +35,18 @@ json read_json(const fs::path& path) {
   return in ? json::parse(in, nullptr, false) : json();
 }
 
+bool is_of(const json& sidecar, const Provenance& provenance) {
+  const json wanted = provenance_json(provenance);
+  for (const auto& [key, value] : wanted.items())
+    if (!sidecar.contains(key) || sidecar[key] != value) return false;
+  return true;
+}
+
+bool is_usable(const json& sidecar) {
+  const std::string status = sidecar.value("status", "");
+  return status == name_of(Status::ok) || status == name_of(Status::look);
+}
+
 }  // namespace
 
 json provenance_json(const Provenance& p) {
@@ -64,14 +76,16 @@ fs::path sidecar_path(const fs::path& product) {
 
 std::optional<json> current_sidecar(const fs::path& product, const Provenance& provenance) {
   const json sidecar = read_json(sidecar_path(product));
-  if (!sidecar.is_object()) return std::nullopt;
-  const std::string status = sidecar.value("status", "");
-  if (status != name_of(Status::ok) && status != name_of(Status::look)) return std::nullopt;
-  const json wanted = provenance_json(provenance);
-  for (const auto& [key, value] : wanted.items())
-    if (!sidecar.contains(key) || sidecar[key] != value) return std::nullopt;
+  if (!sidecar.is_object() || !is_usable(sidecar) || !is_of(sidecar, provenance)) return std::nullopt;
   if (!sidecar.contains("outputs") || !outputs_are_intact(sidecar, folder_of(product)))
     return std::nullopt;
+  return sidecar;
+}
+
+std::optional<json> standing_failure(const fs::path& product, const Provenance& provenance) {
+  const json sidecar = read_json(sidecar_path(product));
+  if (!sidecar.is_object() || is_usable(sidecar) || !is_of(sidecar, provenance)) return std::nullopt;
+  if (sidecar.value("starved", true)) return std::nullopt;
   return sidecar;
 }
 
@@ -84,6 +98,7 @@ json make_sidecar(const fs::path& product, const Provenance& provenance, const O
   sidecar["command"] = usage.command;
   sidecar["seconds"] = usage.seconds;
   sidecar["peak_memory_mb"] = usage.peak_memory_mb;
+  if (!outcome.usable()) sidecar["starved"] = usage.starved;
   sidecar["outputs"] = json::array();
   for (const std::string& name : outputs)
     sidecar["outputs"].push_back(

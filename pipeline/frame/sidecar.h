@@ -35,10 +35,16 @@ std::filesystem::path sidecar_path(const std::filesystem::path& product);
 std::optional<nlohmann::json> current_sidecar(const std::filesystem::path& product,
                                               const Provenance& provenance);
 
+/// The sidecar of a failure that would come again: refused or not converged with the same program,
+/// inputs and parameters, and not for want of memory or room on the disk.
+std::optional<nlohmann::json> standing_failure(const std::filesystem::path& product,
+                                               const Provenance& provenance);
+
 struct Usage {
   std::string command;
   double seconds = 0;
   double peak_memory_mb = 0;
+  bool starved = false;  ///< memory or room on the disk was lacking, which says nothing of the data
 };
 
 /// `outputs`: names, beside the product, of all files that were written, as already renamed.

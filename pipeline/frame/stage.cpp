@@ -65,6 +65,14 @@ void remove_stale_product(const fs::path& product) {
   fs::remove(product, ignored);
 }
 
+/// So little that a stage may have failed for it alone.
+bool lacks_room(const fs::path& folder) {
+  constexpr std::uintmax_t least_bytes = 64u << 20;  // more than any stage writes on a large MRI
+  std::error_code error;
+  const fs::space_info space = fs::space(folder, error);
+  return error || space.available < least_bytes;
+}
+
 struct Attempt {
   Outcome outcome;
   Usage usage;
@@ -81,8 +89,10 @@ Attempt attempt(const Stage& stage, const Patient& patient, Products& products,
     require_reasons(a.outcome);
   } catch (const std::bad_alloc&) {
     a.outcome = {Status::refused, {"there is not enough memory for this input"}, {}};
+    a.usage.starved = true;
   } catch (const std::exception& e) {
     a.outcome = {Status::refused, {e.what()}, nlohmann::json::object()};
+    a.usage.starved = lacks_room(products.folder());
   }
   progress.finish();
   a.usage.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -123,6 +133,15 @@ int refuse_before_running(const Stage& stage, const fs::path& product, const std
     std::cerr << stage.name << ": " << e.what() << "\n";
   }
   return kBadData;
+}
+
+/// Says what the sidecar of a failure says; returns its exit code.
+int say_standing_failure(const Stage& stage, const nlohmann::json& sidecar) {
+  const std::string status = sidecar.at("status");
+  for (const nlohmann::json& reason : sidecar.value("reasons", nlohmann::json::array()))
+    std::cerr << stage.name << ": " << status << ": " << reason.get<std::string>() << "\n";
+  std::cerr << stage.name << ": nothing has changed since, so it is not run again (--force does)\n";
+  return exit_code(status == name_of(Status::refused) ? Status::refused : Status::not_converged);
 }
 
 Provenance plan_provenance(const Stage& stage, const StageDeclaration& declaration,
@@ -207,6 +226,9 @@ int run_stage(int argc, char** argv, const Stage& stage) {
       std::cerr << stage.name << ": " << product.string() << " is up to date\n";
       return 0;
     }
+    if (!line.force)
+      if (const auto failure = standing_failure(product, provenance))
+        return say_standing_failure(stage, *failure);
     return run_parsed(stage, product, patient, provenance, argc, argv);
   } catch (const std::exception& e) {
     return refuse_before_running(stage, product, e.what());

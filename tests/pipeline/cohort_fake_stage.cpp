@@ -99,7 +99,9 @@ Stage fake_stage(const std::string& name, Arguments& args) {
       declaration.input("input" + std::to_string(i), args.inputs[i], "");
     declaration.product("product", args.product, "");
   };
-  stage.plan = [](const Patient& patient) { return StagePlan{{mri_of(patient)}, {}}; };
+  stage.plan = [](const Patient& patient) {
+    return StagePlan{{mri_of(patient), mri_of(patient).parent_path() / "behaviour.txt"}, {}};
+  };
   stage.run = [&, name](StageRun& run) { return run_fake(name, shape, args, run); };
   return stage;
 }

@@ -70,6 +70,26 @@ TEST_F(RunCohort, RunsOnlyTheFailedAgain) {
   EXPECT_EQ(fs::last_write_time(results("fine/prone.vtu.json")), before);
 }
 
+TEST_F(RunCohort, DoesNotRunAFailureAgainUntilSomethingHasChanged) {
+  add_patient("cube", "refuse fit");
+  add_patient("stiff", "diverge compress");
+  run_cohort();
+  const std::string failed = text_of(results("failed.tsv"));
+  const auto refused = [&] { return fs::last_write_time(results("cube/prone.vtu.json")); };
+  const auto diverged = [&] { return fs::last_write_time(results("stiff/cc.vtu.json")); };
+  const auto first_refused = refused(), first_diverged = diverged();
+  EXPECT_EQ(run_cohort().exit_code, 1);
+  EXPECT_EQ(refused(), first_refused);
+  EXPECT_EQ(diverged(), first_diverged);
+  EXPECT_EQ(text_of(results("failed.tsv")), failed);
+  EXPECT_NE(text_of(results(".cohort/logs/cube.txt")).find("it is not run again"), std::string::npos);
+  run_cohort({"FORCE=1"});
+  EXPECT_NE(refused(), first_refused);
+  add_patient("stiff");
+  run_cohort();
+  EXPECT_EQ(table("cohort.tsv")["stiff"]["status"], "ok");
+}
+
 TEST_F(RunCohort, WritesTheSameTableAtAnyNumberOfJobs) {
   add_all_kinds();
   run_cohort({"JOBS=1"});
