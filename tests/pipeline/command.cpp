@@ -1,12 +1,16 @@
 #include "tests/pipeline/command.h"
 
 #include <fcntl.h>
+#include <signal.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
+#include <chrono>
 #include <cstdlib>
 #include <stdexcept>
+#include <thread>
 
 namespace mammotwin {
 namespace {
@@ -43,6 +47,22 @@ CommandResult run_command(const std::vector<std::string>& arguments,
   waitpid(child, &status, 0);
   result.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   return result;
+}
+
+void run_and_kill_after(double seconds, const std::vector<std::string>& arguments,
+                        const std::vector<std::string>& environment) {
+  prctl(PR_SET_CHILD_SUBREAPER, 1);  // orphans of what is killed come to this process
+  const pid_t child = fork();
+  if (child < 0) throw std::runtime_error("fork");
+  if (child == 0) {
+    setpgid(0, 0);
+    become(arguments, environment, open("/dev/null", O_WRONLY));
+  }
+  setpgid(child, child);
+  std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
+  kill(-child, SIGKILL);
+  while (waitpid(-child, nullptr, 0) > 0) {
+  }
 }
 
 }  // namespace mammotwin

@@ -21,7 +21,14 @@ struct DicomHeader {
   std::string acquisition_time;  ///< "120000"
   std::string temporal_position; ///< phase of a dynamic series
   std::string contrast_agent;
+  bool identified = false;  ///< names, dates and identifiers besides the patient's name, as planted_identity says
 };
+
+/// What an identified header says of the patient and nothing else does: to be searched for.
+inline std::vector<std::string> planted_identity() {
+  return {"SECRET",  "PLANTED-ACCESSION", "PLANTED HOSPITAL",    "PHYSICIAN^PLANTED", "PLANTED-ID-4711",
+          "19510203", "20010405",          "1.2.840.99.77.1.4711", "PLANTED-STUDY"};
+}
 
 /// One slice of 16-bit pixels as a DICOM file's bytes.
 inline std::string dicom_slice_bytes(const DicomHeader& header, int number, int columns, int rows,
@@ -52,13 +59,25 @@ inline std::string dicom_slice_bytes(const DicomHeader& header, int number, int 
   element(8, 0x0008, "CS", header.image_type);
   element(8, 0x0016, "UI", mr);
   element(8, 0x0018, "UI", uid);
+  if (header.identified) element(8, 0x0020, "DA", "20010405");
   if (!header.acquisition_time.empty()) element(8, 0x0032, "TM", header.acquisition_time);
+  if (header.identified) element(8, 0x0050, "SH", "PLANTED-ACCESSION");
   element(8, 0x0060, "CS", header.modality);
+  if (header.identified) {
+    element(8, 0x0080, "LO", "PLANTED HOSPITAL");
+    element(8, 0x0090, "PN", "PHYSICIAN^PLANTED");
+  }
   element(8, 0x103e, "LO", header.description);
   element(0x10, 0x0010, "PN", "SECRET^NAME");
+  if (header.identified) {
+    element(0x10, 0x0020, "LO", "PLANTED-ID-4711");
+    element(0x10, 0x0030, "DA", "19510203");
+  }
   if (!header.contrast_agent.empty()) element(0x18, 0x0010, "LO", header.contrast_agent);
   element(0x18, 0x5100, "CS", header.patient_position);
+  if (header.identified) element(0x20, 0x000d, "UI", "1.2.840.99.77.1.4711");
   element(0x20, 0x000e, "UI", header.series_uid);
+  if (header.identified) element(0x20, 0x0010, "SH", "PLANTED-STUDY");
   element(0x20, 0x0011, "IS", header.series_number);
   element(0x20, 0x0032, "DS", decimals({position[0], position[1], position[2]}));
   element(0x20, 0x0037, "DS", "1\\0\\0\\0\\1\\0");
