@@ -1,5 +1,7 @@
 #include "solver/newton/newton.h"
 
+#include "solver/newton/line_search.h"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -39,6 +41,13 @@ NewtonReport& stopped(NewtonReport& report, const Balance& balance, const Newton
 
 }  // namespace
 
+NewtonOptions loosened(NewtonOptions options, double tolerance) {
+  options.tolerance = std::max(options.tolerance, tolerance);
+  options.constraint_tolerance = std::max(options.constraint_tolerance, tolerance);
+  options.acceptable = std::max(options.acceptable, tolerance);
+  return options;
+}
+
 Newton::Newton(const Model& model, const DofMap& dofs)
     : assembler_(model, dofs), cholesky_(assembler_.pattern(), dofs.node_of_equation()) {}
 
@@ -68,9 +77,12 @@ bool Newton::factor_shifted(const State& state, const NewtonOptions& options,
   constexpr double first_shift = 0.05, growth = 4, decay = 0.25;
   constexpr double near_shift = 1e-3;
   const bool near = report.residual < kNearBalance;
-  const bool far_and_shifted = !near && shift_ * decay >= first_shift / 2;
-  if (damping_ == 0 && !far_and_shifted && factor_exact(state, options, pending, balance, report))
+  const bool hopeless = !near && (cut_while_indefinite_ || shift_ * decay >= first_shift / 2);
+  indefinite_ = true;
+  if (damping_ == 0 && !hopeless && factor_exact(state, options, pending, balance, report)) {
+    indefinite_ = false;
     return true;
+  }
   if (options.stabilise) options.stabilise(!near);
   const double least = near ? near_shift : first_shift;
   shift_ = std::max(damping_, shift_ * decay < least / 2 ? 0 : shift_ * decay);
@@ -104,26 +116,28 @@ Newton::Step Newton::solve_step(const State& state, const Balance& balance,
 }
 
 double Newton::search(State& state, const Step& step, const Balance& before) const {
-  constexpr int max_cuts = 12;
-  constexpr double overshoot = 0.9, least_cut = 0.6, most_cut = 0.1;
-  double fraction = 1;
-  for (int cut = 0; cut < max_cuts; ++cut) {
-    State trial = moved(state, step.nodes, step.pressure, fraction);
+  LineSearch line(step.slope);
+  State best;
+  double taken = 0;
+  while (!line.exhausted()) {
+    State trial = moved(state, step.nodes, step.pressure, line.fraction());
     const Balance balance = assembler_.balance(trial);
-    const bool valid = std::isfinite(balance.energy);
-    const double slope = valid ? balance.residual.dot(step.solution) : 0;
-    // A positive slope at the trial means that the line's minimum lies behind it.
-    if (valid && (slope <= overshoot * std::abs(step.slope) ||
-                  balance.residual.norm() < before.residual.norm())) {
-      state = std::move(trial);
-      return fraction;
+    if (!std::isfinite(balance.energy)) {
+      line.go_back();
+      continue;
     }
-    double cut_to = most_cut * 3;
-    if (valid && step.slope < 0)
-      cut_to = std::clamp(step.slope / (step.slope - slope), most_cut, least_cut);
-    fraction *= cut_to;
+    const double slope = balance.residual.dot(step.solution);
+    if (line.overshoots(slope) && balance.residual.norm() >= before.residual.norm()) {
+      line.go_back(slope);
+      continue;
+    }
+    best = std::move(trial);
+    taken = line.fraction();
+    if (line.good_enough(slope)) break;
+    line.go_farther();
   }
-  return 0;
+  if (taken > 0) state = std::move(best);
+  return taken;
 }
 
 NewtonReport Newton::solve(State& state, const NewtonOptions& options,
@@ -134,6 +148,7 @@ NewtonReport Newton::solve(State& state, const NewtonOptions& options,
     return stopped(report, balance, options, pending.empty(), reason);
   };
   shift_ = damping_ = 0;
+  indefinite_ = cut_while_indefinite_ = false;
   if (is_zero(pending)) pending.clear();
   for (; report.iterations <= options.max_iterations; ++report.iterations) {
     const bool factored = factor_shifted(state, options, pending, balance, report);
@@ -150,6 +165,7 @@ NewtonReport Newton::solve(State& state, const NewtonOptions& options,
     if (report.iterations == options.max_iterations) break;
     const Step step = solve_step(state, balance, pending);
     const double fraction = search(state, step, balance);
+    cut_while_indefinite_ = indefinite_ && fraction < 1;
     if (fraction == 0) return stop("the line search found no valid step");
     if (report.residual < kNearBalance)
       adapt_damping(fraction);

@@ -22,6 +22,9 @@ struct NewtonOptions {
   double max_shift = 1000;  ///< Laplacian shifts tried on an indefinite matrix before giving up [-]
 };
 
+/// The same, content with a residual and a volume error of `tolerance` where they asked for less.
+NewtonOptions loosened(NewtonOptions options, double tolerance);
+
 struct NewtonReport {
   bool converged = false;
   int iterations = 0;   ///< linear systems solved
@@ -71,6 +74,8 @@ class Newton {
   Cholesky cholesky_;
   double shift_ = 0;
   double damping_ = 0;  ///< shift that short steps ask for
+  bool indefinite_ = false;            ///< the last matrix had to be stabilised
+  bool cut_while_indefinite_ = false;  ///< and its step was cut: the next will be no better
 };
 
 }  // namespace mammotwin
