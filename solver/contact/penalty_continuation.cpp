@@ -15,13 +15,6 @@ NewtonReport settle(Newton& newton, PlateContact& contact, NewtonOptions options
   return report;
 }
 
-NewtonOptions loosened(NewtonOptions options, double tolerance) {
-  options.tolerance = std::max(options.tolerance, tolerance);
-  options.constraint_tolerance = std::max(options.constraint_tolerance, tolerance);
-  options.acceptable = std::max(options.acceptable, tolerance);
-  return options;
-}
-
 /// Only has to come near.
 NewtonReport approach(Newton& newton, PlateContact& contact, NewtonOptions options, State& state) {
   return resettle(newton, contact, loosened(options, 1e-2), state);

@@ -32,6 +32,8 @@ struct Place {
   double penalty = 0;
 };
 
+constexpr double kStepTolerance = 1e-3;  // of rounds after which a plate is still inside
+
 class Finish {
  public:
   Finish(Press& press, double penalty) : press_(press), penalty_(penalty) {}
@@ -40,12 +42,14 @@ class Finish {
  private:
   struct Errors {
     double excess;     ///< penetration over the tolerance
+    double inside;     ///< both plates' penetrations together [mm]
     double thickness;  ///< [mm]
     double tilt;       ///< [deg]
     bool off, leans;   ///< by more than the tolerance
     bool closed() const { return excess <= 1 && !leans; }
   };
   Errors errors(const State& state) const;
+  static double left_by_closing(const Errors& now, double growth);
   void go_back_to(const Place& place, State& state);
   bool better(State& state, const std::function<NewtonReport(State&)>& attempt);
 
@@ -58,8 +62,20 @@ Finish::Errors Finish::errors(const State& state) const {
   const CompressionOptions& options = press_.options();
   const double thickness = press_.thickness(state) - press_.problem().plates.thickness;
   const double tilt = press_.tilt_error(state);
-  return {press_.penetration(state) / options.gap_tolerance, thickness, tilt,
-          std::abs(thickness) > options.thickness_tolerance, std::abs(tilt) > kTiltTolerance};
+  const double support = press_.figures(state, Press::kSupport).penetration;
+  const double paddle = press_.figures(state, Press::kPaddle).penetration;
+  return {std::max(support, paddle) / options.gap_tolerance,
+          support + paddle,
+          thickness,
+          tilt,
+          std::abs(thickness) > options.thickness_tolerance,
+          std::abs(tilt) > kTiltTolerance};
+}
+
+/// Error of thickness that a penalty `growth` times as stiff will not take away by itself [mm].
+double Finish::left_by_closing(const Errors& now, double growth) {
+  if (now.thickness <= 0) return now.thickness;
+  return std::max(0.0, now.thickness - now.inside * (1 - 1 / growth));
 }
 
 void Finish::go_back_to(const Place& place, State& state) {
@@ -104,15 +120,20 @@ NewtonReport Finish::run(State& state) {
     }
     const double growth =
         now.excess <= 1 ? 1 : std::clamp(headroom * now.excess, least_growth, most);
+    if (growth > 1) secant = {};  // stiffer contact changes the thickness, too
+    const double error = left_by_closing(now, growth);
     const double most_move = round == 0 || soft ? std::abs(now.thickness) : far;
-    const double move = now.off ? secant.move(now.thickness, most_move) : 0;
+    const double move = std::abs(error) > press_.options().thickness_tolerance
+                            ? secant.move(error, most_move)
+                            : 0;
+    const double tolerance = now.excess <= growth ? 0 : kStepTolerance;
     const bool good = better(state, [&](State& trial) {
-      if (now.off || now.leans)
+      if (move != 0 || now.leans)
         press_.move_paddle(press_.placed().paddle_height + move,
                            press_.placed().paddle_tilt - (now.leans ? now.tilt / kTiltSlope : 0));
       if (soft || std::abs(move) > far) return press_.squeeze(trial, penalty_);
       press_.set_penalty(press_.penalty() * growth);
-      return press_.resettle(trial);
+      return press_.resettle(trial, tolerance);
     });
     if (!good && soft) break;
     soft = !good && (growth == 1 || most <= least_growth);

@@ -16,8 +16,7 @@ constexpr double kNewtonPerMilli = 1e-3;  // mN to N
 
 PenaltyOptions penalties_of_steps() {
   PenaltyOptions penalties;
-  penalties.newton.tolerance = penalties.newton.constraint_tolerance =
-      penalties.newton.acceptable = kStepTolerance;
+  penalties.newton = loosened({}, kStepTolerance);
   return penalties;
 }
 
@@ -79,8 +78,8 @@ NewtonReport Press::squeeze(State& state, double penalty) {
                           [&](const State& s) { return penetration(s); }, penalties.newton, state));
 }
 
-NewtonReport Press::resettle(State& state) {
-  return mammotwin::resettle(newton_, *breast_.contact, NewtonOptions(), state);
+NewtonReport Press::resettle(State& state, double tolerance) {
+  return mammotwin::resettle(newton_, *breast_.contact, loosened({}, tolerance), state);
 }
 
 void Press::track_friction(const State& state) {

@@ -51,8 +51,9 @@ class Press {
   /// one that was enough nearby [kPa/mm]; 0: none is known.
   NewtonReport squeeze(State& state, double penalty);
 
-  /// Exact equilibrium near a state that already is one.
-  NewtonReport resettle(State& state);
+  /// Equilibrium near a state that already is one, to what Newton reaches or to a residual of
+  /// `tolerance` of the flow.
+  NewtonReport resettle(State& state, double tolerance = 0);
 
   /// Brings friction's pressures up to a state.
   void track_friction(const State& state);
