@@ -58,11 +58,8 @@ double retained_fraction(const Press& press, const State& state) {
 }  // namespace
 
 bool slipped_out(const Press& press, const State& state) {
-  constexpr double most_slack = 5;  // [mm] between skin and flat plates
   constexpr double least_retained = 0.5;
-  const double apart = press.placed().paddle_height - press.placed().support_height;
-  return apart > press.thickness(state) + most_slack &&
-         retained_fraction(press, state) < least_retained;
+  return retained_fraction(press, state) < least_retained;
 }
 
 void measure_compression(const Press& press, const State& state, CompressionReport& report) {
