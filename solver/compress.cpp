@@ -16,6 +16,7 @@
 #include <cmath>
 #include <stdexcept>
 #include <utility>
+#include <vector>
 
 namespace mammotwin {
 
@@ -286,6 +287,14 @@ CompressionResult Compression::run_from(const CompressionResult& near) {
   return {state.x, state.pressure, press_.placed(), press_.penalty(), {}, report_};
 }
 
+/// Those to try one after the other for as long as the breast slips out.
+std::vector<double> friction_coefficients(const CompressionProblem& problem,
+                                          const CompressionOptions& options) {
+  const double own = problem.friction.coefficient, holding = options.holding_friction;
+  if (own > 0 || holding == 0) return {own};
+  return {0, holding, std::min(1.0, 2 * holding)};
+}
+
 }  // namespace
 
 TissueLaws TissueLaws::defaults() {
@@ -297,19 +306,21 @@ TissueLaws TissueLaws::defaults() {
 CompressionResult compress(const CompressionProblem& problem, const CompressionOptions& options,
                            const Progress& progress, const CompressionRestart& restart) {
   check_shape(problem);
-  const bool may_hold = problem.friction.coefficient == 0 && options.holding_friction > 0;
-  const bool held_before = may_hold && restart.from && restart.from->friction > 0;
-  if (!held_before) {
-    CompressionResult result = Compression(problem, options, progress, restart).run();
-    if (!may_hold || !result.report.slipped_out) return result;
-    if (progress) progress(0, "slipped out; once more with friction");
+  const std::vector<double> coefficients = friction_coefficients(problem, options);
+  CompressionProblem posed = problem;
+  CompressionRestart from_here = restart;
+  std::size_t attempt = 0;
+  if (restart.from)
+    while (attempt + 1 < coefficients.size() && coefficients[attempt] < restart.from->friction)
+      ++attempt;
+  for (;; ++attempt) {
+    posed.friction.coefficient = coefficients[attempt];
+    CompressionResult result = Compression(posed, options, progress, from_here).run();
+    result.report.held_by_friction = attempt > 0 ? coefficients[attempt] : 0;
+    if (!result.report.slipped_out || attempt + 1 == coefficients.size()) return result;
+    if (progress) progress(0, "slipped out; once more with more friction");
+    from_here.from = nullptr;
   }
-  CompressionProblem held = problem;
-  held.friction.coefficient = options.holding_friction;
-  const CompressionRestart again{held_before ? restart.from : nullptr, restart.keep};
-  CompressionResult result = Compression(held, options, progress, again).run();
-  result.report.held_by_friction = options.holding_friction;
-  return result;
 }
 
 CompressionResult compress_from(const CompressionResult& near, const CompressionProblem& problem,

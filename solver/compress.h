@@ -94,7 +94,7 @@ struct CompressionOptions {
   double smallest_step = 1.0 / 64;   ///< give up below this part of the way
   int max_iterations = 1000;          ///< Newton iterations in all
   /// A breast that slips out from between frictionless plates is pressed again with this
-  /// coefficient of friction, and the report says so; 0: it is not. In [0, 1].
+  /// coefficient of friction, then with twice it, and the report says so; 0: it is not. In [0, 1].
   double holding_friction = 0.2;
 };
 

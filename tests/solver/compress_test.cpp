@@ -158,12 +158,12 @@ TEST(Compress, HoldsByFrictionABreastThatSlipsOut) {
   EXPECT_FALSE(lost.usable());
   EXPECT_TRUE(lost.slipped_out);
   EXPECT_NE(lost.reason.find("slipped out backwards"), std::string::npos) << lost.reason;
-  options.holding_friction = 0.3;
+  options.holding_friction = 0.1;  // too little; twice that is enough
   const CompressionReport held = compress(problem, options).report;
   ASSERT_TRUE(held.usable()) << held.reason;
-  EXPECT_EQ(held.held_by_friction, 0.3);
+  EXPECT_EQ(held.held_by_friction, 0.2);
   EXPECT_NEAR(held.thickness_mm, 22, 0.1);
-  EXPECT_GT(held.retained_fraction, 0.6);
+  EXPECT_GT(held.retained_fraction, 0.5);
 }
 
 TEST(Compress, SaysHowFarItCameWhereItCannotGoOn) {
