@@ -23,7 +23,7 @@ unexport MAKEFLAGS MAKEOVERRIDES
 .PHONY: help patient segment fit unload compress register report slicer synthesize cohort verify-results build \
         evaluate-segmentation evaluate-fitting evaluate-compression evaluate-unload evaluate-registration \
         evaluate-niftysim evaluate-victre validate bench \
-        install test clean
+        install docs test clean
 .DEFAULT_GOAL := help
 
 help:
@@ -48,6 +48,7 @@ help:
 	@echo 'make evaluate-victre   a phantom that FEBio compressed, its outline and tissue: RESULTS/evaluation/victre.json'
 	@echo 'make bench             times of kernels, linear algebra and whole solves (ten minutes)'
 	@echo 'make install PREFIX=/usr/local   programs, manual pages, completion, libraries'
+	@echo 'make docs              tutorial, how-tos, theory, reference: build/release/docs/index.html'
 	@echo 'make test              all tests'
 	@echo 'make clean             removes build/ (results stay)'
 	@echo
@@ -99,6 +100,9 @@ build:
 	@pipeline/install/ensure_packages.sh
 	@test -f build/release/build.ninja || cmake --preset release
 	@ninja -C build/release --quiet
+
+docs: build
+	@ninja -C build/release --quiet site
 
 test: build
 	@ctest --test-dir build/release --output-on-failure -j2
