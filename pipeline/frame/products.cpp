@@ -22,6 +22,15 @@ fs::path temporary_path(const fs::path& folder, const std::string& name) {
   return folder / (kPartial + std::to_string(getpid()) + "-" + name);
 }
 
+/// False for a killed process too that nobody has asked after yet (a zombie): it writes no more.
+bool is_running(const std::string& pid) {
+  std::ifstream in("/proc/" + pid + "/stat");  // "pid (name) state ..."
+  std::string line;
+  if (!std::getline(in, line)) return false;
+  const std::size_t name_end = line.rfind(')');
+  return name_end == std::string::npos || line.compare(name_end, 3, ") Z") != 0;
+}
+
 /// Left by a run that was killed; a live process keeps its own.
 void remove_leftovers(const fs::path& folder, const std::string& name) {
   std::error_code ignored;
@@ -31,7 +40,7 @@ void remove_leftovers(const fs::path& folder, const std::string& name) {
     const std::size_t dash = file.find('-', sizeof(kPartial) - 1);
     if (dash == std::string::npos || file.substr(dash + 1) != name) continue;
     const std::string pid = file.substr(sizeof(kPartial) - 1, dash - sizeof(kPartial) + 1);
-    if (!fs::exists("/proc/" + pid)) fs::remove(entry.path(), ignored);
+    if (!is_running(pid)) fs::remove(entry.path(), ignored);
   }
 }
 

@@ -2,6 +2,9 @@
 
 #include "tests/pipeline/scratch_folder.h"
 
+#include <sys/wait.h>
+#include <unistd.h>
+
 namespace mammotwin {
 namespace {
 
@@ -44,6 +47,23 @@ TEST_F(ProductsTest, RemoveWhatAKilledRunLeft) {
   Products products(folder_ / "prone.vtu");
   products.write_main();
   EXPECT_FALSE(std::filesystem::exists(folder_ / ".partial-99999999-prone.vtu"));
+}
+
+// A killed process stays in /proc until its parent asks after it.
+TEST_F(ProductsTest, RemoveWhatAKilledRunLeftThatNobodyHasAskedAfter) {
+  const pid_t child = fork();
+  if (child == 0) _exit(0);
+  siginfo_t info{};
+  waitid(P_PID, child, &info, WEXITED | WNOWAIT);  // ended, and kept as a zombie
+  const std::string left = ".partial-" + std::to_string(child) + "-prone.vtu";
+  const std::string own = ".partial-" + std::to_string(getppid()) + "-prone.vtu";
+  write(left, "half");
+  write(own, "half");  // of a process that is alive
+  Products products(folder_ / "prone.vtu");
+  products.write_main();
+  EXPECT_FALSE(std::filesystem::exists(folder_ / left));
+  EXPECT_TRUE(std::filesystem::exists(folder_ / own));
+  waitpid(child, nullptr, 0);
 }
 
 TEST_F(ProductsTest, AFolderThatCannotBeMadeIsNamed) {
