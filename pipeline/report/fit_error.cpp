@@ -31,7 +31,7 @@ std::vector<ElementFace> skin_faces(const MeshFile& file) {
   return faces;
 }
 
-Picture seen(const TriangleSurface& skin, const std::vector<double>& errors,
+Picture seen(const FaceTriangles& skin, const std::vector<double>& errors,
              const Eigen::Matrix3d& axes) {
   Eigen::AlignedBox2d window;
   for (const Eigen::Vector3d& x : skin.points) window.extend((axes * x).head<2>().eval());
@@ -101,7 +101,7 @@ std::optional<Figure> fit_figure(const PatientResults& results) {
   const std::vector<ElementFace> faces = skin_faces(*results.prone);
   const std::vector<double> errors = fit_errors(results, faces, kSamples);
   if (errors.empty()) return std::nullopt;
-  const TriangleSurface skin = triangulate(results.prone->mesh, faces, kSamples);
+  const FaceTriangles skin = triangulate(results.prone->mesh, faces, kSamples);
   const Side side = results.segmentation ? results.segmentation->region.side : Side::left;
   Picture picture(2 * kWidth, kHeight + kLegend);
   double x = 0;

@@ -64,9 +64,9 @@ MeshPoint point_on_face(const ElementFace& face, double s, double t) {
   return p;
 }
 
-TriangleSurface triangulate(const HermiteMesh& mesh, const std::vector<ElementFace>& faces,
+FaceTriangles triangulate(const HermiteMesh& mesh, const std::vector<ElementFace>& faces,
                             int samples) {
-  TriangleSurface surface;
+  FaceTriangles surface;
   for (const ElementFace& face : faces) {
     const int first = static_cast<int>(surface.points.size());
     for (int j = 0; j <= samples; ++j)
@@ -85,7 +85,7 @@ TriangleSurface triangulate(const HermiteMesh& mesh, const std::vector<ElementFa
 
 std::vector<Piece> cut_by_plane(const HermiteMesh& mesh, const std::vector<ElementFace>& faces,
                                 int axis, double at, int samples) {
-  const TriangleSurface surface = triangulate(mesh, faces, samples);
+  const FaceTriangles surface = triangulate(mesh, faces, samples);
   std::vector<Piece> pieces;
   for (const auto& [a, b, c] : surface.triangles)
     if (const auto piece = cut_triangle(

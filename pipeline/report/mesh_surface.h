@@ -31,12 +31,12 @@ std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>> cut_by_plane(
     int samples = 10);
 
 /// The faces as a triangle mesh for drawing.
-struct TriangleSurface {
+struct FaceTriangles {
   std::vector<Eigen::Vector3d> points;
   std::vector<std::array<int, 3>> triangles;  ///< anticlockwise from outside
   std::vector<FaceLabel> labels;              ///< one a triangle
 };
-TriangleSurface triangulate(const HermiteMesh& mesh, const std::vector<ElementFace>& faces,
+FaceTriangles triangulate(const HermiteMesh& mesh, const std::vector<ElementFace>& faces,
                             int samples);
 
 }  // namespace mammotwin

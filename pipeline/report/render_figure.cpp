@@ -42,7 +42,7 @@ Picture::Points on_paper(const DepthImage& image, const Eigen::Matrix3d& axes,
 }
 
 struct Scene {
-  TriangleSurface surface;
+  FaceTriangles surface;
   Eigen::Matrix3d axes;
   Eigen::AlignedBox2d window;
 };

@@ -29,7 +29,7 @@ std::string packed_points(const std::vector<Eigen::Vector3d>& points) {
   return packed(numbers);
 }
 
-std::string packed_triangles(const TriangleSurface& surface) {
+std::string packed_triangles(const FaceTriangles& surface) {
   std::vector<std::uint32_t> numbers;
   for (const auto& triangle : surface.triangles)
     numbers.insert(numbers.end(), triangle.begin(), triangle.end());
@@ -38,7 +38,7 @@ std::string packed_triangles(const TriangleSurface& surface) {
 
 /// Colours of the points, each from its triangles' label and its own index.
 template <class ColourOf>
-std::string packed_colours(const TriangleSurface& surface, ColourOf colour_of) {
+std::string packed_colours(const FaceTriangles& surface, ColourOf colour_of) {
   std::vector<float> numbers(3 * surface.points.size());
   for (std::size_t i = 0; i < surface.triangles.size(); ++i)
     for (const int point : surface.triangles[i]) {
@@ -57,7 +57,7 @@ Colour tissue_colour(FaceLabel label, int) {
 }
 
 /// The fit's error on the skin; the faces that have none keep a grey.
-std::string packed_fit_errors(const TriangleSurface& surface, const std::vector<double>& errors) {
+std::string packed_fit_errors(const FaceTriangles& surface, const std::vector<double>& errors) {
   return packed_colours(surface, [&](FaceLabel label, int point) {
     return label == FaceLabel::skin ? fit_error_colour(errors[point]) : palette::grid;
   });
@@ -124,7 +124,7 @@ json view_data(const PatientResults& results, const ViewResult& view,
 
 json scene_data(const PatientResults& results) {
   const std::vector<ElementFace> faces = outer_faces(*results.prone);
-  const TriangleSurface surface = triangulate(results.prone->mesh, faces, kSamples);
+  const FaceTriangles surface = triangulate(results.prone->mesh, faces, kSamples);
   const std::vector<Mark> marks = marks_of(results);
   json mark_list = json::array(), states = json::array(), views = json::array();
   for (const Mark& mark : marks)

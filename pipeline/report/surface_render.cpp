@@ -22,7 +22,7 @@ Colour shaded(const Colour& base, const Eigen::Vector3d& normal) {
   return {base.red * lit, base.green * lit, base.blue * lit, 1};
 }
 
-void draw_surface(DepthImage& image, const TriangleSurface& surface, const Eigen::Matrix3d& axes,
+void draw_surface(DepthImage& image, const FaceTriangles& surface, const Eigen::Matrix3d& axes,
                   bool facing, const std::function<Colour(std::size_t)>& colour) {
   for (std::size_t i = 0; i < surface.triangles.size(); ++i) {
     std::array<Eigen::Vector3d, 3> x;

@@ -16,7 +16,7 @@ Eigen::Matrix3d eye_axes(Side side, double turn, double rise);
 Colour shaded(const Colour& base, const Eigen::Vector3d& normal);
 
 /// Draws the triangles that face the eye, or those that turn away from it, coloured by index.
-void draw_surface(DepthImage& image, const TriangleSurface& surface, const Eigen::Matrix3d& axes,
+void draw_surface(DepthImage& image, const FaceTriangles& surface, const Eigen::Matrix3d& axes,
                   bool facing, const std::function<Colour(std::size_t)>& colour);
 
 }  // namespace mammotwin

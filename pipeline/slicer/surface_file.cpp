@@ -15,13 +15,13 @@
 namespace mammotwin {
 namespace {
 
-void add_points(vtkPolyData* data, const TriangleSurface& surface) {
+void add_points(vtkPolyData* data, const FaceTriangles& surface) {
   vtkNew<vtkPoints> points;
   for (const Eigen::Vector3d& x : surface.points) points->InsertNextPoint(x.x(), x.y(), x.z());
   data->SetPoints(points);
 }
 
-void add_triangles(vtkPolyData* data, const TriangleSurface& surface) {
+void add_triangles(vtkPolyData* data, const FaceTriangles& surface) {
   vtkNew<vtkCellArray> triangles;
   for (const auto& [a, b, c] : surface.triangles) {
     const vtkIdType corners[] = {a, b, c};
@@ -47,7 +47,7 @@ void say_space(vtkPolyData* data) {
 
 }  // namespace
 
-void write_surface(const std::filesystem::path& path, const TriangleSurface& surface,
+void write_surface(const std::filesystem::path& path, const FaceTriangles& surface,
                    const PointNumbers& numbers) {
   vtkNew<vtkPolyData> data;
   add_points(data, surface);

@@ -16,7 +16,7 @@ struct PointNumbers {
 
 /// Writes triangles as VTK's XML polygon data (.vtp), LPS in mm, which its field "SPACE" says to
 /// 3D Slicer. Throws std::runtime_error if the file cannot be written.
-void write_surface(const std::filesystem::path& path, const TriangleSurface& surface,
+void write_surface(const std::filesystem::path& path, const FaceTriangles& surface,
                    const PointNumbers& numbers = {});
 
 }  // namespace mammotwin

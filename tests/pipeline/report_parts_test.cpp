@@ -29,7 +29,7 @@ TEST(MeshSurface, CountsEveryFaceOnce) {
 
 TEST(MeshSurface, TrianglesLookOutwards) {
   const MeshFile file = block();
-  const TriangleSurface s = triangulate(file.mesh, outer_faces(file), 3);
+  const FaceTriangles s = triangulate(file.mesh, outer_faces(file), 3);
   double volume = 0;  // divergence theorem: a sum of signed tetrahedra
   for (const auto& [a, b, c] : s.triangles)
     volume += s.points[a].dot(s.points[b].cross(s.points[c])) / 6;
