@@ -2,6 +2,7 @@
 
 #include "pipeline/report/base64.h"
 #include "pipeline/report/convergence_figure.h"
+#include "pipeline/report/fit_course_figure.h"
 #include "pipeline/report/fit_error.h"
 #include "pipeline/report/force_figure.h"
 #include "pipeline/report/frames_figure.h"
@@ -99,6 +100,7 @@ void add_quality(const PatientResults& results, json& page) {
 void add_fit(const PatientResults& results, json& page) {
   page["fit"] = json::array();
   if (const auto figure = fit_figure(results)) page["fit"].push_back(figure_data(*figure));
+  if (const auto figure = fit_course_figure(results)) page["fit"].push_back(figure_data(*figure));
 }
 
 /// Links to the files beside the page.

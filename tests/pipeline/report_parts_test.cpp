@@ -1,5 +1,6 @@
 #include "pipeline/report/base64.h"
 #include "pipeline/report/depth_image.h"
+#include "pipeline/report/fit_course_figure.h"
 #include "pipeline/report/fit_error.h"
 #include "pipeline/report/mammogram_raster.h"
 #include "pipeline/report/mesh_field.h"
@@ -111,6 +112,17 @@ TEST(FitFigure, GrowsRedderOutsideAndBluerInside) {
   EXPECT_GT(fit_error_colour(0.5).red, fit_error_colour(0.5).blue);
   EXPECT_LT(fit_error_colour(-0.5).red, fit_error_colour(-0.5).blue);
   EXPECT_EQ(fit_error_colour(1).green, fit_error_colour(7).green);  // ends at 1 mm
+}
+
+TEST(FitCourseFigure, ShowsWhatTheFitLeftOfItsIterations) {
+  PatientResults results = fake_results(Side::left);
+  EXPECT_FALSE(fit_course_figure(results));
+  for (StageRecord& stage : results.stages)
+    if (stage.product == "prone.vtu")
+      stage.sidecar["quality"]["skin_rms_by_iteration_mm"] = {2.5, 0.61, 0.3, 0.24};
+  const auto figure = fit_course_figure(results);
+  ASSERT_TRUE(figure);
+  EXPECT_NE(figure->alt.find("from 2.50 to 0.24 mm RMS in 3 iterations"), std::string::npos) << figure->alt;
 }
 
 // A field that is linear in position is its own cubic interpolant.
