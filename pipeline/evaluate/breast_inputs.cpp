@@ -2,11 +2,11 @@
 
 #include <cmath>
 #include <fstream>
-#include <map>
 #include <sstream>
 #include <stdexcept>
 
 #include "pipeline/compression_settings.h"
+#include "pipeline/evaluate/real_breasts.h"
 #include "pipeline/evaluate/stage_command.h"
 #include "pipeline/frame/products.h"
 #include "pipeline/synthesize/option_table.h"
@@ -64,16 +64,6 @@ json segment_drawn(const SyntheticBreast& drawn, const fs::path& folder) {
           {"lesions", p.options.anatomy.lesions}};
 }
 
-/// [labels] of a patient.toml.
-std::string labels_toml(const LabelMapBreast& breast) {
-  std::map<std::string, json> values;
-  for (const auto& [value, tissue] : label_map_values()) values[to_string(tissue)].push_back(value);
-  std::ostringstream toml;
-  toml << "[labels]\npath = " << json(fs::canonical(breast.file).string()) << "\n";
-  for (const auto& [tissue, list] : values) toml << tissue << " = " << list << "\n";
-  return toml.str();
-}
-
 std::string side_toml(Side side) { return "side = \"" + name_of(side) + "\"\n"; }
 
 /// Runs a stage whose product lies in `folder` and returns its sidecar. Throws std::runtime_error
@@ -90,7 +80,7 @@ json run_stage_in(const fs::path& folder, const std::string& stage,
 }
 
 json segment_label_map(const LabelMapBreast& breast, const fs::path& folder) {
-  write_text_atomically(folder / "patient.toml", side_toml(breast.side) + labels_toml(breast));
+  write_text_atomically(folder / "patient.toml", side_toml(breast.side) + labels_toml(breast.file));
   const json sidecar =
       run_stage_in(folder, "segment",
                    {(folder / "segmentation.seg.nrrd").string(), "--patient",
@@ -155,7 +145,7 @@ void ask(const EvaluatedBreast& breast, PreparedBreast& prepared) {
 void write_toml(const EvaluatedBreast& breast, const PreparedBreast& prepared) {
   std::ostringstream toml;
   toml << "side = " << prepared.facts.at("side") << "\n";
-  if (breast.label_map) toml << labels_toml(*breast.label_map);
+  if (breast.label_map) toml << labels_toml(breast.label_map->file);
   if (breast.synthetic) {
     const CompressionSettings defaults;
     const double gland = breast.synthetic->stiffness_ratio * defaults.fat.c1_kpa;
