@@ -1,28 +1,28 @@
 #include "pipeline/breast_problem.h"
 
+#include "fitting/cell_tissue.h"
+
 #include <algorithm>
 #include <utility>
 
 namespace mammotwin {
-namespace {
 
-TissueSampler sampler_of(const MeanFractions& mean) {
-  return [&mean](const Eigen::Vector3d& x_prone, double volume_mm3) {
-    const Fractions f = mean.at(x_prone, volume_mm3);
+TissueSampler tissue_of(const MeshFile& mesh, const Volume<Fractions>& fractions) {
+  const auto tissue = std::make_shared<const CellTissue>(prone_file(mesh).mesh, fractions);
+  return [tissue](const Eigen::Vector3d& x_prone, double) {
+    const Fractions f = tissue->at(x_prone);
     return std::array<double, 3>{f.fat, f.fibroglandular, f.lesion};
   };
 }
 
-}  // namespace
-
-CompressionProblem breast_problem(MeshFile mesh, const MeanFractions& mean,
+CompressionProblem breast_problem(MeshFile mesh, TissueSampler tissue,
                                   const CompressionSettings& settings, double stiffness_factor) {
   CompressionProblem problem;
   problem.mesh = std::move(mesh);
   if (const auto prone = problem.mesh.configurations.find("prone");
       prone != problem.mesh.configurations.end())
     problem.prone = prone->second;
-  problem.tissue = sampler_of(mean);
+  problem.tissue = std::move(tissue);
   problem.laws = settings.laws(stiffness_factor);
   problem.skin = settings.skin;
   problem.skin.c1 *= stiffness_factor;

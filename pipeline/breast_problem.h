@@ -1,15 +1,19 @@
 #pragma once
 
 #include "pipeline/compression_settings.h"
-#include "segmentation/mean_fractions.h"
+#include "segmentation/tissue.h"
 #include "solver/compress.h"
 
 namespace mammotwin {
 
+/// Tissue at the Gauss points of a mesh file's elements, counted once from the voxels that lie in
+/// them as imaged (fitting/cell_tissue.h).
+TissueSampler tissue_of(const MeshFile& mesh, const Volume<Fractions>& fractions);
+
 /// The patient's breast as the solver takes it, without plates or gravity: a mesh file's shape (and
 /// its configuration "prone", where it has one), the tissue in it, laws, skin and what holds it. All
-/// stiffnesses are multiplied by `stiffness_factor`. `mean` must outlive the problem.
-CompressionProblem breast_problem(MeshFile mesh, const MeanFractions& mean,
+/// stiffnesses are multiplied by `stiffness_factor`.
+CompressionProblem breast_problem(MeshFile mesh, TissueSampler tissue,
                                   const CompressionSettings& settings, double stiffness_factor);
 
 /// The factor that `unload` used, from the metadata of the mesh that it wrote; else the settings'.

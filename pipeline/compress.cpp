@@ -5,6 +5,7 @@
 #include "pipeline/compression_quality.h"
 #include "pipeline/frame/stage.h"
 #include "pipeline/view_header.h"
+#include "pipeline/breast_problem.h"
 #include "pipeline/view_problem.h"
 #include "registration/view_frame.h"
 #include "segmentation/segmentation_file.h"
@@ -89,10 +90,10 @@ Outcome run(const Arguments& args, StageRun& stage) {
   std::vector<std::string> remarks;
   const ViewSettings view = with_header(patient, args.view, side, remarks);
   const Eigen::Matrix3d axes = view_axes(side, view.angle());
-  const MeanFractions mean(segmentation.fractions);
 
   const MeshFile mesh = read_mesh_file(args.mesh);
-  const CompressionProblem problem = view_problem(patient, view, axes, mesh, mean);
+  const CompressionProblem problem =
+      view_problem(patient, view, axes, mesh, tissue_of(mesh, segmentation.fractions));
   const CompressionResult result =
       compress_with_checkpoints(problem, patient.compression.options, stage);
   if (result.report.usable())

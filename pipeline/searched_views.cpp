@@ -1,5 +1,6 @@
 #include "pipeline/searched_views.h"
 
+#include "pipeline/breast_problem.h"
 #include "pipeline/view_problem.h"
 #include "registration/mammogram_findings.h"
 #include "registration/mammogram_header.h"
@@ -99,12 +100,12 @@ std::map<std::string, json> search_and_register(const Patient& patient,
                                                 std::vector<RegisteredView>& views,
                                                 const Progress& progress,
                                                 std::vector<std::string>& reasons) {
-  const MeanFractions mean(segmentation.fractions);
   std::vector<SearchInput> inputs;
   for (const RegisteredView& view : views) {
     const CompressedView& geometry = view.projection.view();
     SearchInput input{view.file, geometry, view.projection.detector(),
-                      nearby_solver(patient, geometry, view.file, mean), {}};
+                      nearby_solver(patient, geometry, view.file,
+                                    tissue_of(view.file, segmentation.fractions)), {}};
     if (patient.view(geometry.name).mammogram) input.evidence = evidence_of(patient, view);
     inputs.push_back(std::move(input));
   }

@@ -83,11 +83,11 @@ MeshFile unloaded_file(const MeshFile& prone, const UnloadResult& result,
 Outcome run(const Arguments& args, StageRun& stage) {
   const Patient& patient = stage.patient;
   const Segmentation segmentation = read_segmentation(args.segmentation, args.fractions);
-  const MeanFractions mean(segmentation.fractions);
   const MeshFile prone = read_mesh_file(args.mesh);
+  const TissueSampler tissue = tissue_of(prone, segmentation.fractions);
   const Pose imaged = patient.imaged_pose(patient_position(args.segmentation));
   const auto problem_with = [&](double factor) {
-    CompressionProblem problem = breast_problem(prone, mean, patient.compression, factor);
+    CompressionProblem problem = breast_problem(prone, tissue, patient.compression, factor);
     problem.gravity = gravity_in_lps(imaged);
     problem.density = patient.gravity.density();
     return problem;

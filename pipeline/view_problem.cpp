@@ -27,10 +27,10 @@ MeshFile reference_of(const MeshFile& compressed) {
 
 /// The problem with the mechanical numbers of a state put in.
 CompressionProblem changed(const Patient& patient, const ViewSettings& view, Side side,
-                           const MeshFile& mesh, const MeanFractions& mean,
+                           const MeshFile& mesh, const TissueSampler& tissue,
                            double thickness_mm, const ViewState& state) {
   CompressionProblem problem =
-      view_problem(patient, view, view_axes(side, view.angle() + state[kRoll]), mesh, mean);
+      view_problem(patient, view, view_axes(side, view.angle() + state[kRoll]), mesh, tissue);
   CompressionSettings stiffer = patient.compression;
   for (LawSettings* law : {&stiffer.fibroglandular, &stiffer.lesion}) {
     law->c1_kpa *= std::exp(state[kStiffnessRatio]);
@@ -65,8 +65,8 @@ PlateOptions plates_of(const Patient& patient, const ViewSettings& view,
 
 CompressionProblem view_problem(const Patient& patient, const ViewSettings& view,
                                 const Eigen::Matrix3d& axes, const MeshFile& mesh,
-                                const MeanFractions& mean) {
-  CompressionProblem problem = breast_problem(mesh, mean, patient.compression,
+                                const TissueSampler& tissue) {
+  CompressionProblem problem = breast_problem(mesh, tissue, patient.compression,
                                               stiffness_factor_of(mesh, patient.compression));
   problem.friction = patient.compression.friction;
   problem.plates = plates_of(patient, view, axes, prone_file(mesh));
@@ -85,7 +85,8 @@ void remember_solution(const CompressionResult& result, MeshFile& file) {
 }
 
 std::optional<NearbySolver> nearby_solver(const Patient& patient, const CompressedView& view,
-                                          const MeshFile& compressed, const MeanFractions& mean) {
+                                          const MeshFile& compressed,
+                                          const TissueSampler& tissue) {
   const auto pressure = compressed.metadata.find("pressure_kpa");
   const auto plates = compressed.metadata.find("plates");
   if (pressure == compressed.metadata.end() || plates == compressed.metadata.end())
@@ -104,10 +105,10 @@ std::optional<NearbySolver> nearby_solver(const Patient& patient, const Compress
   result.report.thickness_mm = view.thickness_mm;
   ViewSettings settings = patient.view(view.name);
   settings.angle_deg = view.angle_deg;
-  return NearbySolver(base, [&patient, &mean, settings, side = view.side,
+  return NearbySolver(base, [&patient, tissue, settings, side = view.side,
                              mesh = reference_of(compressed),
                              thickness = numbers.at(5)](const ViewState& state) {
-    return changed(patient, settings, side, mesh, mean, thickness, state);
+    return changed(patient, settings, side, mesh, tissue, thickness, state);
   });
 }
 

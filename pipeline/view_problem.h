@@ -2,7 +2,7 @@
 
 #include "pipeline/patient.h"
 #include "registration/reduced_view.h"
-#include "segmentation/mean_fractions.h"
+#include "solver/compress.h"
 
 namespace mammotwin {
 
@@ -13,17 +13,18 @@ inline constexpr double kDefaultThicknessFraction = 0.45;
 PlateOptions plates_of(const Patient& patient, const ViewSettings& view,
                        const Eigen::Matrix3d& axes, const MeshFile& mesh);
 
-/// The compression of one view. `mesh` is what unload or fit made; `mean` must outlive it.
+/// The compression of one view. `mesh` is what unload or fit made.
 CompressionProblem view_problem(const Patient& patient, const ViewSettings& view,
                                 const Eigen::Matrix3d& axes, const MeshFile& mesh,
-                                const MeanFractions& mean);
+                                const TissueSampler& tissue);
 
 /// Adds to a compressed mesh's metadata what a solve from there needs.
 void remember_solution(const CompressionResult& result, MeshFile& file);
 
 /// A solution read back from a compressed mesh, ready for solves near it; empty where the file was
-/// written without one. `mean` must outlive it.
+/// written without one.
 std::optional<NearbySolver> nearby_solver(const Patient& patient, const CompressedView& view,
-                                          const MeshFile& compressed, const MeanFractions& mean);
+                                          const MeshFile& compressed,
+                                          const TissueSampler& tissue);
 
 }  // namespace mammotwin

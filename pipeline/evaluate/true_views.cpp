@@ -46,9 +46,9 @@ MeshFile true_mesh(const Segmentation& truth) {
 }
 
 MeshFile unloaded_truth(const Segmentation& truth, double stiffness_ratio) {
-  const MeanFractions mean(truth.fractions);
   MeshFile file = true_mesh(truth);
-  CompressionProblem problem = breast_problem(file, mean, true_settings(stiffness_ratio), 1);
+  const TissueSampler tissue = tissue_of(file, truth.fractions);
+  CompressionProblem problem = breast_problem(file, tissue, true_settings(stiffness_ratio), 1);
   problem.gravity = gravity_in_lps(Pose::prone);
   problem.density = GravitySettings().density();
   UnloadOptions options;
@@ -115,9 +115,9 @@ TrueBreast::TrueBreast(const SyntheticPatient& patient, const DrawnPatient& draw
       prone_(unloaded_.configurations.at("prone"), unloaded_.mesh.elements()) {}
 
 TrueView TrueBreast::compress_view(const DrawnView& drawn) const {
-  const MeanFractions mean(truth_.fractions);
   const CompressionSettings settings = true_settings(stiffness_ratio_);
-  CompressionProblem problem = breast_problem(unloaded_, mean, settings, 1);
+  CompressionProblem problem =
+      breast_problem(unloaded_, tissue_of(unloaded_, truth_.fractions), settings, 1);
   problem.gravity = gravity_in_lps(Pose::standing);
   problem.density = GravitySettings().density();
   const Eigen::Matrix3d axes = true_axes(side_, drawn);

@@ -25,15 +25,15 @@ constexpr double kSprings[] = {0.02, 0.05, 0.08};  // [kPa/mm]
 /// A breast of the folder; the problem keeps a reference to its fractions.
 struct FittedBreast {
   Segmentation segmentation;
-  MeanFractions mean;
   MeshFile mesh;
+  TissueSampler tissue;
   explicit FittedBreast(const std::filesystem::path& folder)
       : segmentation(read_segmentation(folder / "segmentation.seg.nrrd", folder / "fractions.nrrd")),
-        mean(segmentation.fractions),
-        mesh(read_mesh_file(folder / "prone.vtu")) {}
+        mesh(read_mesh_file(folder / "prone.vtu")),
+        tissue(tissue_of(mesh, segmentation.fractions)) {}
 
   CompressionProblem problem(const CompressionSettings& settings, Pose pose, double factor) const {
-    CompressionProblem problem = breast_problem(mesh, mean, settings, factor);
+    CompressionProblem problem = breast_problem(mesh, tissue, settings, factor);
     problem.gravity = gravity_in_lps(pose);
     problem.density = GravitySettings().density();
     return problem;

@@ -3,6 +3,7 @@
 #include "fitting/fit_breast.h"
 #include "pipeline/breast_problem.h"
 #include "pipeline/gravity_settings.h"
+#include "segmentation/mean_fractions.h"
 #include "solver/unload.h"
 
 #include <stdexcept>
@@ -10,8 +11,8 @@
 namespace mammotwin {
 namespace {
 
-CompressionProblem hanging_problem(MeshFile mesh, const MeanFractions& mean) {
-  CompressionProblem problem = breast_problem(std::move(mesh), mean, {}, 1);
+CompressionProblem hanging_problem(MeshFile mesh, TissueSampler tissue) {
+  CompressionProblem problem = breast_problem(std::move(mesh), std::move(tissue), {}, 1);
   problem.gravity = gravity_in_lps(Pose::prone);
   problem.density = GravitySettings().density();
   return problem;
@@ -26,8 +27,12 @@ Segmentation truth_of(const SyntheticPatient& p) {
 void with_true_breast(const SyntheticPatient& patient, const MeshFile& mesh,
                       const std::function<void(const CompressionProblem&)>& use) {
   const Segmentation truth = truth_of(patient);
+  // Cubes round the points and not the mesh's cells: what the sample's truth was made with.
   const MeanFractions mean(truth.fractions);
-  use(hanging_problem(mesh, mean));
+  use(hanging_problem(mesh, [&mean](const Eigen::Vector3d& x_prone, double volume_mm3) {
+    const Fractions f = mean.at(x_prone, volume_mm3);
+    return std::array<double, 3>{f.fat, f.fibroglandular, f.lesion};
+  }));
 }
 
 MeshFile hanging_truth(const SyntheticPatient& patient,
