@@ -91,6 +91,36 @@ TEST(FitBreast, IsTheSameOnOneThreadAndItsProgressGrowsToOne) {
   EXPECT_EQ(fit.mesh.mesh.nodes(), fit_of_bell().mesh.mesh.nodes());
 }
 
+/// The bell with a nipple, a ball of 5 mm radius in its skin off the tip, and the landmark elsewhere.
+Segmentation bell_with_nipple(const Eigen::Vector3d& ball, const Eigen::Vector3d& landmark) {
+  Segmentation s = dome_breast();
+  for (int k = 0; k < s.labels.size.z(); ++k)
+    for (int j = 0; j < s.labels.size.y(); ++j)
+      for (int i = 0; i < s.labels.size.x(); ++i)
+        if ((s.labels.position(i, j, k) - ball).norm() < 5) s.labels(i, j, k) = label::fat;
+  s.nipple_in_lps = landmark;
+  return s;
+}
+
+double nearest_skin_node(const HermiteMesh& mesh, const Eigen::Vector3d& x) {
+  double nearest = 1e300;
+  const int layer = 25;  // nodes, of 4 x 4 elements
+  for (int n = mesh.num_nodes() - layer; n < mesh.num_nodes(); ++n)
+    nearest = std::min(nearest, (mesh.node(n).col(0) - x).norm());
+  return nearest;
+}
+
+// A landmark brings a node to it and makes the mesh follow what stands out of the skin there. With
+// the landmark at (-15, -35, 20) the nearest node was 18.5 mm off the ball's tip, the skin 2.5 mm.
+TEST(FitBreast, HonoursTheNippleThatIsGiven) {
+  // On the bell's skin: -12 - 40 exp(-(64 + 100) / 968) = -45.8.
+  const Eigen::Vector3d ball(8, -45.8, -10), tip = ball - Eigen::Vector3d(0, 5, 0);
+  const FitResult fit = fit_breast(bell_with_nipple(ball, tip), coarse());
+  ASSERT_TRUE(fit.report.usable());
+  EXPECT_LT(nearest_skin_node(fit.mesh.mesh, tip), 4);  // a fifth of a column
+  EXPECT_LT(fit.report.nipple_error_mm, 2.2);           // a voxel is 2 mm
+}
+
 std::string refusal(const Segmentation& s, const FitOptions& options = coarse()) {
   try {
     fit_breast(s, options);
