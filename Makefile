@@ -43,7 +43,8 @@ help:
 	@echo '                       both views: RESULTS/evaluation/compression.json; JOBS=2 at a time'
 	@echo 'make evaluate-registration  registers SYNTHETIC=10 patients with mammograms of another model:'
 	@echo '                       RESULTS/evaluation/registration.json; JOBS=2 at a time'
-	@echo 'make validate          the gel cylinder against other codes: RESULTS/gel_cylinder/validation.json'
+	@echo 'make validate          the gel cylinder against other codes: RESULTS/gel_cylinder/validation.json;'
+	@echo '                       the gel breast against its true skin: RESULTS/gel_breast/validation.json'
 	@echo 'make evaluate-niftysim   a breast that NiftySim compressed, node by node: RESULTS/evaluation/niftysim.json'
 	@echo 'make evaluate-victre   a phantom that FEBio compressed, its outline and tissue: RESULTS/evaluation/victre.json'
 	@echo 'make bench             times of kernels, linear algebra and whole solves (ten minutes)'
@@ -82,6 +83,7 @@ evaluate-registration: build
 
 validate: build
 	@"$$BIN/mammotwin-validate" sample_data/gel_cylinder "$$RESULTS/gel_cylinder/validation.json"
+	@"$$BIN/mammotwin-validate-gel-breast" sample_data/gel_breast/scan.ply "$$RESULTS/gel_breast/validation.json"
 
 evaluate-niftysim: build
 	@"$$BIN/mammotwin-evaluate-niftysim" "$$CASES/breast_ct_compression" "$$RESULTS/evaluation/niftysim.json"

@@ -1,0 +1,107 @@
+#include "pipeline/validation/fit_convergence.h"
+
+#include "pipeline/report/palette.h"
+#include "pipeline/validation/chart.h"
+#include "pipeline/validation/skin_distance.h"
+#include "pipeline/validation/true_skin.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+
+namespace mammotwin {
+namespace {
+
+constexpr double kStep_mm = 0.5;        // of the true skin's triangles: 0.01 mm off on the nipple
+constexpr double kSmoothing = 1e-12;    // the least that the fit takes
+constexpr double kShape = 0.1;          // the same
+constexpr double kOrder = 4;
+
+/// A Gaussian bell on the gel breast's curved chest, in the same frame.
+ScannedSkin bell(const ScannedBreast& breast) {
+  constexpr double half_side_mm = 85, height_mm = 62, width_mm = 28;
+  const int n = static_cast<int>(std::ceil(2 * half_side_mm / kStep_mm));
+  ScannedSkin skin;
+  for (int j = 0; j <= n; ++j)
+    for (int i = 0; i <= n; ++i) {
+      const double s = half_side_mm * (2.0 * i / n - 1), t = half_side_mm * (2.0 * j / n - 1);
+      const double h = height_mm * std::exp(-(s * s + t * t) / (2 * width_mm * width_mm));
+      skin.surface.vertices.push_back(breast.frame_from_file * Eigen::Vector3d(s, s * s / 800 - h, t));
+    }
+  for (int j = 0; j < n; ++j)
+    for (int i = 0; i < n; ++i) {
+      const int v = i + (n + 1) * j;
+      skin.surface.triangles.push_back({v, v + 1, v + n + 2});
+      skin.surface.triangles.push_back({v, v + n + 2, v + n + 1});
+    }
+  return skin;
+}
+
+const char* name_of(KnownSkin skin) {
+  return skin == KnownSkin::bell ? "smooth bell" : "gel breast";
+}
+
+}  // namespace
+
+std::vector<FitAccuracy> fit_convergence(const std::filesystem::path& scan,
+                                         const std::vector<int>& columns,
+                                         const std::function<void(const std::string&)>& say) {
+  const ScannedBreast breast = read_scanned_breast(scan, {});
+  std::vector<FitAccuracy> accuracies;
+  for (const KnownSkin skin : {KnownSkin::gel_breast, KnownSkin::bell}) {
+    const ScannedSkin truth = skin == KnownSkin::bell ? bell(breast) : true_skin(breast, kStep_mm);
+    for (const int n : columns) {
+      FitOptions options;
+      options.elements = {n, n, 2};
+      options.smoothing = kSmoothing;
+      options.shape = kShape;
+      const FitResult fit = fit_breast(breast.segmentation, options, {}, &truth);
+      if (!fit.report.usable()) continue;
+      const std::vector<double> areas = skin_surface(fit.mesh).vertex_areas();
+      const double area = std::accumulate(areas.begin(), areas.end(), 0.0);
+      accuracies.push_back({skin, n, std::sqrt(area) / n,
+                            std::max(fit.report.skin_rms_mesh_to_data_mm,
+                                     fit.report.skin_rms_data_to_mesh_mm)});
+      say(std::string(name_of(skin)) + ", " + std::to_string(n) +
+          " columns: " + std::to_string(accuracies.back().rms_mm) + " mm");
+    }
+  }
+  return accuracies;
+}
+
+nlohmann::json to_json(const std::vector<FitAccuracy>& accuracies) {
+  nlohmann::json list = nlohmann::json::array();
+  for (const FitAccuracy& a : accuracies)
+    list.push_back({{"skin", name_of(a.skin)},
+                    {"columns", a.columns},
+                    {"element_mm", a.element_mm},
+                    {"rms_mm", a.rms_mm}});
+  return list;
+}
+
+Picture fit_convergence_picture(const std::vector<FitAccuracy>& accuracies) {
+  std::map<KnownSkin, Picture::Points> points;
+  double lowest = accuracies.front().rms_mm, highest = lowest;
+  for (const FitAccuracy& a : accuracies) {
+    points[a.skin].emplace_back(a.columns, a.rms_mm);
+    lowest = std::min(lowest, a.rms_mm);
+    highest = std::max(highest, a.rms_mm);
+  }
+  Picture::Points expected;  // through the last of the smooth skin
+  const Picture::Points& smooth = points.rbegin()->second;
+  for (const Eigen::Vector2d& p : smooth)
+    expected.emplace_back(p.x(), smooth.back().y() * std::pow(smooth.back().x() / p.x(), kOrder));
+  highest = std::max(highest, expected.front().y());
+  constexpr double room = 1.3;
+  Chart chart({"columns of elements along x and z", smooth.front().x() / 1.1, smooth.back().x() * 1.1, true},
+              {"skin RMS [mm]", lowest / room, std::pow(room, 5) * highest, true});
+  chart.line(expected, palette::baseline, "fourth power of the element size");
+  for (const auto& [skin, line] : points)
+    chart.line(line, skin == KnownSkin::bell ? palette::nipple : palette::lesion, name_of(skin));
+  return chart.picture();
+}
+
+}  // namespace mammotwin

@@ -1,0 +1,36 @@
+#pragma once
+
+#include "pipeline/report/picture.h"
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <filesystem>
+#include <functional>
+#include <vector>
+
+namespace mammotwin {
+
+/// A skin known by formula, without noise and holes: the gel breast's, whose tip is C2 only
+/// (exp(-rho^3)) with a nipple 4 mm wide on it; or a smooth bell of its size.
+enum class KnownSkin { gel_breast, bell };
+
+/// A fit to a known skin with n x n x 2 elements.
+struct FitAccuracy {
+  KnownSkin skin = KnownSkin::gel_breast;
+  int columns = 0;
+  double element_mm = 0;  ///< root of the skin's area over n²
+  double rms_mm = 0;      ///< skin to the true one, the worse direction
+};
+
+/// Fits with as little smoothing and shape energy as the fit allows, for its own error to show;
+/// counts without a valid mesh are left out.
+std::vector<FitAccuracy> fit_convergence(const std::filesystem::path& scan,
+                                         const std::vector<int>& columns,
+                                         const std::function<void(const std::string&)>& say);
+
+nlohmann::json to_json(const std::vector<FitAccuracy>& accuracies);
+
+/// Error against columns, with the fourth power of the element size, the order of cubics, beside it.
+Picture fit_convergence_picture(const std::vector<FitAccuracy>& accuracies);
+
+}  // namespace mammotwin
