@@ -30,10 +30,15 @@ struct Place {
   State state;
   PlacedPlates plates;
   double penalty = 0;
+  bool loose = true;
 };
 
-constexpr double kStepTolerance = 1e-3;  // of rounds after which a plate is still inside
+constexpr double kLoosely = 1e-3;  // residual of rounds after which a plate is still inside
+constexpr double kLeastGrowth = 1.5, kMostGrowth = 5;  // of the penalty in a round
+constexpr double kNearly = 0.09;  // [mm]: an error with which a breast still counts as compressed
+constexpr double kFar = 1;  // [mm]: stiff contact does not follow a paddle that moves by more
 
+/// Rounds that each raise the penalty, move the paddle, or do both.
 class Finish {
  public:
   Finish(Press& press, double penalty) : press_(press), penalty_(penalty) {}
@@ -45,17 +50,27 @@ class Finish {
     double inside;     ///< both plates' penetrations together [mm]
     double thickness;  ///< [mm]
     double tilt;       ///< [deg]
+    double largest;    ///< of thickness and penetration [mm]
     bool off, leans;   ///< by more than the tolerance
     bool closed() const { return excess <= 1 && !leans; }
+    bool near_enough() const { return largest <= kNearly && !leans; }
   };
   Errors errors(const State& state) const;
-  static double left_by_closing(const Errors& now, double growth);
+  void remember(const Errors& now, const State& state);
   void go_back_to(const Place& place, State& state);
   bool better(State& state, const std::function<NewtonReport(State&)>& attempt);
+  double move_for(const Errors& now, double growth);
+  bool improve(const Errors& now, double growth, State& state);
+  void settle(State& state);
 
   Press& press_;
   const double penalty_;
   NewtonReport total_;
+  ThicknessSecant secant_;
+  bool from_soft_ = false;  ///< the next round starts from the load steps' penalty again
+  bool loose_ = true;       ///< the state is in balance to kLoosely only
+  Place best_;
+  double best_error_ = std::numeric_limits<double>::infinity();
 };
 
 Finish::Errors Finish::errors(const State& state) const {
@@ -64,18 +79,20 @@ Finish::Errors Finish::errors(const State& state) const {
   const double tilt = press_.tilt_error(state);
   const double support = press_.figures(state, Press::kSupport).penetration;
   const double paddle = press_.figures(state, Press::kPaddle).penetration;
-  return {std::max(support, paddle) / options.gap_tolerance,
+  const double penetration = std::max(support, paddle);
+  return {penetration / options.gap_tolerance,
           support + paddle,
           thickness,
           tilt,
+          std::max(std::abs(thickness), penetration),
           std::abs(thickness) > options.thickness_tolerance,
           std::abs(tilt) > kTiltTolerance};
 }
 
-/// Error of thickness that a penalty `growth` times as stiff will not take away by itself [mm].
-double Finish::left_by_closing(const Errors& now, double growth) {
-  if (now.thickness <= 0) return now.thickness;
-  return std::max(0.0, now.thickness - now.inside * (1 - 1 / growth));
+void Finish::remember(const Errors& now, const State& state) {
+  if (!(now.closed() || now.near_enough()) || now.largest >= best_error_) return;
+  best_ = {state, press_.placed(), press_.penalty(), loose_};
+  best_error_ = now.largest;
 }
 
 void Finish::go_back_to(const Place& place, State& state) {
@@ -83,11 +100,12 @@ void Finish::go_back_to(const Place& place, State& state) {
   press_.put(place.plates);
   press_.set_penalty(place.penalty);
   press_.track_friction(state);
+  loose_ = place.loose;
 }
 
 /// Keeps what `attempt` does to the state, plates and penalty only if it succeeds.
 bool Finish::better(State& state, const std::function<NewtonReport(State&)>& attempt) {
-  const Place before{state, press_.placed(), press_.penalty()};
+  const Place before{state, press_.placed(), press_.penalty(), loose_};
   const NewtonReport report = attempt(state);
   total_ = then(total_, report);
   if (report.usable())
@@ -97,50 +115,65 @@ bool Finish::better(State& state, const std::function<NewtonReport(State&)>& att
   return report.usable();
 }
 
+/// The paddle's way for what a penalty `growth` times as stiff will not correct by itself [mm].
+double Finish::move_for(const Errors& now, double growth) {
+  if (growth > 1) secant_ = {};  // stiffer contact changes the thickness, too
+  const double left = now.thickness <= 0
+                          ? now.thickness
+                          : std::max(0.0, now.thickness - now.inside * (1 - 1 / growth));
+  if (std::abs(left) <= press_.options().thickness_tolerance) return 0;
+  return secant_.move(left, loose_ || from_soft_ ? std::abs(now.thickness) : kFar);
+}
+
+bool Finish::improve(const Errors& now, double growth, State& state) {
+  const double move = move_for(now, growth);
+  return better(state, [&](State& trial) {
+    if (move != 0 || now.leans)
+      press_.move_paddle(press_.placed().paddle_height + move,
+                         press_.placed().paddle_tilt - (now.leans ? now.tilt / kTiltSlope : 0));
+    loose_ = true;
+    if (from_soft_ || std::abs(move) > kFar) return press_.squeeze(trial, penalty_);
+    press_.set_penalty(press_.penalty() * growth);
+    loose_ = now.excess > growth;
+    return press_.resettle(trial, loose_ ? kLoosely : 0);
+  });
+}
+
+void Finish::settle(State& state) {
+  if (!loose_) return;
+  better(state, [&](State& trial) {
+    loose_ = false;
+    return press_.resettle(trial);
+  });
+}
+
 NewtonReport Finish::run(State& state) {
   constexpr int most_rounds = 16;
-  constexpr double least_growth = 1.5, most_growth = 5, headroom = 1.2;
-  constexpr double far = 1;  // [mm]: stiff contact does not follow a paddle that moves by more
+  constexpr double headroom = 1.2;
   // Skin between contact points snaps from one place to another, and the extent with it.
   constexpr int patience = 4;
-  constexpr double nearly = 0.09;  // [mm]
-  double most = most_growth, best_error = std::numeric_limits<double>::infinity();
-  bool soft = false;
-  ThicknessSecant secant;
-  Place best;
+  double most_growth = kMostGrowth;
   for (int round = 0, closed = 0; round < most_rounds; ++round) {
-    const Errors now = errors(state);
-    if (now.closed() && !now.off) return total_;
-    if (now.closed()) {
-      if (std::abs(now.thickness) < best_error) {
-        best = {state, press_.placed(), press_.penalty()};
-        best_error = std::abs(now.thickness);
-      }
-      if (++closed >= patience && best_error <= nearly) break;
+    Errors now = errors(state);
+    if (now.closed() && loose_) {
+      settle(state);
+      now = errors(state);
     }
+    if (now.closed() && !now.off) return total_;
+    remember(now, state);
+    if (now.closed() && ++closed >= patience && best_error_ <= kNearly) break;
     const double growth =
-        now.excess <= 1 ? 1 : std::clamp(headroom * now.excess, least_growth, most);
-    if (growth > 1) secant = {};  // stiffer contact changes the thickness, too
-    const double error = left_by_closing(now, growth);
-    const double most_move = round == 0 || soft ? std::abs(now.thickness) : far;
-    const double move = std::abs(error) > press_.options().thickness_tolerance
-                            ? secant.move(error, most_move)
-                            : 0;
-    const double tolerance = now.excess <= growth ? 0 : kStepTolerance;
-    const bool good = better(state, [&](State& trial) {
-      if (move != 0 || now.leans)
-        press_.move_paddle(press_.placed().paddle_height + move,
-                           press_.placed().paddle_tilt - (now.leans ? now.tilt / kTiltSlope : 0));
-      if (soft || std::abs(move) > far) return press_.squeeze(trial, penalty_);
-      press_.set_penalty(press_.penalty() * growth);
-      return press_.resettle(trial, tolerance);
-    });
-    if (!good && soft) break;
-    soft = !good && (growth == 1 || most <= least_growth);
-    if (!good) most = std::max(least_growth, std::sqrt(most));
-    if (!good) secant = {};
+        now.excess <= 1 ? 1 : std::clamp(headroom * now.excess, kLeastGrowth, most_growth);
+    const bool good = improve(now, growth, state);
+    const bool stuck = !good && (growth == 1 || most_growth <= kLeastGrowth);
+    if (!good && (from_soft_ || (stuck && now.near_enough()))) break;
+    from_soft_ = stuck;
+    if (good) continue;
+    most_growth = std::max(kLeastGrowth, std::sqrt(most_growth));
+    secant_ = {};
   }
-  if (std::isfinite(best_error)) go_back_to(best, state);
+  if (std::isfinite(best_error_)) go_back_to(best_, state);
+  settle(state);
   return total_;
 }
 
