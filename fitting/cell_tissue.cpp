@@ -148,9 +148,11 @@ CellTissue::CellTissue(const HermiteMesh& mesh, const Volume<Fractions>& fractio
   lesion.keep_volume();
   for (std::size_t c = 0; c < cells_.size(); ++c) gland.room[c] = 1 - lesion.share[c];
   gland.keep_volume();
-  for (std::size_t c = 0; c < cells_.size(); ++c)
-    cells_[c] = {static_cast<float>(1 - gland.share[c] - lesion.share[c]),
-                 static_cast<float>(gland.share[c]), static_cast<float>(lesion.share[c])};
+  for (std::size_t c = 0; c < cells_.size(); ++c) {
+    const double fat = 1 - gland.share[c] - lesion.share[c];  // of a full cell: 0 but for rounding
+    cells_[c] = {static_cast<float>(std::max(0.0, fat)), static_cast<float>(gland.share[c]),
+                 static_cast<float>(lesion.share[c])};
+  }
 }
 
 Fractions CellTissue::at(const Eigen::Vector3d& x) const {

@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace mammotwin {
 namespace {
 
@@ -114,6 +116,24 @@ TEST(CellTissue, SumsToOneInsideAndOutside) {
       const Fractions f = tissue.at((1 + out) * node.col(0));
       EXPECT_NEAR(f.fat + f.fibroglandular + f.lesion, 1, 1e-6);
     }
+}
+
+// Of shares that fill a cell, what is left for fat is rounding of either sign.
+TEST(CellTissue, LeavesNoNegativeFat) {
+  const HermiteMesh mesh = breast_sized_mesh();
+  Volume<Fractions> voxels = ball_and_half(mesh);
+  for (std::size_t v = 0; v < voxels.values.size(); ++v) {
+    const float lesion = static_cast<float>(v % 97) / 9700;
+    voxels.values[v] = {0, 1 - lesion, lesion};
+  }
+  const CellTissue tissue(mesh, voxels);
+  const Eigen::AlignedBox3d box = box_of(mesh);
+  for (int i = 0; i < 4000; ++i) {
+    const Eigen::Vector3d place((i % 16 + 0.5) / 16, (i / 16 % 16 + 0.5) / 16, (i / 256 + 0.5) / 16);
+    const Fractions f = tissue.at(box.min() + box.sizes().cwiseProduct(place));
+    EXPECT_GE(f.fat, 0);
+    EXPECT_FALSE(std::signbit(f.fat));
+  }
 }
 
 }  // namespace
