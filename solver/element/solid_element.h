@@ -19,7 +19,7 @@ enum class PressureSpace { constant = 1, linear = 4, trilinear = 8 };
 struct SolidOptions {
   PressureSpace pressure = PressureSpace::trilinear;
   double bulk_ratio = 1e4;  ///< κ/μ [-], at least 100; 1e4 costs 0.01 % in force
-  double grad_div = 10;      ///< γ/μ [-], at least 0; keeps J near 1 where stiffness jumps
+  double grad_div = 5;      ///< γ/μ [-], at least 0; keeps J near 1 where stiffness jumps
 };
 
 /// One element's contributions to the linear system. Unknowns: tensor_basis.h.
