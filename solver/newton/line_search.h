@@ -4,7 +4,7 @@ namespace mammotwin {
 
 /// Fractions of a step to try, in search of the place where the slope along it vanishes: the whole
 /// step first; then inside the bracket between the last place short of it and the last beyond it.
-/// A trial costs a hundredth of a factorisation, so a good fraction is worth several.
+/// A trial costs a residual, the next step a factorisation, so a good fraction is worth several.
 class LineSearch {
  public:
   /// `slope`: of the energy along the step at its start.

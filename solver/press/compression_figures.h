@@ -8,7 +8,7 @@ namespace mammotwin {
 void measure_compression(const Press& press, const State& state, CompressionReport& report);
 
 /// Whether most of the tissue in front of the plates' edges went behind them. Breasts that stay keep
-/// over 0.7 of it, those that slip out under 0.25.
+/// two thirds of it or more, those that slip out under a quarter.
 bool slipped_out(const Press& press, const State& state);
 
 /// The paddle's force as the central difference of the total potential over its height, friction's
