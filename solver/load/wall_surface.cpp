@@ -13,8 +13,8 @@ namespace mammotwin {
 
 namespace {
 
-constexpr int kSamples1d = 5;        // 25 a patch find the right neighbourhood of a smooth wall
-constexpr int kProjectionSteps = 30; // Newton converges in 3 to 6
+constexpr int kProjectionSteps = 30;  // Newton converges in 3 to 6
+constexpr int kHalvings = 8;  // of a step that leads away from the point: Newton alone can cycle
 constexpr double kRimTolerance = 1e-9;
 
 /// Hermite functions continued by their tangents outside [0, 1], so that the surface is.
@@ -106,19 +106,41 @@ WallSurface::WallSurface(const HermiteMesh& mesh, const std::vector<std::pair<in
   }
 }
 
-WallSurface::Foot WallSurface::project(const Patch& patch, const Eigen::Vector3d& x) const {
-  int nearest = 0;
-  (patch.samples.colwise() - x).colwise().squaredNorm().minCoeff(&nearest);
-  Eigen::Vector2d xi(nearest % kSamples1d, nearest / kSamples1d);
-  xi /= kSamples1d - 1.0;
+WallSurface::Foot WallSurface::project_from(const Patch& patch, Eigen::Vector2d xi,
+                                            const Eigen::Vector3d& x) const {
+  SurfaceJet here = jet(patch.coefficients, xi);
   for (int step = 0; step < kProjectionSteps; ++step) {
-    const Eigen::Vector2d delta = foot_step(jet(patch.coefficients, xi), x);
+    Eigen::Vector2d delta = foot_step(here, x);
+    const double distance = (x - here.s).norm();
+    SurfaceJet there = jet(patch.coefficients, xi + delta);
+    for (int halving = 0; halving < kHalvings && (x - there.s).norm() > distance; ++halving) {
+      delta /= 2;
+      there = jet(patch.coefficients, xi + delta);
+    }
     xi += delta;
+    here = there;
     if (delta.cwiseAbs().maxCoeff() < 1e-14) break;
   }
   const Eigen::Vector2d clamped = xi.cwiseMax(0).cwiseMin(1);
   return {&patch, xi, (x - jet(patch.coefficients, clamped).s).norm(),
           (xi - clamped).cwiseAbs().maxCoeff() <= kRimTolerance};
+}
+
+/// From every sample that is nearer than its neighbours.
+WallSurface::Foot WallSurface::project(const Patch& patch, const Eigen::Vector3d& x) const {
+  const Eigen::Array<double, 1, kSamples1d * kSamples1d> flat =
+      (patch.samples.colwise() - x).colwise().squaredNorm();
+  const Eigen::Map<const Eigen::Array<double, kSamples1d, kSamples1d>> grid(flat.data());
+  Foot best{nullptr, {}, 0, false};
+  for (int j = 0; j < kSamples1d; ++j)
+    for (int i = 0; i < kSamples1d; ++i) {
+      const int i0 = std::max(i - 1, 0), i1 = std::min(i + 1, kSamples1d - 1);
+      const int j0 = std::max(j - 1, 0), j1 = std::min(j + 1, kSamples1d - 1);
+      if (grid(i, j) > grid.block(i0, j0, i1 - i0 + 1, j1 - j0 + 1).minCoeff()) continue;
+      const Foot foot = project_from(patch, Eigen::Vector2d(i, j) / (kSamples1d - 1.0), x);
+      if (!best.patch || foot.distance < best.distance) best = foot;
+    }
+  return best;
 }
 
 /// Patches are asked in the order of their boxes' distance, until no box is nearer than a foot.

@@ -23,10 +23,11 @@ class WallSurface {
   Gap gap(const Eigen::Vector3d& x) const;
 
  private:
+  static constexpr int kSamples1d = 9;  // a side of a patch
   struct Patch {
     Eigen::Matrix<double, 3, 16> coefficients;
     double orientation;  ///< +1 where s₁ x s₂ points into the tissue
-    Eigen::Matrix<double, 3, 25> samples;
+    Eigen::Matrix<double, 3, kSamples1d * kSamples1d> samples;
     Eigen::AlignedBox3d box;  ///< it lies in there
   };
   struct Foot {
@@ -35,6 +36,7 @@ class WallSurface {
     double distance;  ///< to the foot clamped to the patch [mm]
     bool inside;
   };
+  Foot project_from(const Patch& patch, Eigen::Vector2d xi, const Eigen::Vector3d& x) const;
   Foot project(const Patch& patch, const Eigen::Vector3d& x) const;
   Foot nearest_foot(const Eigen::Vector3d& x) const;
 

@@ -65,6 +65,48 @@ TEST(WallSurface, NormalAndHessianAreDerivativesOfTheGap) {
   EXPECT_GT(compared, 150);
 }
 
+/// One patch of 40 x 40 mm whose nodal derivatives are drawn, so that the surface and the speed over
+/// it vary as much as on the walls of fitted breasts.
+HermiteMesh uneven_slab(unsigned seed) {
+  HermiteMesh mesh = box_mesh({40, 40, 10}, {1, 1, 1});
+  std::mt19937 random(seed);
+  auto nodes = mesh.nodes();
+  for (auto& node : nodes)
+    for (const int parameter : {1, 2, 3})
+      for (int axis = 0; axis < 3; ++axis)
+        node(axis, parameter) += 40 * (2 * (random() / 4294967295.0) - 1);
+  return HermiteMesh(nodes, mesh.elements());
+}
+
+std::vector<MeshPoint> wall_points() {
+  std::vector<MeshPoint> points;
+  for (int k = 0; k < 21 * 21; ++k) points.push_back({0, {k % 21 / 20.0, k / 21 / 20.0, 0}});
+  return points;
+}
+
+/// Is the wall's scaled Jacobian below the 0.1 of fitted breasts?
+bool folds(const HermiteMesh& mesh) {
+  for (const MeshPoint& p : wall_points()) {
+    const Eigen::Matrix3d j = mesh.jacobian(p);
+    if (j.col(0).normalized().cross(j.col(1).normalized()).z() < 0.1) return true;
+  }
+  return false;
+}
+
+TEST(WallSurface, PointsOnUnevenPatchesAreFoundOnThem) {
+  int patches = 0;
+  for (unsigned seed = 0; seed < 1000; ++seed) {
+    const HermiteMesh mesh = uneven_slab(seed);
+    if (folds(mesh)) continue;
+    ++patches;
+    const WallSurface wall = wall_of(mesh);
+    for (const MeshPoint& p : wall_points())
+      if ((p.xi - Eigen::Vector3d(0.5, 0.5, 0)).cwiseAbs().maxCoeff() < 0.49)
+        EXPECT_NEAR(wall.gap(mesh.position(p)).gap, 0, 1e-9) << seed << ": " << p.xi;
+  }
+  EXPECT_GT(patches, 400);
+}
+
 TEST(SpringBed, PullsBackInProportion) {
   SurfaceResponse response;
   SurfacePoint point{};
