@@ -1,0 +1,57 @@
+#include "solver/press/nearby_equilibria.h"
+
+#include "solver/breast_model.h"
+
+#include <stdexcept>
+#include <utility>
+
+namespace mammotwin {
+
+/// A breast and its plates with the linear system at the solved state.
+struct NearbyEquilibria::Posed {
+  BreastModel breast;
+  PlacedPlates plates;
+  std::unique_ptr<Assembler> assembler;
+};
+
+NearbyEquilibria::NearbyEquilibria(const CompressionResult& near,
+                                   const CompressionProblem& problem,
+                                   const CompressionOptions& options)
+    : near_(near), options_(options), state_{near.deformed, near.pressure} {
+  if (near.deformed.size() != static_cast<std::size_t>(problem.mesh.mesh.num_nodes()))
+    throw std::invalid_argument("the result to start from belongs to another mesh");
+  near_.fields.clear();
+  here_ = std::make_shared<Posed>(posed(problem));
+  factor_ = std::make_shared<Cholesky>(here_->assembler->pattern(),
+                                       here_->breast.dofs->node_of_equation());
+  usable_ = factor_->factor(here_->assembler->matrix());
+}
+
+NearbyEquilibria::Posed NearbyEquilibria::posed(const CompressionProblem& problem) const {
+  CompressionProblem smooth = problem;
+  smooth.friction.coefficient = 0;
+  Posed posed{make_breast_model(smooth, options_.solid), {}, nullptr};
+  const PlateFrame frame(problem.mesh, problem.plates);
+  const PlacedPlates asked =
+      PlateWay(frame, problem, options_.moving).at(1, problem.plates.paddle_tilt);
+  const double apart = near_.plates.paddle_height - near_.plates.support_height +
+                       problem.plates.thickness - near_.report.target_thickness_mm;
+  posed.plates = frame.place(asked.support_height, asked.support_height + apart,
+                             problem.plates.paddle_tilt);
+  posed.breast.contact->plates = {posed.plates.support, posed.plates.paddle};
+  posed.breast.contact->penalty = near_.penalty;
+  posed.assembler = std::make_unique<Assembler>(*posed.breast.model, *posed.breast.dofs);
+  posed.assembler->linearise(state_, 0, {});
+  return posed;
+}
+
+NearbyEquilibria::Step NearbyEquilibria::step(const CompressionProblem& from,
+                                              const CompressionProblem& to) const {
+  if (!usable_) throw std::logic_error("no step from an equilibrium that is not stable");
+  const Posed a = posed(from), b = posed(to);
+  const Eigen::VectorXd change = factor_->solve(b.assembler->right_hand_side() -
+                                                a.assembler->right_hand_side());
+  return {here_->assembler->nodal_step(change, {}), a.plates, b.plates};
+}
+
+}  // namespace mammotwin
