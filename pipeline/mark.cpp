@@ -3,8 +3,8 @@
 #include "pipeline/frame/plain_command.h"
 #include "pipeline/registered_view.h"
 #include "pipeline/view_header.h"
+#include "registration/mark_curve.h"
 #include "registration/markups.h"
-#include "registration/ray_curve.h"
 #include "registration/simulated_mammogram.h"
 #include "registration/view_products.h"
 
@@ -69,33 +69,66 @@ MarkedView read_view(const std::string& name, const Arguments& args, const Patie
 
 json list_of(const Eigen::VectorXd& x) { return std::vector<double>(x.begin(), x.end()); }
 
-/// One mark: its curve through MRI, and seen from the other view with the ellipse at each point.
-json curve_json(const MarkedView& marked, const MarkedView& other) {
-  json points = json::array();
-  const Detector& detector = other.registered.projection.detector();
-  for (const RayPoint& p : marked.rays.curve(*marked.mark)) {
-    const Eigen::Vector2d uv = other.rays.project(p.point);
-    json point{{"height_mm", p.height_mm}, {"lps_mm", list_of(p.prone_in_lps)},
-               {"other_view_mm", list_of(uv)}};
-    if (detector.pixels) point["other_view_pixel"] = list_of(detector.image_from_detector(uv));
-    if (const auto covariance = other.registered.covariance(p.point)) {
-      const SearchEllipse ellipse = search_ellipse(*covariance, 0.9);
-      point["other_view_ellipse"] = {{"major_mm", ellipse.major_mm},
-                                     {"minor_mm", ellipse.minor_mm},
-                                     {"angle_deg", ellipse.angle_deg}};
-    }
-    points.push_back(std::move(point));
-  }
-  return {{"mark_mm", list_of(*marked.mark)}, {"curve", points}};
+MarkCurve curve_of(const MarkedView& marked, const MarkedView& other) {
+  if (!marked.mark) return {};
+  const auto& uncertainty = other.registered.uncertainty;
+  return mark_curve(marked.rays, *marked.mark, other.rays, uncertainty ? &*uncertainty : nullptr);
 }
 
-std::vector<MarkupPoint> markups_of(const MarkedView& view) {
+/// One mark: its curve through MRI, and seen from the other view with the ellipse at each point.
+json curve_json(const Eigen::Vector2d& mark, const MarkCurve& curve,
+                const Detector& other) {
+  json points = json::array();
+  for (std::size_t n = 0; n < curve.on_ray.size(); ++n) {
+    const RayPoint& p = curve.on_ray[n];
+    const auto& [uv, ellipse] = curve.in_other[n];
+    json point{{"height_mm", p.height_mm}, {"lps_mm", list_of(p.prone_in_lps)},
+               {"other_view_mm", list_of(uv)}};
+    if (other.pixels) point["other_view_pixel"] = list_of(other.image_from_detector(uv));
+    if (ellipse)
+      point["other_view_ellipse"] = {{"major_mm", ellipse->major_mm},
+                                     {"minor_mm", ellipse->minor_mm},
+                                     {"angle_deg", ellipse->angle_deg}};
+    points.push_back(std::move(point));
+  }
+  return {{"mark_mm", list_of(mark)}, {"curve", points}};
+}
+
+/// What the marks say together.
+struct Answer {
+  MarkCurve cc, mlo;
+  std::optional<ClosestApproach> both;
+};
+
+Answer answer_of(const MarkedView& cc, const MarkedView& mlo) {
+  Answer answer{curve_of(cc, mlo), curve_of(mlo, cc), {}};
+  if (cc.mark && mlo.mark)
+    answer.both = closest_approach(cc.rays, *cc.mark, answer.cc.on_ray, mlo.rays, *mlo.mark,
+                                   answer.mlo.on_ray);
+  return answer;
+}
+
+json answer_json(const Answer& answer, const MarkedView& cc, const MarkedView& mlo) {
+  json said = json::object();
+  if (cc.mark) said["cc"] = curve_json(*cc.mark, answer.cc, mlo.rays.detector());
+  if (mlo.mark) said["mlo"] = curve_json(*mlo.mark, answer.mlo, cc.rays.detector());
+  if (!cc.mark || !mlo.mark) return said;
+  said["point_lps_mm"] = answer.both ? list_of(answer.both->prone_in_lps) : json();
+  said["gap_mm"] = answer.both ? json(answer.both->gap_mm) : json();
+  return said;
+}
+
+std::vector<MarkupPoint> markups_of(const MarkedView& cc, const MarkedView& mlo,
+                                    const std::optional<ClosestApproach>& both) {
   std::vector<MarkupPoint> points;
-  if (!view.mark) return points;
-  for (const RayPoint& p : view.rays.curve(*view.mark, 2))
-    points.push_back({view.registered.projection.view().name + " " +
-                          std::to_string(static_cast<int>(std::lround(p.height_mm))) + " mm",
-                      p.prone_in_lps});
+  for (const MarkedView* view : {&cc, &mlo}) {
+    if (!view->mark) continue;
+    for (const RayPoint& p : view->rays.curve(*view->mark, 2))
+      points.push_back({view->registered.projection.view().name + " " +
+                            std::to_string(static_cast<int>(std::lround(p.height_mm))) + " mm",
+                        p.prone_in_lps});
+  }
+  if (both) points.push_back({"both", both->prone_in_lps});
   return points;
 }
 
@@ -127,22 +160,12 @@ int run(const Arguments& args) {
   const MarkedView cc = read_view("cc", args, patient, args.cc);
   const MarkedView mlo = read_view("mlo", args, patient, args.mlo);
   const auto start = std::chrono::steady_clock::now();
-  json answer = json::object();
-  if (cc.mark) answer["cc"] = curve_json(cc, mlo);
-  if (mlo.mark) answer["mlo"] = curve_json(mlo, cc);
-  std::vector<MarkupPoint> points = markups_of(cc);
-  for (MarkupPoint& point : markups_of(mlo)) points.push_back(std::move(point));
-  if (cc.mark && mlo.mark) {
-    const auto found = closest_approach(cc.rays, *cc.mark, mlo.rays, *mlo.mark);
-    answer["point_lps_mm"] = found ? list_of(found->prone_in_lps) : json();
-    answer["gap_mm"] = found ? json(found->gap_mm) : json();
-    if (found) points.push_back({"both", found->prone_in_lps});
-  }
+  const Answer answer = answer_of(cc, mlo);
   const double seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  std::cout << answer.dump(1) << std::endl;
+  std::cout << answer_json(answer, cc, mlo).dump(1) << std::endl;
   std::cerr << "mark: " << 1e3 * seconds << " ms after reading" << std::endl;
-  if (!args.markups.empty()) write_markups(args.markups, points);
+  if (!args.markups.empty()) write_markups(args.markups, markups_of(cc, mlo, answer.both));
   if (!args.picture.empty()) cc.mark ? draw(args.picture, cc, mlo) : draw(args.picture, mlo, cc);
   return 0;
 }

@@ -71,6 +71,7 @@ std::vector<RayPoint> ViewRays::curve(const Eigen::Vector2d& on_detector, double
   std::optional<MeshPoint> guess;
   for (double height = lowest_mm_; height <= highest_mm_; height += step_mm) {
     const auto found = at_height(on_detector, height, guess);
+    guess.reset();
     if (!found) continue;
     guess = found->point;
     points.push_back(*found);
@@ -100,7 +101,14 @@ std::vector<Eigen::Vector2d> curve_in_other_view(const ViewRays& marked,
 
 std::optional<ClosestApproach> closest_approach(const ViewRays& a, const Eigen::Vector2d& mark_a,
                                                 const ViewRays& b, const Eigen::Vector2d& mark_b) {
-  Pair best = nearest_samples(a.curve(mark_a, kSearchStep_mm), b.curve(mark_b, kSearchStep_mm));
+  return closest_approach(a, mark_a, a.curve(mark_a, kSearchStep_mm), b, mark_b,
+                          b.curve(mark_b, kSearchStep_mm));
+}
+
+std::optional<ClosestApproach> closest_approach(
+    const ViewRays& a, const Eigen::Vector2d& mark_a, const std::vector<RayPoint>& curve_a,
+    const ViewRays& b, const Eigen::Vector2d& mark_b, const std::vector<RayPoint>& curve_b) {
+  Pair best = nearest_samples(curve_a, curve_b);
   if (std::isinf(best.squared_distance)) return std::nullopt;
   for (int i = 0; i < kRefinements; ++i) {
     Eigen::Vector2d step = height_step(best, a.slope(mark_a, best.a), b.slope(mark_b, best.b));

@@ -37,6 +37,8 @@ class ViewRays {
   Eigen::Vector2d project(const MeshPoint& point) const;
 
   const CompressedView& view() const { return view_; }
+  const Detector& detector() const { return detector_; }
+  const HermiteMesh& compressed() const { return compressed_; }
 
  private:
   HermiteMesh prone_, compressed_;
@@ -60,5 +62,10 @@ struct ClosestApproach {
 /// Nearest points of the two marks' curves; nothing if a ray meets no breast.
 std::optional<ClosestApproach> closest_approach(const ViewRays& a, const Eigen::Vector2d& mark_a,
                                                 const ViewRays& b, const Eigen::Vector2d& mark_b);
+
+/// The same from curves that are there, in steps of a few millimetres at most.
+std::optional<ClosestApproach> closest_approach(
+    const ViewRays& a, const Eigen::Vector2d& mark_a, const std::vector<RayPoint>& curve_a,
+    const ViewRays& b, const Eigen::Vector2d& mark_b, const std::vector<RayPoint>& curve_b);
 
 }  // namespace mammotwin

@@ -16,18 +16,29 @@ Eigen::Vector3d placed(const Eigen::Vector3d& x, const ViewState& sd, int number
   return view.placed(x, ViewState::Unit(number));
 }
 
+/// A material point of other nodes than a mesh's own.
+Eigen::Vector3d position(const Nodes& nodes, const HermiteMesh::Corners& corners,
+                         const HermiteMesh::Weights& weights) {
+  Eigen::Vector3d x = Eigen::Vector3d::Zero();
+  for (int n = 0; n < 8; ++n) x += nodes[corners[n]] * weights.row(n).transpose();
+  return x;
+}
+
 }  // namespace
 
 Eigen::Matrix2d detector_covariance(const ViewUncertainty& uncertainty,
                                     const HermiteMesh& compressed, const CompressedView& view,
                                     const Detector& detector, const MeshPoint& point) {
-  const Eigen::Vector3d x = view.frame.view_from_lps(compressed.position(point));
+  const HermiteMesh::Corners& corners = compressed.corners(point.element);
+  const HermiteMesh::Weights weights = HermiteMesh::weights(point.xi);
+  const Eigen::Vector3d x =
+      view.frame.view_from_lps(position(compressed.nodes(), corners, weights));
   const Eigen::Vector2d here = detector.project(x);
   Eigen::Matrix<double, 2, kStates> J = Eigen::Matrix<double, 2, kStates>::Zero();
   for (int i = 0; i < kMechanical; ++i) {
     if (uncertainty.varied[i].empty()) continue;
-    const HermiteMesh varied(uncertainty.varied[i], compressed.elements());
-    J.col(i) = detector.project(view.frame.view_from_lps(varied.position(point))) - here;
+    const Eigen::Vector3d varied = position(uncertainty.varied[i], corners, weights);
+    J.col(i) = detector.project(view.frame.view_from_lps(varied)) - here;
   }
   for (int i = kMechanical; i < kStates; ++i)
     J.col(i) = detector.project(placed(x, uncertainty.sd, i)) - here;
