@@ -53,7 +53,7 @@ json search_json(const SearchedView& view) {
   return {{"state", state},
           {"before", figures_json(*view.before)},
           {"after", figures_json(*view.after)},
-          {"solved", view.solved},
+          {"complete", view.complete},
           {"failed_solves", view.failed_solves}};
 }
 
@@ -75,9 +75,9 @@ void judge(const SearchedView& view, std::vector<std::string>& reasons) {
   if (view.after->nipple_mm && *view.after->nipple_mm > kPoorNipple_mm)
     reasons.push_back(sentence(name, "after the search the model's nipple still lies %.1f mm off the "
                                "mammogram's", *view.after->nipple_mm));
-  if (!view.solved)
-    reasons.push_back(name + ": no equilibrium at the state that the search found; its shape is "
-                             "extrapolated from solves near the header's");
+  if (!view.complete)
+    reasons.push_back(name + ": the search stopped where no equilibrium was found, with the best state "
+                             "that it had solved");
   const ViewState sd = view.uncertainty.sd;
   for (const int i : {kThickness, kRoll, kTurn})
     if (std::abs(view.state[i]) > kFarState * sd[i])

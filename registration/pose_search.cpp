@@ -63,24 +63,40 @@ class Search {
       : views_(views), joint_(views.size(), only_rigid) {}
 
   PoseEstimate run(const std::vector<ViewState>& start, bool only_rigid) {
-    Eigen::VectorXd z = Eigen::VectorXd::Zero(joint_.size());
-    for (std::size_t v = 0; v < views_.size(); ++v) joint_.set(v, start[v], z);
+    Eigen::VectorXd z = joined(start);
     PoseEstimate estimate;
     for (const bool with_pattern : {false, true}) {
       if (with_pattern && only_rigid) break;
       descend(with_pattern, z, estimate);
     }
-    const Eigen::MatrixXd J = jacobian(z, !only_rigid);
+    describe(z, !only_rigid, estimate);
+    return estimate;
+  }
+
+  PoseEstimate at(const std::vector<ViewState>& states) {
+    PoseEstimate estimate;
+    describe(joined(states), true, estimate);
+    return estimate;
+  }
+
+ private:
+  Eigen::VectorXd joined(const std::vector<ViewState>& states) const {
+    Eigen::VectorXd z = Eigen::VectorXd::Zero(joint_.size());
+    for (std::size_t v = 0; v < views_.size(); ++v) joint_.set(v, states[v], z);
+    return z;
+  }
+
+  void describe(const Eigen::VectorXd& z, bool with_pattern, PoseEstimate& estimate) const {
+    estimate.cost = 0.5 * residuals(z, with_pattern).squaredNorm();
+    const Eigen::MatrixXd J = jacobian(z, with_pattern);
     const Eigen::MatrixXd left = (J.transpose() * J).ldlt().solve(
         Eigen::MatrixXd::Identity(joint_.size(), joint_.size()));
     for (std::size_t v = 0; v < views_.size(); ++v) {
       estimate.states.push_back(joint_.state(v, z));
       estimate.covariances.push_back(joint_.covariance(v, left));
     }
-    return estimate;
   }
 
- private:
   Eigen::VectorXd residuals(const Eigen::VectorXd& z, bool with_pattern) const {
     std::vector<Eigen::VectorXd> parts(views_.size());
     Eigen::Index size = z.size();
@@ -132,7 +148,6 @@ class Search {
       }
       if (!better || before - r.squaredNorm() < kGain * before) break;
     }
-    estimate.cost = 0.5 * r.squaredNorm();
   }
 
   const std::vector<const ViewMatch*>& views_;
@@ -144,6 +159,11 @@ class Search {
 PoseEstimate search_pose(const std::vector<const ViewMatch*>& views,
                          const std::vector<ViewState>& start, bool only_rigid) {
   return Search(views, only_rigid).run(start, only_rigid);
+}
+
+PoseEstimate pose_at(const std::vector<const ViewMatch*>& views,
+                     const std::vector<ViewState>& states) {
+  return Search(views, false).at(states);
 }
 
 Eigen::Matrix<double, kStates, kStates> prior_covariance() {

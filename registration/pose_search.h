@@ -20,6 +20,10 @@ struct PoseEstimate {
 PoseEstimate search_pose(const std::vector<const ViewMatch*>& views,
                          const std::vector<ViewState>& start, bool only_rigid = false);
 
+/// The same without a search: cost and covariances at these states.
+PoseEstimate pose_at(const std::vector<const ViewMatch*>& views,
+                     const std::vector<ViewState>& states);
+
 /// Before any mammogram: the prior, without turn and shifts, as only the breast's own frame is
 /// spoken of then.
 Eigen::Matrix<double, kStates, kStates> prior_covariance();

@@ -1,5 +1,7 @@
 #include "registration/reduced_view.h"
 
+#include "solver/press/nearby_equilibria.h"
+
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -11,6 +13,9 @@
 namespace mammotwin {
 namespace {
 
+// Of a standard deviation, to either side: a derivative. Plates must move by less than what contact
+// lets them sink in (hundredths of a mm), for beyond that the residual is not linear.
+constexpr double kNudge = 1e-4;
 constexpr double kSofter = 0.1;  // of the penalty that the compression ended with
 
 CompressionOptions soft_options() {
@@ -39,6 +44,15 @@ ReducedView::Mode mode_of(const Nodes& base, const std::optional<Nodes>& up,
   Nodes bend = combined(0.5, *up, 0.5, *down);
   add(-1, base, bend);
   return {combined(0.5, *up, -0.5, *down), bend};
+}
+
+/// The base, with no number known to have an effect.
+ReducedView unvaried_view(const NearbySolver& solver, const ViewState& sd) {
+  ReducedView reduced;
+  reduced.sd = sd;
+  reduced.base = in_view(solver.base().result.deformed, solver.base().view.frame);
+  reduced.failed_solves = 2 * kMechanical;
+  return reduced;
 }
 
 }  // namespace
@@ -94,6 +108,39 @@ std::optional<SolvedView> NearbySolver::solve(const ViewState& state) const {
   return half ? solve_from(half->result, state) : std::nullopt;
 }
 
+std::optional<Slopes> NearbySolver::slopes(const ViewState& sd) const {
+  if (!soft_base_) return std::nullopt;
+  const NearbyEquilibria nearby(soft_base_->result, problem_at_(ViewState::Zero()), soft_options());
+  if (!nearby.usable()) return std::nullopt;
+  Slopes slopes;
+  for (int i = 0; i < kMechanical; ++i) {
+    const ViewState nudge = kNudge * sd[i] * ViewState::Unit(i);
+    try {
+      slopes[i] = change_between(nearby, -nudge, nudge);
+      for (HermiteMesh::Node& node : slopes[i]) node /= 2 * kNudge;
+    } catch (const std::invalid_argument&) {  // a state in which the problem cannot be posed
+    }
+  }
+  return slopes;
+}
+
+/// Nodes as they stand in the view at `to`, less those at `from`.
+Nodes NearbySolver::change_between(const NearbyEquilibria& nearby, const ViewState& from,
+                                   const ViewState& to) const {
+  const CompressionProblem lower = problem_at_(from), upper = problem_at_(to);
+  const NearbyEquilibria::Step step = nearby.step(lower, upper);
+  const auto placed = [&](double share, const ViewState& state, const PlateOptions& options,
+                          const PlacedPlates& plates) {
+    CompressionResult result;
+    result.plates = plates;
+    const CompressedView view = view_of_plates(base_.view.name, base_.view.side,
+                                               base_.view.angle_deg + state[kRoll], options, result);
+    return in_view(combined(1, soft_base_->result.deformed, share, step.nodes), view.frame);
+  };
+  return combined(1, placed(0.5, to, upper.plates, step.to), -1,
+                  placed(-0.5, from, lower.plates, step.from));
+}
+
 Nodes ReducedView::nodes_at(const ViewState& z) const {
   Nodes x = base;
   for (int i = 0; i < kMechanical; ++i) {
@@ -113,19 +160,13 @@ void ReducedView::rebase(const ViewState& z, const Nodes& solved_in_view) {
   add(1, combined(1, solved_in_view, -1, nodes_at(z)), base);
 }
 
-ReducedView reduce_view(const NearbySolver& solver, const ViewState& sd, bool both_ways) {
+ReducedView reduce_view(const NearbySolver& solver, const ViewState& sd) {
+  ReducedView reduced = unvaried_view(solver, sd);
   const auto soft = solver.solve(ViewState::Zero());
-  ReducedView reduced;
-  reduced.sd = sd;
-  reduced.base = in_view(solver.base().result.deformed, solver.base().view.frame);
-  if (!soft) {
-    reduced.failed_solves = 2 * kMechanical;
-    return reduced;
-  }
+  if (!soft) return reduced;
   const Nodes zero = in_view(soft->result.deformed, soft->view.frame);
   std::array<std::optional<Nodes>, 2 * kMechanical> found;
   tbb::parallel_for(0, 2 * kMechanical, [&](int task) {
-    if (task % 2 && !both_ways) return;
     ViewState state = ViewState::Zero();
     state[task / 2] = task % 2 ? -sd[task / 2] : sd[task / 2];
     // Isolated: else a thread that waits inside one solve would begin another on top of it.
@@ -133,11 +174,26 @@ ReducedView reduce_view(const NearbySolver& solver, const ViewState& sd, bool bo
       if (const auto solved = solver.solve(state))
         found[task] = in_view(solved->result.deformed, solved->view.frame);
     });
-
   });
+  reduced.failed_solves = 0;
   for (int i = 0; i < kMechanical; ++i) {
     reduced.modes[i] = mode_of(zero, found[2 * i], found[2 * i + 1]);
-    reduced.failed_solves += !found[2 * i] + (both_ways && !found[2 * i + 1]);
+    reduced.failed_solves += !found[2 * i] + !found[2 * i + 1];
+  }
+  return reduced;
+}
+
+ReducedView linear_view(const NearbySolver& solver, const ViewState& sd) {
+  ReducedView reduced = unvaried_view(solver, sd);
+  const auto slopes = solver.slopes(sd);
+  if (!slopes) return reduced;
+  reduced.failed_solves = 0;
+  for (int i = 0; i < kMechanical; ++i) {
+    const Nodes& slope = (*slopes)[i];
+    if (slope.empty())
+      reduced.failed_solves += 2;
+    else
+      reduced.modes[i] = {slope, Nodes(slope.size(), HermiteMesh::Node::Zero())};
   }
   return reduced;
 }

@@ -12,6 +12,8 @@
 
 namespace mammotwin {
 
+class NearbyEquilibria;
+
 using Nodes = std::vector<HermiteMesh::Node>;
 
 /// The compression at a state; only the mechanical numbers are looked at.
@@ -27,6 +29,10 @@ struct SolvedView {
 CompressedView view_of_plates(const std::string& name, Side side, double angle_deg,
                               const PlateOptions& options, const CompressionResult& result);
 
+/// What a standard deviation of each mechanical number does to the nodes in the view's frame, to
+/// first order; empty where that is not known.
+using Slopes = std::array<Nodes, kMechanical>;
+
 /// Solves the view again near a solution that there is, with plates where the state puts them: contact
 /// is softer than in `compress` (up to 0.5 mm) and the thickness comes out, so that a solve takes a
 /// tenth. Empty where no equilibrium is found.
@@ -37,8 +43,15 @@ class NearbySolver {
   const SolvedView& base() const { return base_; }  ///< as given
   std::optional<SolvedView> solve(const ViewState& state) const;
 
+  /// At the base with the softer contact, by implicit differentiation
+  /// (solver/press/nearby_equilibria.h), for standard deviations `sd`. Empty where that equilibrium
+  /// is not there or not stable.
+  std::optional<Slopes> slopes(const ViewState& sd) const;
+
  private:
   std::optional<SolvedView> solve_from(const CompressionResult& near, const ViewState& state) const;
+  Nodes change_between(const NearbyEquilibria& nearby, const ViewState& from,
+                       const ViewState& to) const;
 
   SolvedView base_;
   ProblemAt problem_at_;
@@ -71,8 +84,12 @@ struct ReducedView {
   void rebase(const ViewState& z, const Nodes& solved_in_view);
 };
 
-/// `both_ways` false: half the solves, and b = 0; enough to say how sure a place is.
-ReducedView reduce_view(const NearbySolver& solver, const ViewState& sd, bool both_ways);
+/// From two solves a number.
+ReducedView reduce_view(const NearbySolver& solver, const ViewState& sd);
+
+/// Without a solve, a from `slopes` and b = 0: enough to say how sure a place is. A search needs
+/// more: slopes change within a fraction of a standard deviation, as points touch and let go.
+ReducedView linear_view(const NearbySolver& solver, const ViewState& sd);
 
 /// Nodes of a mesh in LPS as they stand in a view's frame.
 Nodes in_view(const Nodes& nodes, const ViewFrame& frame);

@@ -84,8 +84,8 @@ ViewMatch::ViewMatch(ReducedView view, const std::vector<FaceLabels>& faces,
   if (fractions) tissue_ = std::make_shared<DenseTissue>(view_, prone, *fractions);
 }
 
-void ViewMatch::rebase(const ViewState& z, const Nodes& solved_in_view) {
-  view_.rebase(z, solved_in_view);
+void ViewMatch::renew(ReducedView view) {
+  view_ = std::move(view);
   silhouette_.renew(view_);
   nipple_.renew(view_);
   if (tissue_) tissue_->renew(view_);

@@ -45,7 +45,9 @@ class ViewMatch {
   MatchFigures figures(const ViewState& z) const;
   const ReducedView& view() const { return view_; }
   const Detector& detector() const { return detector_; }
-  void rebase(const ViewState& z, const Nodes& solved_in_view);
+
+  /// Goes on with another reduced model of the same view.
+  void renew(ReducedView view);
 
  private:
   ReducedView view_;

@@ -6,7 +6,10 @@
 namespace mammotwin {
 namespace {
 
-constexpr int kRounds = 2;  // of searching and solving
+constexpr int kMostRounds = 5;    // of searching and solving
+constexpr int kMostHalvings = 2;  // of a step to a state where no equilibrium is found
+constexpr double kTrusted = 0.02; // of the cost: where solve and reduced model differ by less, it ends
+constexpr double kLeastGain = 0.01;  // of the cost, by a round
 
 HermiteMesh prone_of(const MeshFile& file) {
   return HermiteMesh(file.configurations.at("prone"), file.mesh.elements());
@@ -69,37 +72,35 @@ class ViewsSearch {
       : inputs_(inputs), nipple_in_lps_(nipple_in_lps), progress_(progress) {
     for (std::size_t v = 0; v < inputs.size(); ++v) {
       say(0.3 * v, "sensitivities of " + inputs[v].view.name);
-      reduced_.push_back(inputs[v].solver ? reduce_view(*inputs[v].solver, prior_sd(), inputs[v].evidence.has_value())
-                                          : unsolved(inputs[v]));
+      reduced_.push_back(reduced(inputs[v]));
       reduced_.back().elements = inputs[v].file.mesh.elements();
       solved_.push_back({{}, inputs[v].view});
     }
     for (std::size_t v = 0; v < inputs.size(); ++v)
       if (inputs[v].evidence && inputs[v].solver) add_match(v, fractions);
     states_.assign(matches_.size(), ViewState::Zero());
-    ok_.assign(inputs.size(), true);
   }
 
   std::vector<SearchedView> run() {
     std::vector<MatchFigures> before;
     for (const ViewMatch& match : matches_) before.push_back(match.figures(ViewState::Zero()));
-    PoseEstimate estimate;
-    for (int round = 0; round < kRounds && !matches_.empty(); ++round) {
-      say(0.65 + 0.15 * round, "search");
-      estimate = search_pose(pointers(), states_);
-      states_ = estimate.states;
-      for (std::size_t m = 0; m < matches_.size(); ++m) solve_again(m);
-    }
+    const PoseEstimate found = find_pose();
     std::vector<SearchedView> result;
     for (std::size_t v = 0; v < inputs_.size(); ++v) result.push_back(unmatched(v));
     for (std::size_t m = 0; m < matches_.size(); ++m)
-      result[numbers_[m]] = matched(m, before[m], estimate.covariances[m]);
+      result[numbers_[m]] = matched(m, before[m], found.covariances[m]);
     return result;
   }
 
  private:
   void say(double fraction, const std::string& what) const {
     if (progress_) progress_(fraction, what);
+  }
+
+  static ReducedView reduced(const SearchInput& input) {
+    if (!input.solver) return unsolved(input);
+    return input.evidence ? reduce_view(*input.solver, prior_sd())
+                          : linear_view(*input.solver, prior_sd());
   }
 
   static ReducedView unsolved(const SearchInput& input) {
@@ -123,14 +124,84 @@ class ViewsSearch {
     return all;
   }
 
-  void solve_again(std::size_t m) {
-    const std::size_t v = numbers_[m];
-    const ViewState state = states_[m].cwiseProduct(reduced_[v].sd);
-    const auto solved = inputs_[v].solver->solve(state);
-    ok_[v] = solved.has_value();
-    if (!solved) return;
-    solved_[v] = *solved;
-    matches_[m].rebase(states_[m], in_view(solved->result.deformed, solved->view.frame));
+  /// States with what was solved there.
+  struct Place {
+    std::vector<ViewState> states;
+    std::vector<ReducedView> reduced;  ///< about them
+    std::vector<SolvedView> solved;
+    double cost = 0;
+  };
+
+  /// A search on the reduced models, a solve where it ends, the models shifted to meet that, and
+  /// again. From the second round on only half of the way is gone: the shift is another at the
+  /// search's new end, and full steps were seen to go to and fro about where they should have ended.
+  /// The best solve is what counts; its states and models are left behind.
+  PoseEstimate find_pose() {
+    if (matches_.empty()) return {};
+    Place best = first_place(), here = best;
+    for (int round = 0; round < kMostRounds; ++round) {
+      say(0.65 + 0.15 * round / kMostRounds, "search");
+      const PoseEstimate aim = search_pose(pointers(), here.states);
+      const std::vector<ViewState> end = round == 0 ? aim.states : middle(aim.states, here.states);
+      if (!go_towards(end, best, here)) break;
+      const bool gained = here.cost < (1 - kLeastGain) * best.cost;
+      if (here.cost < best.cost) best = here;
+      if (!gained || here.cost < (1 + kTrusted) * aim.cost) break;
+    }
+    stand_at(best);
+    return pose_at(pointers(), states_);
+  }
+
+  static std::vector<ViewState> middle(std::vector<ViewState> a, const std::vector<ViewState>& b) {
+    for (std::size_t m = 0; m < a.size(); ++m) a[m] = (a[m] + b[m]) / 2;
+    return a;
+  }
+
+  Place first_place() const {
+    Place place{states_, {}, {}, pose_at(pointers(), states_).cost};
+    for (std::size_t m = 0; m < matches_.size(); ++m) {
+      place.reduced.push_back(matches_[m].view());
+      place.solved.push_back(solved_[numbers_[m]]);
+    }
+    return place;
+  }
+
+  /// Solves at `aim`, or nearer to the best where that fails; false if all fails.
+  bool go_towards(std::vector<ViewState> aim, const Place& best, Place& here) {
+    for (int halving = 0; halving <= kMostHalvings; ++halving) {
+      if (solve_at(aim, here)) {
+        stand_at(here);
+        here.cost = pose_at(pointers(), states_).cost;
+        return true;
+      }
+      aim = middle(aim, best.states);
+    }
+    complete_ = false;
+    return false;
+  }
+
+  bool solve_at(const std::vector<ViewState>& states, Place& place) const {
+    Place there{states, {}, {}, 0};
+    for (std::size_t m = 0; m < matches_.size(); ++m) {
+      const NearbySolver& solver = *inputs_[numbers_[m]].solver;
+      ReducedView reduced = matches_[m].view();
+      const ViewState state = states[m].cwiseProduct(reduced.sd);
+      const auto solved = solver.solve(state);
+      if (!solved) return false;
+      reduced.rebase(states[m], in_view(solved->result.deformed, solved->view.frame));
+      there.reduced.push_back(std::move(reduced));
+      there.solved.push_back(*solved);
+    }
+    place = std::move(there);
+    return true;
+  }
+
+  void stand_at(const Place& place) {
+    states_ = place.states;
+    for (std::size_t m = 0; m < matches_.size(); ++m) {
+      matches_[m].renew(place.reduced[m]);
+      solved_[numbers_[m]] = place.solved[m];
+    }
   }
 
   SearchedView unmatched(std::size_t v) const {
@@ -158,8 +229,7 @@ class ViewsSearch {
     const std::size_t v = numbers_[m];
     const ReducedView& reduced = matches_[m].view();
     const ViewState state = states_[m].cwiseProduct(reduced.sd);
-    CompressedView view = solved_[v].view;
-    if (!ok_[v]) view = rolled(v, state);
+    const CompressedView view = solved_[v].view;
     const HermiteMesh compressed(in_lps(reduced.nodes_at(states_[m]), view.frame),
                                  reduced.elements);
     SearchedView result{laid_on_detector(view, state), compressed,
@@ -170,18 +240,9 @@ class ViewsSearch {
     result.state_sd = covariance.diagonal().cwiseSqrt().cwiseProduct(reduced.sd);
     result.before = before;
     result.after = matches_[m].figures(states_[m]);
-    result.solved = ok_[v];
+    result.complete = complete_;
     result.failed_solves = reduced.failed_solves;
     return result;
-  }
-
-  /// The header's view at another angle and thickness, where no solve says more.
-  CompressedView rolled(std::size_t v, const ViewState& state) const {
-    CompressedView view = inputs_[v].view;
-    view.angle_deg += state[kRoll];
-    view.thickness_mm += state[kThickness];
-    view.frame.axes = view_axes(view.side, view.angle_deg);
-    return view;
   }
 
   const std::vector<SearchInput>& inputs_;
@@ -192,7 +253,7 @@ class ViewsSearch {
   std::vector<ViewMatch> matches_;
   std::vector<std::size_t> numbers_;  ///< of the view of each match
   std::vector<ViewState> states_;
-  std::vector<bool> ok_;
+  bool complete_ = true;
 };
 
 }  // namespace

@@ -22,12 +22,13 @@ struct SearchedView {
   ViewUncertainty uncertainty{};
   ViewState state = ViewState::Zero(), state_sd = ViewState::Zero();  ///< physical units
   std::optional<MatchFigures> before{}, after{};
-  bool solved = true;        ///< false: no equilibrium at the state found; the reduced model's shape
+  bool complete = true;      ///< false: it stopped where no equilibrium was found, at its best so far
   int failed_solves = 0;
 };
 
-/// Sensitivities of every view, then one search over the states of those with a mammogram, each
-/// solved again where the search ends, searched once more round that and solved at last.
+/// Sensitivities of every view, then one search over the states of those with a mammogram: each is
+/// solved where the search on the reduced models ends, which go through that solve from then on,
+/// until the solves bear out what the reduced models said or get no better.
 std::vector<SearchedView> search_views(const std::vector<SearchInput>& inputs,
                                        const Volume<Fractions>& fractions,
                                        const Eigen::Vector3d& nipple_in_lps,

@@ -1,0 +1,70 @@
+#include "registration/reduced_view.h"
+#include "tests/solver/dome_breast.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace mammotwin {
+namespace {
+
+/// A dome between plates that three of the state's numbers move.
+CompressionProblem dome_at(const ViewState& state) {
+  CompressionProblem problem = dome_problem(70 + state[kThickness]);
+  problem.mesh = dome_breast({3, 3, 1});
+  problem.plates.lift = state[kLift];
+  problem.plates.wall_clearance += state[kClearance];
+  return problem;
+}
+
+NearbySolver dome_solver() {
+  const CompressionProblem problem = dome_at(ViewState::Zero());
+  CompressionOptions options;
+  options.gap_tolerance = 0.1;
+  options.thickness_tolerance = 1;  // what it comes to is enough here
+  const CompressionResult result = compress(problem, options);
+  EXPECT_TRUE(result.report.usable()) << result.report.reason;
+  return NearbySolver({result, view_of_plates("cc", Side::left, 0, problem.plates, result)}, dome_at);
+}
+
+double largest(const Nodes& nodes) {
+  double size = 0;
+  for (const HermiteMesh::Node& node : nodes) size = std::max(size, node.col(0).norm());
+  return size;
+}
+
+// Against solves 0.01 mm to either side: the same derivative, as NearbyEquilibria's test has it, here
+// with the view's frame that moves with the plates.
+TEST(NearbySolver, SlopesAreWhatSolvesSay) {
+  const NearbySolver solver = dome_solver();
+  const ViewState sd = ViewState::Constant(0.01);
+  const auto slopes = solver.slopes(sd);
+  ASSERT_TRUE(slopes);
+  for (const int i : {kThickness, kClearance}) {
+    const auto up = solver.solve(sd[i] * ViewState::Unit(i));
+    const auto down = solver.solve(-sd[i] * ViewState::Unit(i));
+    ASSERT_TRUE(up && down) << kStateNames[i];
+    const Nodes above = in_view(up->result.deformed, up->view.frame);
+    const Nodes below = in_view(down->result.deformed, down->view.frame);
+    Nodes off = (*slopes)[i];
+    for (std::size_t n = 0; n < off.size(); ++n) off[n] -= (above[n] - below[n]) / 2;
+    EXPECT_GT(largest((*slopes)[i]), 0.003) << kStateNames[i];
+    EXPECT_LT(largest(off), 0.01 * largest((*slopes)[i])) << kStateNames[i];
+  }
+  EXPECT_EQ(largest((*slopes)[kTilt]), 0);  // of which dome_at knows nothing
+}
+
+TEST(LinearView, IsTheBaseAndItsSlopes) {
+  const NearbySolver solver = dome_solver();
+  const ReducedView view = linear_view(solver, prior_sd());
+  EXPECT_EQ(view.failed_solves, 0);
+  ViewState z = ViewState::Zero();
+  z[kThickness] = 1;
+  Nodes moved = view.nodes_at(z);
+  for (std::size_t n = 0; n < moved.size(); ++n) moved[n] -= view.base[n];
+  EXPECT_GT(largest(moved), 0.5);  // plates 3 mm farther apart
+  EXPECT_LT(largest(moved), 10);
+}
+
+}  // namespace
+}  // namespace mammotwin
