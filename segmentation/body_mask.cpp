@@ -103,7 +103,35 @@ bool touches_outside(const Volume<std::uint8_t>& body, int i, int j, int k) {
          out(i, j, k - 1) || out(i, j, k + 1);
 }
 
+/// One layer of voxels that face air and are marked.
+void peel(const Volume<std::uint8_t>& marked, Volume<std::uint8_t>& body) {
+  const Volume<std::uint8_t> before = body;
+  tbb::parallel_for(0, body.size.z(), [&](int k) {
+    for (int j = 0; j < body.size.y(); ++j)
+      for (int i = 0; i < body.size.x(); ++i)
+        if (before(i, j, k) && marked(i, j, k) && touches_outside(before, i, j, k))
+          body(i, j, k) = 0;
+  });
+}
+
 }  // namespace
+
+Volume<std::uint8_t> cut_ghosts(const Volume<float>& image, const Volume<std::uint8_t>& body,
+                                double share) {
+  constexpr int deepest_layers = 12;
+  constexpr double near_voxels = 1.5, around_mm = 8;
+  auto weight = image.like<float>(0);
+  for (std::size_t v = 0; v < body.values.size(); ++v) weight.values[v] = body.values[v];
+  const Volume<float> here =
+      weighted_smoothed(image, weight, near_voxels * mean_spacing(image.spacing));
+  const Volume<float> around = weighted_smoothed(image, weight, around_mm);
+  auto dim = body;
+  for (std::size_t v = 0; v < dim.values.size(); ++v)
+    dim.values[v] = here.values[v] < share * around.values[v];
+  auto out = body;
+  for (int layer = 0; layer < deepest_layers; ++layer) peel(dim, out);
+  return largest_component(out);
+}
 
 Volume<std::uint8_t> cut_rim(const Volume<float>& image, const Volume<std::uint8_t>& body,
                              double share) {
@@ -111,16 +139,10 @@ Volume<std::uint8_t> cut_rim(const Volume<float>& image, const Volume<std::uint8
   constexpr double pit_voxels = 2;
   const Volume<float> brightest = local_maximum(image, 2);
   auto out = body;
-  for (int layer = 0; layer < rim_voxels; ++layer) {
-    const Volume<std::uint8_t> before = out;
-    tbb::parallel_for(0, image.size.z(), [&](int k) {
-      for (int j = 0; j < image.size.y(); ++j)
-        for (int i = 0; i < image.size.x(); ++i)
-          if (before(i, j, k) && image(i, j, k) < share * brightest(i, j, k) &&
-              touches_outside(before, i, j, k))
-            out(i, j, k) = 0;
-    });
-  }
+  auto dark = body;
+  for (std::size_t v = 0; v < dark.values.size(); ++v)
+    dark.values[v] = image.values[v] < share * brightest.values[v];
+  for (int layer = 0; layer < rim_voxels; ++layer) peel(dark, out);
   out = closed(out, pit_voxels * mean_spacing(image.spacing));  // where thin skin let it through
   for (std::size_t v = 0; v < out.values.size(); ++v) out.values[v] &= body.values[v];
   tbb::parallel_for(0, image.size.z(), [&](int k) { fill_slice(out, k); });

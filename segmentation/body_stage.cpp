@@ -14,6 +14,7 @@ namespace {
 constexpr double least_width_mm = 150, least_depth_mm = 80, least_height_mm = 60;
 constexpr double before_apex_mm = 15, behind_sternum_mm = 115;
 constexpr double cut_fat_suppressed = 0.45, cut_other = 0.30;
+constexpr double ghost_share = 0.3;
 
 std::string extent_text(const Eigen::Vector3d& extent) {
   std::ostringstream text;
@@ -111,6 +112,8 @@ BodyStage find_body(const Volume<float>& image, SegmentQuality& quality) {
   stage.noise = noise;
   stage.depth = depth_below_surface(stage.body);
   stage.contrast = find_contrast(stage.image, stage.depth, stage.frame);
+  if (stage.contrast.fat_suppressed)
+    stage.body = cut_ghosts(stage.image, stage.body, ghost_share);
   stage.body = cut_rim(stage.image, stage.body,
                        stage.contrast.fat_suppressed ? cut_fat_suppressed : cut_other);
   stage.frame = find_breast_frame(stage.body);
