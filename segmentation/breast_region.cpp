@@ -110,11 +110,12 @@ Rectangle thick_box(const Columns& columns, const Rectangle& half, const Apex& a
   return box;
 }
 
-/// Pulls the edges in until no column of the rectangle has too little tissue.
+/// Pulls the edges in until no column of the rectangle has too little tissue: always the edge of
+/// whose columns most are poor, times `across` for the medial and lateral ones.
 class PullIn {
  public:
-  PullIn(const Columns& columns, Side side, const Apex& apex)
-      : columns_(columns), side_(side), apex_(apex) {}
+  PullIn(const Columns& columns, Side side, const Apex& apex, double across)
+      : columns_(columns), side_(side), apex_(apex), across_(across) {}
 
   Rectangle operator()(Rectangle box) const {
     while (pull_worst_edge(box)) {
@@ -142,7 +143,7 @@ class PullIn {
       const int k = along_z ? n : (edge == low_z ? box.k0 : box.k1);
       count += poor(box, i, k);
     }
-    return static_cast<double>(count) / total;
+    return static_cast<double>(count) / total * (along_z ? across_ : 1);
   }
 
   bool may_pull(const Rectangle& box, Edge edge) const {
@@ -196,7 +197,27 @@ class PullIn {
   const Columns& columns_;
   Side side_;
   Apex apex_;
+  double across_;
 };
+
+double tissue_in(const Columns& columns, const Rectangle& box) {
+  double sum = 0;
+  for (int k = box.k0; k <= box.k1; ++k)
+    for (int i = box.i0; i <= box.i1; ++i) sum += columns.tissue_at(i, k);
+  return sum;
+}
+
+/// The edges pulled in without preference, or, where that takes away much of a breast for a poor
+/// corner, with preference for the edges that spare it.
+Rectangle pulled_in(const Rectangle& box, const Columns& columns, Side side, const Apex& apex) {
+  constexpr double clearly_more = 1.02;
+  Rectangle best = PullIn(columns, side, apex, 1)(box);
+  for (const double across : {0.5, 2.0}) {
+    const Rectangle other = PullIn(columns, side, apex, across)(box);
+    if (tissue_in(columns, other) > clearly_more * tissue_in(columns, best)) best = other;
+  }
+  return best;
+}
 
 void hold_lesions(const Volume<std::uint8_t>& labels, const Rectangle& half, Rectangle& box) {
   for (int k = half.k0; k <= half.k1; ++k)
@@ -230,7 +251,7 @@ BreastRegion find_breast_region(const Volume<std::uint8_t>& labels, Side side) {
                              " mm of tissue at its most anterior point; expected a breast of at "
                              "least 15 mm in front of the muscle (is the side right?)");
   Rectangle box = widened(thick_box(columns, half, apex), half, labels, side);
-  box = PullIn(columns, side, apex)(box);
+  box = pulled_in(box, columns, side, apex);
   hold_lesions(labels, half, box);
 
   // Cut planes lie on the outer faces of the outermost columns.

@@ -16,8 +16,8 @@ namespace mammotwin {
 ///              by the end of the labels;
 ///   elsewhere  15 mm beyond the part around the apex where tissue is thicker than 0.35 of the
 ///              apex column;
-/// then pulled in until every column has 5 mm of tissue (8 mm in the lateral edge's), then pushed
-/// out to hold every lesion of that side.
+/// then pulled in until every column has 5 mm of tissue (8 mm in the lateral edge's), in the order
+/// that takes less tissue away, then pushed out to hold every lesion of that side.
 ///
 /// Throws std::runtime_error if that side holds no breast that stands out from the chest.
 BreastRegion find_breast_region(const Volume<std::uint8_t>& labels, Side side);

@@ -74,6 +74,24 @@ TEST(BreastRegion, IsPulledInWhereTissueIsThin) {
   EXPECT_NEAR(region.x_max, 135, 2);
 }
 
+TEST(BreastRegion, AWingedGapInACornerCostsTheUpperEdgeAndNotTheBreast) {
+  auto labels = two_breasts();
+  const double top = thick_radius(50) + 15;
+  for (int k = 0; k < labels.size.z(); ++k)
+    for (int j = 0; j < labels.size.y(); ++j)
+      for (int i = 0; i < labels.size.x(); ++i) {
+        const Eigen::Vector3d x = labels.position(i, j, k);
+        // 15 mm of the upper edge are poor and 20 mm of the medial one, which would therefore be
+        // pulled in first, and then 55 mm, past the wing.
+        const bool corner = x.z() > top - 20 && x.x() < 5 + 15;
+        const bool wing = x.z() > top - 20 && x.z() < top - 15 && x.x() < 5 + 55;
+        if ((corner || wing) && x.x() > 0) labels(i, j, k) = label::air;
+      }
+  const BreastRegion region = find_breast_region(labels, Side::left);
+  EXPECT_NEAR(region.x_min, 5, 3);
+  EXPECT_NEAR(region.z_max, top - 20, 3);
+}
+
 TEST(BreastRegion, HoldsEveryLesionOfItsSide) {
   auto labels = two_breasts();
   const Eigen::Vector3i far = labels.index({85, 55, 88}).array().round().cast<int>();
