@@ -16,8 +16,9 @@ struct SkinToFit {
 
 /// Closes the body as little as makes its skin a disc with four corners. Where that does not help
 /// (ragged labels at the end of the field of view), edges of the region are pulled in by up to
-/// 21 mm, as few and as little as will do, but never past a lesion. Throws std::runtime_error if
-/// nothing helps.
+/// 21 mm, as few and as little as will do, but never past a lesion. An edge whose plane the skin
+/// grazes, at less than some 15 degrees on the whole, is pulled in by up to 6 mm: elements there
+/// would have to be as flat. Throws std::runtime_error if nothing helps.
 SkinToFit find_skin_to_fit(const Segmentation& segmentation, const ChestWall& wall);
 
 /// The same skin with the region's edges within 40 mm of a place pulled in by `by` [mm], never
