@@ -7,7 +7,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
+#include <numeric>
 #include <optional>
 #include <stdexcept>
 
@@ -19,12 +21,18 @@ constexpr int smallest_breast_voxels = 20000;  // 20 ml at 1 mm
 constexpr double good_skin_rms_mm = 1;
 // Columns along x and z that are tried in turn for an accuracy.
 constexpr std::array<int, 7> column_counts = {4, 5, 6, 7, 8, 10, 12};
+// 20 breasts of up to 12.7 cm² a column are within 0.7 mm (95 %) with 7 x 7; one of 14.5 was not.
+constexpr double largest_column_mm2 = 1400;
+constexpr int fewest_columns = 7, most_columns = 12, layers = 2;
+// A scan is smoother than labels of 1 mm, and pressed to half its thickness such a breast strays by
+// 0.35 mm from a refined mesh with 7 x 7.
+constexpr int fewest_columns_of_scan = 9;
 
 void check(const FitOptions& o) {
   const auto require = [](bool good, const std::string& message) {
     if (!good) throw std::invalid_argument("fit: " + message);
   };
-  require(o.elements.minCoeff() >= 1 && o.elements.maxCoeff() <= 16,
+  require(!o.elements || (o.elements->minCoeff() >= 1 && o.elements->maxCoeff() <= 16),
           "elements must be 1 to 16 in each direction");
   require(!o.accuracy_mm || (*o.accuracy_mm >= 0.05 && *o.accuracy_mm <= 5),
           "accuracy must be 0.05 to 5 mm");
@@ -92,6 +100,11 @@ void measure(MeshFile& file, const Segmentation& s, const TriangleSurface& data,
   judge(r);
 }
 
+double area_mm2(const TriangleSurface& surface) {
+  const std::vector<double> areas = surface.vertex_areas();
+  return std::accumulate(areas.begin(), areas.end(), 0.0);
+}
+
 /// One breast and what its fits share.
 class BreastFit {
  public:
@@ -101,6 +114,11 @@ class BreastFit {
         wall_(find_chest_wall(s.labels, s.region)),
         skin_(scan ? scanned_skin_to_fit(scan->surface, s.region) : find_skin_to_fit(s, wall_)),
         noise_mm_(scan ? scan->noise_mm : noise_of_labels(s)) {}
+
+  /// As asked, else as many columns as the skin is large.
+  Eigen::Vector3i elements() const {
+    return options_.elements.value_or(elements_for(area_mm2(skin_.surface), scan_ != nullptr));
+  }
 
   /// Where the fit goes wrong at the region's edge, that edge is pulled in, twice at most.
   FitResult with(const Eigen::Vector3i& elements) const {
@@ -120,7 +138,7 @@ class BreastFit {
   FitResult to_accuracy(double accuracy_mm) const {
     FitResult result{{HermiteMesh({}, {}), {}, {}, {}, {}, {}}, {}};
     for (int columns : column_counts) {
-      result = with({columns, columns, options_.elements.z()});
+      result = with({columns, columns, elements().z()});
       if (result.report.usable() && error(result.report) <= accuracy_mm) return result;
     }
     if (result.report.usable()) {
@@ -200,6 +218,13 @@ FitProgress growing(const FitProgress& progress) {
 
 }  // namespace
 
+Eigen::Vector3i elements_for(double skin_area_mm2, bool scanned) {
+  const int needed = static_cast<int>(std::ceil(std::sqrt(skin_area_mm2 / largest_column_mm2)));
+  const int columns =
+      std::clamp(needed, scanned ? fewest_columns_of_scan : fewest_columns, most_columns);
+  return {columns, columns, layers};
+}
+
 FitResult fit_breast(const Segmentation& s, const FitOptions& options, const FitProgress& progress,
                      const ScannedSkin* scan) {
   check(options);
@@ -208,7 +233,7 @@ FitResult fit_breast(const Segmentation& s, const FitOptions& options, const Fit
   if (tell) tell(0, "finding skin and chest wall");
   const BreastFit fit(s, options, tell, scan);
   FitResult result =
-      options.accuracy_mm ? fit.to_accuracy(*options.accuracy_mm) : fit.with(options.elements);
+      options.accuracy_mm ? fit.to_accuracy(*options.accuracy_mm) : fit.with(fit.elements());
   if (tell) tell(1, "done");
   return result;
 }

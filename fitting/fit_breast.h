@@ -13,7 +13,9 @@ namespace mammotwin {
 using FitProgress = std::function<void(double fraction, const std::string& what)>;
 
 struct FitOptions {
-  Eigen::Vector3i elements{7, 7, 2};  ///< along x, z and from chest wall to skin, 1 to 16 each
+  /// Along x, z and from chest wall to skin, 1 to 16 each. Default: 7 x 7 x 2, a scan's 9 x 9 x 2;
+  /// more columns where one would carry more than 14 cm² of skin.
+  std::optional<Eigen::Vector3i> elements;
   /// Skin RMS, worse direction, 0.05 to 5 [mm]: with it the columns along x and z are as few of 4
   /// to 12 as reach it. Labels of 1 mm are rough by 0.25 mm themselves.
   std::optional<double> accuracy_mm;
@@ -24,6 +26,9 @@ struct FitOptions {
   /// closer with worse shaped elements.
   double shape = 0.3;
 };
+
+/// The default elements for a skin of this area; a scan's are finer.
+Eigen::Vector3i elements_for(double skin_area_mm2, bool scanned);
 
 /// A skin that was scanned, in the segmentation's frame.
 struct ScannedSkin {

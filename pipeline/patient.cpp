@@ -107,7 +107,7 @@ void Patient::declare_segment(Settings& s) {
 
 void Patient::declare_fit(Settings& s) {
   s.integers("fit.elements", fit.elements, {1, 16},
-             "elements along x, z and from chest wall to skin");
+             "elements along x, z and from chest wall to skin; default: from the skin's area");
   s.number("fit.accuracy_mm", fit.accuracy_mm, {0.05, 5, "mm"},
            "skin RMS that decides how many elements stand along x and z");
   s.number("fit.smoothing", fit.smoothing, {1e-12, 1e-3},

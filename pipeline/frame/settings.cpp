@@ -180,11 +180,12 @@ void Settings::numbers(std::string key, std::optional<Eigen::Vector2d>& variable
       [&variable] { return variable ? list_of(*variable) : json(); });
 }
 
-void Settings::integers(std::string key, Eigen::Vector3i& variable, Range range, std::string help) {
+void Settings::integers(std::string key, std::optional<Eigen::Vector3i>& variable, Range range,
+                        std::string help) {
   add(
       std::move(key), "[n1, n2, n3]", range, std::move(help),
       [&variable, range](const json& v) { variable = checked_vector<Eigen::Vector3i>(v, range); },
-      [&variable] { return list_of(variable); });
+      [&variable] { return variable ? list_of(*variable) : json(); });
 }
 
 void Settings::label_values(std::string key, std::vector<int>& variable, std::string help) {

@@ -61,7 +61,8 @@ class Settings {
              std::string help);
   void numbers(std::string key, std::optional<Eigen::Vector2d>& variable, Range range,
                std::string help);
-  void integers(std::string key, Eigen::Vector3i& variable, Range range, std::string help);
+  void integers(std::string key, std::optional<Eigen::Vector3i>& variable, Range range,
+                std::string help);
   void label_values(std::string key, std::vector<int>& variable, std::string help);
 
   template <class E>

@@ -55,7 +55,7 @@ std::vector<FitAccuracy> fit_convergence(const std::filesystem::path& scan,
     const ScannedSkin truth = skin == KnownSkin::bell ? bell(breast) : true_skin(breast, kStep_mm);
     for (const int n : columns) {
       FitOptions options;
-      options.elements = {n, n, 2};
+      options.elements = Eigen::Vector3i(n, n, 2);
       options.smoothing = kSmoothing;
       options.shape = kShape;
       const FitResult fit = fit_breast(breast.segmentation, options, {}, &truth);

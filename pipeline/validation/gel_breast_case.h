@@ -34,8 +34,8 @@ struct GelBreastResult {
   std::vector<GelBreastState> states;  ///< as scanned (0), then compressed; empty without a mesh
 };
 
-/// Elements of the model's and of the true breast's mesh. The fit's default, 7x7x2, is 0.35 mm off
-/// between the plates.
+/// Elements of the model's mesh, the fit's default for a scan, and of the true breast's. With 7x7x2
+/// the model is 0.35 mm off between the plates.
 struct GelBreastMeshes {
   Eigen::Vector3i model{9, 9, 2};
   Eigen::Vector3i truth{10, 10, 2};

@@ -18,7 +18,7 @@ namespace {
 
 FitOptions coarse() {
   FitOptions options;
-  options.elements = {4, 4, 2};
+  options.elements = Eigen::Vector3i(4, 4, 2);
   return options;
 }
 
@@ -172,9 +172,39 @@ TEST(SkinToFit, LeavesOutARaggedEdgeAndSaysSo) {
   EXPECT_THROW(find_skin_to_fit(s, find_chest_wall(s.labels, s.region)), std::runtime_error);
 }
 
+TEST(SkinToFit, LeavesOutAnEdgeThatTheSkinGrazesAndSaysSo) {
+  Segmentation s = dome_breast();
+  // A block 50 mm wide and 33 high that ends in a cliff at z = 41, half a millimetre inside.
+  s.region.z_max = 41.5;
+  for (int k = 0; k < s.labels.size.z(); ++k)
+    for (int j = 0; j < s.labels.size.y(); ++j)
+      for (int i = 0; i < s.labels.size.x(); ++i) {
+        const Eigen::Vector3d x = s.labels.position(i, j, k);
+        const bool block = std::abs(x.x()) < 25 && x.z() > 10 && x.z() < 41 && x.y() > -45;
+        if (block && s.labels(i, j, k) == label::air) s.labels(i, j, k) = label::fat;
+      }
+  const SkinToFit skin = find_skin_to_fit(s, find_chest_wall(s.labels, s.region));
+  EXPECT_NE(skin.doubt.find("upper edge"), std::string::npos) << skin.doubt;
+  // Marching cubes every 2 mm of a Gaussian of 1 mm spread the cliff over some 3 mm.
+  EXPECT_LT(skin.region.z_max, 41);
+  EXPECT_GE(skin.region.z_max, 41.5 - 6);
+  EXPECT_EQ(skin.region.x_max, s.region.x_max);
+
+  const Segmentation plain = dome_breast();
+  EXPECT_EQ(find_skin_to_fit(plain, find_chest_wall(plain.labels, plain.region)).doubt, "");
+}
+
+TEST(FitBreast, TakesAsManyColumnsAsTheSkinIsLarge) {
+  EXPECT_EQ(elements_for(30000, false), Eigen::Vector3i(7, 7, 2));
+  // 71200 mm² / 1400 mm² = 50.9, the square of 7.1.
+  EXPECT_EQ(elements_for(71200, false), Eigen::Vector3i(8, 8, 2));
+  EXPECT_EQ(elements_for(30000, true), Eigen::Vector3i(9, 9, 2));
+  EXPECT_EQ(elements_for(1e7, false), Eigen::Vector3i(12, 12, 2));
+}
+
 TEST(FitBreast, RefusesOptionsOutOfRange) {
   FitOptions options;
-  options.elements = {0, 6, 2};
+  options.elements = Eigen::Vector3i(0, 6, 2);
   EXPECT_NE(refusal(dome_breast(), options).find("elements"), std::string::npos);
   options = {};
   options.smoothing = 1;

@@ -129,7 +129,7 @@ TEST(ScannedBreast, FillsHolesAndFitsTheSkin) {
   const ScannedBreast scanned = read_scanned_breast(file_of(points, "hole.xyz"), {});
   EXPECT_EQ(scanned.holes, 1);
   FitOptions fit;
-  fit.elements = {4, 4, 2};
+  fit.elements = Eigen::Vector3i(4, 4, 2);
   const FitReport report =
       fit_breast(scanned.segmentation, fit, {}, &scanned.skin).report;
   EXPECT_TRUE(report.usable());
