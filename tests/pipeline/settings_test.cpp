@@ -27,7 +27,7 @@ class SettingsTest : public testing::Test {
   }
 
   std::optional<double> thickness_;
-  Eigen::Vector3i elements_{6, 6, 2};
+  std::optional<Eigen::Vector3i> elements_ = Eigen::Vector3i(6, 6, 2);
   Color color_ = Color::red;
   bool on_ = false;
   std::optional<Eigen::Vector3d> point_;
