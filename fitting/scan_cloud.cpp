@@ -12,6 +12,8 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <fstream>
+#include <sstream>
 #include <stdexcept>
 
 namespace mammotwin {
@@ -35,6 +37,23 @@ std::string extension_of(const std::filesystem::path& path) {
   return extension;
 }
 
+bool is_no_number(std::string word) {
+  std::transform(word.begin(), word.end(), word.begin(), ::tolower);
+  if (word[0] == '-' || word[0] == '+') word.erase(0, 1);
+  return word == "nan" || word == "inf" || word == "infinity" || word.starts_with("nan(") ||
+         word.find(".#") != std::string::npos;  // Windows writes 1.#QNAN
+}
+
+/// The first line of a text with a NaN or an infinity, at which its readers stop; 0: there is none.
+int line_with_no_number(const std::filesystem::path& path) {
+  std::ifstream file(path);
+  std::string line, word;
+  for (int number = 1; std::getline(file, line); ++number)
+    for (std::istringstream words(line); words >> word;)
+      if (is_no_number(word)) return number;
+  return 0;
+}
+
 Points read_file(const std::filesystem::path& path) {
   Points points;
   const std::string extension = extension_of(path);
@@ -45,10 +64,13 @@ Points read_file(const std::filesystem::path& path) {
     std::vector<std::vector<std::size_t>> polygons;
     read = CGAL::IO::read_polygon_soup(path.string(), points, polygons);
   }
-  if (!read)
-    throw std::runtime_error(path.string() + ": cannot be read as a scan; expected points or a "
-                             "surface in PLY, STL, OBJ, OFF or XYZ (x y z a line)");
-  return points;
+  if (read) return points;
+  if (const int line = line_with_no_number(path))
+    throw std::runtime_error(path.string() + ": line " + std::to_string(line) +
+                             " has a coordinate that is not a number (NaN or infinite); did the "
+                             "scanner mark missing points so? Take them out");
+  throw std::runtime_error(path.string() + ": cannot be read as a scan; expected points or a "
+                           "surface in PLY, STL, OBJ, OFF or XYZ (x y z a line)");
 }
 
 /// Standard deviation along the direction in which the points vary least.
