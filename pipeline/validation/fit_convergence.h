@@ -19,7 +19,7 @@ struct FitAccuracy {
   KnownSkin skin = KnownSkin::gel_breast;
   int columns = 0;
   double element_mm = 0;  ///< root of the skin's area over n²
-  double rms_mm = 0;      ///< skin to the true one, the worse direction
+  double rms_mm = 0;      ///< points of the true skin to the mesh's
 };
 
 /// Fits with as little smoothing and shape energy as the fit allows, for its own error to show;
