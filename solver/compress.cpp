@@ -287,7 +287,7 @@ CompressionResult Compression::run_from(const CompressionResult& near) {
   return {state.x, state.pressure, press_.placed(), press_.penalty(), {}, report_};
 }
 
-/// Those to try one after the other for as long as the breast slips out.
+/// Those to try one after the other until one holds the breast.
 std::vector<double> friction_coefficients(const CompressionProblem& problem,
                                           const CompressionOptions& options) {
   const double own = problem.friction.coefficient, holding = options.holding_friction;
@@ -317,8 +317,10 @@ CompressionResult compress(const CompressionProblem& problem, const CompressionO
     posed.friction.coefficient = coefficients[attempt];
     CompressionResult result = Compression(posed, options, progress, from_here).run();
     result.report.held_by_friction = attempt > 0 ? coefficients[attempt] : 0;
-    if (!result.report.slipped_out || attempt + 1 == coefficients.size()) return result;
-    if (progress) progress(0, "slipped out; once more with more friction");
+    if (result.report.usable() || attempt + 1 == coefficients.size()) return result;
+    if (progress)
+      progress(0, std::string(result.report.slipped_out ? "slipped out" : "no equilibrium") +
+                      "; once more with more friction");
     from_here.from = nullptr;
   }
 }

@@ -92,9 +92,10 @@ struct CompressionOptions {
   double first_step = 1;             ///< of the way, in (0, 1]
   double longest_move = 10;          ///< of a plate in one load step [mm] > 0
   double smallest_step = 1.0 / 64;   ///< give up below this part of the way
-  int max_iterations = 1000;          ///< Newton iterations in all
-  /// A breast that slips out from between frictionless plates is pressed again with this
-  /// coefficient of friction, then with twice it, and the report says so; 0: it is not. In [0, 1].
+  int max_iterations = 500;          ///< Newton iterations in all, of each attempt
+  /// A breast that slips out from between frictionless plates, or finds no equilibrium there, is
+  /// pressed again with this coefficient of friction, then with twice it, and the report says so;
+  /// 0: it is not. In [0, 1].
   double holding_friction = 0.2;
 };
 
@@ -125,7 +126,7 @@ struct CompressionReport {
   double max_penetration_mm = 0;
   double retained_fraction = 1;    ///< of the tissue in front of the plates' edges, how much stays
   bool slipped_out = false;        ///< backwards from between the plates
-  double held_by_friction = 0;     ///< coefficient that was needed against that; 0: none
+  double held_by_friction = 0;     ///< coefficient of friction that was needed; 0: none
   double wall_gap_mm = 0;          ///< largest distance of the chest-wall face from its surface
   double seconds = 0;
   int dof = 0;

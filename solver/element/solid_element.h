@@ -44,7 +44,7 @@ struct ReferenceSystem {
 
 /// Mixed displacement-pressure element on a tri-cubic Hermite hexahedron:
 ///
-///     Π(x, p) = ∫ W(F) + p (J − 1) − p²/(2κ) + γ/4 (J² − 1 − 2 ln J)  dV
+///     Π(x, p) = ∫ W(F) + p (J − 1) − p²/(2κ) + U(J)  dV
 ///
 /// stationary in x and p (design, section 3). The last term is the grad-div stabilisation: γ/2 (J − 1)²
 /// near J = 1, growing without bound towards J = 0; it vanishes at the exact solution. 4 x 4 x 4
