@@ -80,8 +80,8 @@ Outcome judge_compression(const CompressionReport& r, double angle_deg, bool ass
         sentence("a plate went %.3f mm into the breast; expected under %.1f mm",
                  r.max_penetration_mm, limits::penetration_mm));
   doubt(r.held_by_friction > 0,
-        sentence("between plates without friction the breast slips out; a friction coefficient of "
-                 "%.2f was taken to hold it",
+        sentence("between plates without friction the breast slips out or finds no equilibrium; a "
+                 "friction coefficient of %.2f was taken to hold it",
                  r.held_by_friction, 0));
   doubt(r.J_within_half < limits::share_of_sane_J,
         sentence("volume is locally kept within half at %.1f %% of the points; expected %.0f %%",

@@ -116,8 +116,8 @@ void declare_compression(Settings& s, CompressionSettings& c) {
   s.number("compress.friction_coefficient", c.friction.coefficient, {0, 1},
            "Coulomb friction with the plates");
   s.number("compress.holding_friction", c.options.holding_friction, {0, 1},
-           "with which a breast that slips out from between plates without friction is pressed again, "
-           "then with twice it; 0: it is not");
+           "with which a breast that plates without friction do not hold is pressed again, then with "
+           "twice it; 0: it is not");
   s.number("compress.friction_slip_mm", c.friction.slip, {0.001, 1, "mm"},
            "slip up to which friction is elastic");
   s.number("compress.gap_tolerance_mm", c.options.gap_tolerance, {0.0001, 0.1, "mm"},
