@@ -22,7 +22,7 @@ unexport MAKEFLAGS MAKEOVERRIDES
 
 .PHONY: help patient segment fit unload compress register report slicer synthesize cohort verify-results build \
         evaluate-segmentation evaluate-fitting evaluate-compression evaluate-unload evaluate-registration \
-        evaluate-niftysim evaluate-victre validate bench \
+        evaluate-niftysim evaluate-victre validate bench chain programs configured \
         install docs test clean
 .DEFAULT_GOAL := help
 
@@ -57,53 +57,56 @@ help:
 	@echo 'RESULTS=folder         where results go (default results)'
 	@echo 'FORCE=1                runs stages that are up to date, too'
 
-patient segment fit unload compress register report slicer synthesize: build
+patient segment fit unload compress register report slicer synthesize: chain
 	@pipeline/run_patient.sh $@
 
-cohort: build
+cohort: chain
 	@pipeline/cohort/run_cohort.sh
 
-evaluate-segmentation: build
+evaluate-segmentation: programs
 	@"$$BIN/mammotwin-evaluate-segmentation" "$$RESULTS/evaluation/segmentation.json" --cases "$$CASES" \
 	  $${SYNTHETIC:+--synthetic "$$SYNTHETIC"} $${JOBS:+--jobs "$$JOBS"} $${ONLY:+--only "$$ONLY"}
 
-evaluate-fitting: build
+evaluate-fitting: programs
 	@"$$BIN/mammotwin-evaluate-fitting" "$$CASES" "$$RESULTS/evaluation/fitting.json"
 
-evaluate-unload: build
+evaluate-unload: programs
 	@"$$BIN/mammotwin-evaluate-unload" "$$CASES" "$$RESULTS/evaluation/unload.json" --views
 
-evaluate-compression: build
+evaluate-compression: programs
 	@"$$BIN/mammotwin-evaluate-compression" "$$RESULTS/evaluation/compression.json" --cases "$$CASES" \
 	  $${SYNTHETIC:+--synthetic "$$SYNTHETIC"} $${JOBS:+--jobs "$$JOBS"} $${ONLY:+--only "$$ONLY"}
 
-evaluate-registration: build
+evaluate-registration: programs
 	@"$$BIN/mammotwin-evaluate-registration" "$$RESULTS/evaluation/registration.json" \
 	  $${SYNTHETIC:+--synthetic "$$SYNTHETIC"} $${JOBS:+--jobs "$$JOBS"}
 
-validate: build
+validate: programs
 	@"$$BIN/mammotwin-validate" sample_data/gel_cylinder "$$RESULTS/gel_cylinder/validation.json"
 	@"$$BIN/mammotwin-validate-gel-breast" sample_data/gel_breast/scan.ply "$$RESULTS/gel_breast/validation.json"
 
-evaluate-niftysim: build
+evaluate-niftysim: programs
 	@"$$BIN/mammotwin-evaluate-niftysim" "$$CASES/breast_ct_compression" "$$RESULTS/evaluation/niftysim.json"
 
-evaluate-victre: build
+evaluate-victre: programs
 	@"$$BIN/mammotwin-evaluate-victre" "$$CASES/victre" "$$RESULTS/evaluation/victre.json"
 
-bench: build
+bench: programs
 	@ninja -C build/release --quiet solver_benchmarks
 	@"$$BIN/solver_benchmarks"
 
-verify-results: build
+verify-results: chain
 	@pipeline/cohort/verify_patient.sh
 
-build:
+# A patient needs the chain of stages only; evaluations, all programs; tests, everything.
+chain programs build: configured
+	@ninja -C build/release --quiet $(if $(filter build,$@),all,$@)
+
+configured:
 	@pipeline/install/ensure_packages.sh
 	@test -f build/release/build.ninja || cmake --preset release
-	@ninja -C build/release --quiet
 
-docs: build
+docs: configured
 	@ninja -C build/release --quiet site
 
 test: build

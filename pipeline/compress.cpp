@@ -20,9 +20,10 @@ struct Arguments {
 };
 
 void declare(StageDeclaration& stage, Arguments& args) {
-  stage.app().add_option("view", args.view, "which view of patient.toml")
-      ->required()
-      ->check(CLI::IsMember({"cc", "mlo"}));
+  stage.command()
+      .option("view", args.view, "which view of patient.toml")
+      .required()
+      .one_of({"cc", "mlo"});
   stage.input("segmentation", args.segmentation, "tissue labels from segment (.seg.nrrd)");
   stage.input("fractions", args.fractions, "tissue fractions from segment (.nrrd)");
   stage.input("mesh", args.mesh, "Hermite mesh from unload, or from fit (.vtu)");

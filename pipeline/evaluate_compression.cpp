@@ -1,6 +1,5 @@
 // evaluate-compression: compresses a drawn population and patients' breasts, unattended -> one table.
 
-#include <CLI/CLI.hpp>
 #include <atomic>
 #include <iostream>
 #include <mutex>
@@ -9,7 +8,7 @@
 #include "pipeline/evaluate/breast_inputs.h"
 #include "pipeline/evaluate/compression_row.h"
 #include "pipeline/evaluate/compression_summary.h"
-#include "pipeline/frame/plain_command.h"
+#include "pipeline/frame/command_line.h"
 #include "pipeline/frame/products.h"
 
 namespace mammotwin {
@@ -24,26 +23,26 @@ struct Arguments {
   bool refit = false;
 };
 
-void declare(CLI::App& app, Arguments& args) {
-  app.add_option("table", args.table,
+void declare(CommandLine& command, Arguments& args) {
+  command.option("table", args.table,
                  "compression.json to write; inputs and results of each breast go to the folder "
                  "compression beside it")
-      ->required();
-  app.add_option("--synthetic", args.synthetic, "breasts of the population, each in both views")
-      ->check(CLI::Range(0, 10000))
-      ->capture_default_str();
-  app.add_option("--first", args.first, "the first of them")
-      ->check(CLI::Range(0, 10000))
-      ->capture_default_str();
-  app.add_option("--cases", args.cases, "folder with label_maps/*.nii.gz (none: no patients)");
-  app.add_option("--only", args.only, "breasts whose name contains this (text)");
-  app.add_option("--jobs", args.jobs, "breasts at a time, each on all cores [1 to 64]")
-      ->check(CLI::Range(1, 64))
-      ->capture_default_str();
-  app.add_option("--limit", args.most_cpu_seconds, "a compression is given up after this [s of CPU]")
-      ->check(CLI::Range(1, 1000000))
-      ->capture_default_str();
-  app.add_flag("--refit", args.refit, "segment and fit again what lies there already");
+      .required();
+  command.option("--synthetic", args.synthetic, "breasts of the population, each in both views")
+      .between(0, 10000)
+      .with_default();
+  command.option("--first", args.first, "the first of them")
+      .between(0, 10000)
+      .with_default();
+  command.option("--cases", args.cases, "folder with label_maps/*.nii.gz (none: no patients)");
+  command.option("--only", args.only, "breasts whose name contains this (text)");
+  command.option("--jobs", args.jobs, "breasts at a time, each on all cores [1 to 64]")
+      .between(1, 64)
+      .with_default();
+  command.option("--limit", args.most_cpu_seconds, "a compression is given up after this [s of CPU]")
+      .between(1, 1000000)
+      .with_default();
+  command.flag("--refit", args.refit, "segment and fit again what lies there already");
 }
 
 std::vector<EvaluatedBreast> breasts_of(const Arguments& args) {

@@ -1,10 +1,9 @@
 // evaluate-fitting: fits every breast of a folder of cases, unattended -> one table.
 
-#include <CLI/CLI.hpp>
 #include <iostream>
 
 #include "pipeline/evaluate/fitting_row.h"
-#include "pipeline/frame/plain_command.h"
+#include "pipeline/frame/command_line.h"
 #include "pipeline/frame/products.h"
 
 namespace mammotwin {
@@ -19,16 +18,16 @@ struct Arguments {
   FitRun fit;
 };
 
-void declare(CLI::App& app, Arguments& args) {
-  app.add_option("cases", args.cases, "folder with label_maps/*.nii.gz and mimbcd_*/mri")
-      ->required()
-      ->check(CLI::ExistingDirectory);
-  app.add_option("table", args.table,
+void declare(CommandLine& command, Arguments& args) {
+  command.option("cases", args.cases, "folder with label_maps/*.nii.gz and mimbcd_*/mri")
+      .required()
+      .existing_folder();
+  command.option("table", args.table,
                  "fitting.json to write; each breast's files go to the folder fitting beside it")
-      ->required();
-  app.add_option("--only", args.only, "breasts whose name-side contains this (text)");
-  app.add_flag("!--keep", args.fit.again, "do not fit again what is up to date (its times stay)");
-  app.add_option("--fit", args.fit.options, "options of mammotwin-fit (such as --fit=--accuracy-mm --fit=0.3)");
+      .required();
+  command.option("--only", args.only, "breasts whose name-side contains this (text)");
+  command.flag("!--keep", args.fit.again, "do not fit again what is up to date (its times stay)");
+  command.option("--fit", args.fit.options, "options of mammotwin-fit (such as --fit=--accuracy-mm --fit=0.3)");
 }
 
 void say(const json& row) {

@@ -1,11 +1,10 @@
 // evaluate-niftysim: a breast that NiftySim compressed, compressed by our solver -> how far apart
 // its nodes end.
 
-#include <CLI/CLI.hpp>
 #include <iostream>
 
 #include "pipeline/evaluate/niftysim/comparison.h"
-#include "pipeline/frame/plain_command.h"
+#include "pipeline/frame/command_line.h"
 #include "pipeline/frame/products.h"
 
 namespace mammotwin {
@@ -19,24 +18,24 @@ struct Arguments {
   bool no_skin = false, free_roll = false;
 };
 
-void declare(CLI::App& app, Arguments& args) {
-  app.add_option("folder", args.folder, "with volmesh3-model.xml and volmesh3_compressed.vtk")
-      ->required()
-      ->check(CLI::ExistingDirectory);
-  app.add_option("table", args.table, "niftysim.json to write")->required();
-  app.add_option("--core", args.options.elements.core,
+void declare(CommandLine& command, Arguments& args) {
+  command.option("folder", args.folder, "with volmesh3-model.xml and volmesh3_compressed.vtk")
+      .required()
+      .existing_folder();
+  command.option("table", args.table, "niftysim.json to write").required();
+  command.option("--core", args.options.elements.core,
                  "elements along x and y in the mesh's core, even [2 to 12]")
-      ->check(CLI::Range(2, 12))
-      ->capture_default_str();
-  app.add_option("--shell", args.options.elements.shell, "elements from core to skin [1 to 6]")
-      ->check(CLI::Range(1, 6))
-      ->capture_default_str();
-  app.add_option("--grad-div", args.options.grad_div, "gamma over mu [0 to 100]")
-      ->check(CLI::Range(0, 100))
-      ->capture_default_str();
-  app.add_flag("--no-skin", args.no_skin, "leave the skin's membrane out");
-  app.add_flag("--free-roll", args.free_roll, "do not hold the breast at NiftySim's roll");
-  app.add_option("--mesh", args.mesh, "compressed mesh to write (.vtu)");
+      .between(2, 12)
+      .with_default();
+  command.option("--shell", args.options.elements.shell, "elements from core to skin [1 to 6]")
+      .between(1, 6)
+      .with_default();
+  command.option("--grad-div", args.options.grad_div, "gamma over mu [0 to 100]")
+      .between(0, 100)
+      .with_default();
+  command.flag("--no-skin", args.no_skin, "leave the skin's membrane out");
+  command.flag("--free-roll", args.free_roll, "do not hold the breast at NiftySim's roll");
+  command.option("--mesh", args.mesh, "compressed mesh to write (.vtu)");
 }
 
 int run(Arguments args) {

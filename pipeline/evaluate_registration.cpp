@@ -1,6 +1,5 @@
 // evaluate-registration: synthetic patients with known marks, from MRI and mammograms -> one table.
 
-#include <CLI/CLI.hpp>
 #include <atomic>
 #include <iostream>
 #include <mutex>
@@ -9,7 +8,7 @@
 
 #include "pipeline/evaluate/registration_case.h"
 #include "pipeline/evaluate/registration_rows.h"
-#include "pipeline/frame/plain_command.h"
+#include "pipeline/frame/command_line.h"
 #include "pipeline/frame/products.h"
 
 namespace mammotwin {
@@ -24,20 +23,20 @@ struct Arguments {
   bool judge = false;
 };
 
-void declare(CLI::App& app, Arguments& args) {
-  app.add_option("table", args.table,
+void declare(CommandLine& command, Arguments& args) {
+  command.option("table", args.table,
                  "registration.json to write; each patient's files go to the folder registration beside it")
-      ->required();
-  app.add_option("--synthetic", args.synthetic, "patients")
-      ->check(CLI::Range(1, 10000))
-      ->capture_default_str();
-  app.add_option("--first", args.first, "the first of them")
-      ->check(CLI::Range(0, 10000))
-      ->capture_default_str();
-  app.add_option("--jobs", args.jobs, "patients at a time, each on all cores [1 to 64]")
-      ->check(CLI::Range(1, 64))
-      ->capture_default_str();
-  app.add_flag("--judge", args.judge, "judge what lies there, without making or running anything");
+      .required();
+  command.option("--synthetic", args.synthetic, "patients")
+      .between(1, 10000)
+      .with_default();
+  command.option("--first", args.first, "the first of them")
+      .between(0, 10000)
+      .with_default();
+  command.option("--jobs", args.jobs, "patients at a time, each on all cores [1 to 64]")
+      .between(1, 64)
+      .with_default();
+  command.flag("--judge", args.judge, "judge what lies there, without making or running anything");
 }
 
 json evaluate(int number, const fs::path& folder, bool judge) {

@@ -1,6 +1,5 @@
 // evaluate-segmentation: segments breasts whose truth is known -> one table.
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <atomic>
 #include <fstream>
@@ -10,6 +9,7 @@
 #include <thread>
 
 #include "pipeline/evaluate/segmentation_row.h"
+#include "pipeline/frame/command_line.h"
 
 namespace mammotwin {
 namespace {
@@ -20,18 +20,18 @@ struct Arguments {
   int synthetic = 20, jobs = 1;
 };
 
-void declare(CLI::App& app, Arguments& args) {
-  app.add_option("table", args.table, "segmentation.json to write")->required();
-  app.add_option("--synthetic", args.synthetic, "synthetic patients, each of another seed")
-      ->check(CLI::Range(0, 1000))
-      ->capture_default_str();
-  app.add_option("--cases", args.cases,
+void declare(CommandLine& command, Arguments& args) {
+  command.option("table", args.table, "segmentation.json to write").required();
+  command.option("--synthetic", args.synthetic, "synthetic patients, each of another seed")
+      .between(0, 1000)
+      .with_default();
+  command.option("--cases", args.cases,
                  "folder with label_maps/*_labels.nii.gz: MRI is simulated from them, too");
-  app.add_option("--only", args.only, "cases whose name contains one of these (texts)");
-  app.add_option("--keep", args.keep, "folder for each case's image, true and found labels");
-  app.add_option("--jobs", args.jobs, "cases at a time, about 1 GB each")
-      ->check(CLI::Range(1, 64))
-      ->capture_default_str();
+  command.option("--only", args.only, "cases whose name contains one of these (texts)");
+  command.option("--keep", args.keep, "folder for each case's image, true and found labels");
+  command.option("--jobs", args.jobs, "cases at a time, about 1 GB each")
+      .between(1, 64)
+      .with_default();
 }
 
 std::vector<SegmentationCase> chosen_cases(const Arguments& args) {
@@ -80,14 +80,7 @@ int run(const Arguments& args) {
 
 int main(int argc, char** argv) {
   using namespace mammotwin;
-  CLI::App app{"segments breasts whose truth is known and writes one table"};
-  Arguments args;
-  declare(app, args);
-  CLI11_PARSE(app, argc, argv);
-  try {
-    return run(args);
-  } catch (const std::exception& error) {
-    std::cerr << "evaluate-segmentation: " << error.what() << "\n";
-    return 1;
-  }
+  return run_plain_command<Arguments>(
+      argc, argv, "evaluate-segmentation",
+      "segments breasts whose truth is known and writes one table", declare, run);
 }

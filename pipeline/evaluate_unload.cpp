@@ -1,13 +1,12 @@
 // evaluate-unload: unloads patients' breasts with three stiffnesses, and says what it changes.
 
-#include <CLI/CLI.hpp>
 #include <fstream>
 #include <iostream>
 
 #include "pipeline/evaluate/breast_inputs.h"
 #include "pipeline/evaluate/stage_command.h"
 #include "pipeline/evaluate/unload_rows.h"
-#include "pipeline/frame/plain_command.h"
+#include "pipeline/frame/command_line.h"
 #include "pipeline/frame/products.h"
 
 namespace mammotwin {
@@ -24,16 +23,16 @@ struct Arguments {
   bool views = false;
 };
 
-void declare(CLI::App& app, Arguments& args) {
-  app.add_option("cases", args.cases, "folder with label_maps/*.nii.gz and mimbcd_*/mri")
-      ->required()
-      ->check(CLI::ExistingDirectory);
-  app.add_option("table", args.table,
+void declare(CommandLine& command, Arguments& args) {
+  command.option("cases", args.cases, "folder with label_maps/*.nii.gz and mimbcd_*/mri")
+      .required()
+      .existing_folder();
+  command.option("table", args.table,
                  "unload.json to write; inputs of each breast go to the folder compression beside it, "
                  "shared with evaluate-compression")
-      ->required();
-  app.add_option("--only", args.only, "breasts whose name contains this (text)");
-  app.add_flag("--views", args.views, "compress with and without unloading, too");
+      .required();
+  command.option("--only", args.only, "breasts whose name contains this (text)");
+  command.flag("--views", args.views, "compress with and without unloading, too");
 }
 
 /// A patient's MRI, segmented round the radiologist's first lesion and fitted.

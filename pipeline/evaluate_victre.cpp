@@ -1,10 +1,9 @@
 // evaluate-victre: VICTRE's phantom, compressed by FEBio, compressed by our solver -> overlap.
 
-#include <CLI/CLI.hpp>
 #include <iostream>
 
 #include "pipeline/evaluate/victre/victre_comparison.h"
-#include "pipeline/frame/plain_command.h"
+#include "pipeline/frame/command_line.h"
 #include "pipeline/frame/products.h"
 
 namespace mammotwin {
@@ -17,17 +16,17 @@ struct Arguments {
   HalfBallElements elements;
 };
 
-void declare(CLI::App& app, Arguments& args) {
-  app.add_option("folder", args.folder, "with p_1 and pc_1 (.mhd, .raw.gz)")
-      ->required()
-      ->check(CLI::ExistingDirectory);
-  app.add_option("table", args.table, "victre.json to write")->required();
-  app.add_option("--core", args.elements.core, "elements along x and y in the core, even [2 to 12]")
-      ->check(CLI::Range(2, 12))
-      ->capture_default_str();
-  app.add_option("--shell", args.elements.shell, "elements from core to skin [1 to 6]")
-      ->check(CLI::Range(1, 6))
-      ->capture_default_str();
+void declare(CommandLine& command, Arguments& args) {
+  command.option("folder", args.folder, "with p_1 and pc_1 (.mhd, .raw.gz)")
+      .required()
+      .existing_folder();
+  command.option("table", args.table, "victre.json to write").required();
+  command.option("--core", args.elements.core, "elements along x and y in the core, even [2 to 12]")
+      .between(2, 12)
+      .with_default();
+  command.option("--shell", args.elements.shell, "elements from core to skin [1 to 6]")
+      .between(1, 6)
+      .with_default();
 }
 
 int run(const Arguments& args) {

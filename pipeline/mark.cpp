@@ -1,6 +1,6 @@
 // mark: marks on mammograms of a registered patient -> where they can be in MRI and in the other view.
 
-#include "pipeline/frame/plain_command.h"
+#include "pipeline/frame/command_line.h"
 #include "pipeline/registered_view.h"
 #include "pipeline/view_header.h"
 #include "registration/mark_curve.h"
@@ -24,17 +24,17 @@ struct Arguments {
   bool millimetres = false;
 };
 
-void declare(CLI::App& app, Arguments& args) {
-  app.add_option("results", args.results, "folder of a patient that mammotwin-register has finished")
-      ->required()
-      ->check(CLI::ExistingDirectory);
-  app.add_option("--cc", args.cc, "mark on the CC view: column, row")->expected(2);
-  app.add_option("--mlo", args.mlo, "mark on the MLO view: column, row")->expected(2);
-  app.add_flag("--mm", args.millimetres, "marks are u, v on the detector [mm]");
-  app.add_option("--patient", args.patient, "patient.toml, for the detectors' geometry")
-      ->check(CLI::ExistingFile);
-  app.add_option("--markups", args.markups, "curves and point for 3D Slicer to write (.mrk.json)");
-  app.add_option("--picture", args.picture,
+void declare(CommandLine& command, Arguments& args) {
+  command.option("results", args.results, "folder of a patient that mammotwin-register has finished")
+      .required()
+      .existing_folder();
+  command.option("--cc", args.cc, "mark on the CC view: column, row").values(2);
+  command.option("--mlo", args.mlo, "mark on the MLO view: column, row").values(2);
+  command.flag("--mm", args.millimetres, "marks are u, v on the detector [mm]");
+  command.option("--patient", args.patient, "patient.toml, for the detectors' geometry")
+      .existing_file();
+  command.option("--markups", args.markups, "curves and point for 3D Slicer to write (.mrk.json)");
+  command.option("--picture", args.picture,
                  "other view with the curve of one mark to write (.png, 0.5 mm pixels)");
 }
 

@@ -32,10 +32,10 @@ void declare(StageDeclaration& stage, Arguments& args) {
     for (const char* key : {".detector.", ".mammogram", ".nipple_pixel"})
       stage.options_from(std::string("views.") + view + key, false);
   stage.options_from("register.", true);
-  stage.app()
-      .add_option("--landmarks", args.landmarks,
-                  "points found in MRI and mammograms (.csv): print how far predictions are off")
-      ->check(CLI::ExistingFile);
+  stage.command()
+      .option("--landmarks", args.landmarks,
+              "points found in MRI and mammograms (.csv): print how far predictions are off")
+      .existing_file();
 }
 
 StagePlan plan(const Arguments& args, const Patient& patient) {

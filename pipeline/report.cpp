@@ -15,11 +15,11 @@ struct Arguments {
 };
 
 void declare(StageDeclaration& stage, Arguments& args) {
-  stage.app().add_option("results", args.results, "folder with a patient's results")
-      ->required()
-      ->check(CLI::ExistingDirectory);
+  stage.command().option("results", args.results, "folder with a patient's results")
+      .required()
+      .existing_folder();
   stage.product("page", args.page, "page to write (.html)");
-  stage.app().add_flag("--picture", args.picture, "write the figures as picture.png beside it, too");
+  stage.command().flag("--picture", args.picture, "write the figures as picture.png beside it, too");
 }
 
 bool is_input(const std::filesystem::path& file, const std::filesystem::path& page) {

@@ -14,9 +14,9 @@ struct Arguments {
 };
 
 void declare(StageDeclaration& stage, Arguments& args) {
-  stage.app().add_option("results", args.results, "folder with a patient's results")
-      ->required()
-      ->check(CLI::ExistingDirectory);
+  stage.command().option("results", args.results, "folder with a patient's results")
+      .required()
+      .existing_folder();
   stage.product("scene", args.scene, "scene to write in that folder (.mrml; scene_*.vtp beside it)");
 }
 

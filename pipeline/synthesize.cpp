@@ -87,21 +87,19 @@ int synthesize(int argc, char** argv) {
   Arguments args;
   Settings settings;
   declare(settings, args);
-  CLI::App app("mammotwin-synthesize: a synthetic patient with known truth, for tests and trials.");
-  StageDeclaration declaration(app, settings);
+  CommandLine command(
+      "mammotwin-synthesize: a synthetic patient with known truth, for tests and trials.");
+  StageDeclaration declaration(command, settings);
   declaration.product("folder", args.folder,
                       "to write patient.toml, mri.nrrd, truth.json and truth_labels.nrrd in");
   declaration.options_from("", false);
-  app.add_flag("--hang", args.hang,
+  command.flag("--hang", args.hang,
                "write truth_unloaded.vtu, too: the shape that gravity turns into this patient's breast");
-  app.add_option("--picture", args.picture, "PNG to draw slices through a lesion in");
-  app.set_version_flag("--version", std::string(MAMMOTWIN_VERSION));
+  command.option("--picture", args.picture, "PNG to draw slices through a lesion in");
+  if (const auto code = command.parse(argc, argv)) return *code;
   try {
-    app.parse(argc, argv);
     for (const auto& given : declaration.given())
       settings.assign_text(given.flag, given.key, given.text);
-  } catch (const CLI::ParseError& e) {
-    return app.exit(e) == 0 ? 0 : bad_usage;
   } catch (const BadSetting& e) {
     std::cerr << "synthesize: " << e.what() << "\n";
     return bad_usage;

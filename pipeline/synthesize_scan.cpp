@@ -1,25 +1,32 @@
 // synthesize-scan: the laser scan of a mannequin-like gel breast.
 
+#include "pipeline/frame/command_line.h"
 #include "pipeline/synthesize/gel_breast.h"
 
-#include <CLI/CLI.hpp>
+namespace mammotwin {
+namespace {
 
-#include <iostream>
-
-int main(int argc, char** argv) {
-  CLI::App app("Writes the simulated laser scan of a gel breast (noise 0.3 mm, holes, outliers)");
+struct Arguments {
   std::filesystem::path scan;
   int seed = 1;
-  app.add_option("scan", scan, "points to write (.ply)")->required();
-  app.add_option("--seed", seed, "of the random numbers")->capture_default_str();
-  try {
-    app.parse(argc, argv);
-    mammotwin::write_point_ply(scan, mammotwin::gel_breast_scan(seed));
-    return 0;
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) ? 2 : 0;
-  } catch (const std::exception& error) {
-    std::cerr << "synthesize-scan: " << error.what() << std::endl;
-    return 1;
-  }
+};
+
+void declare(CommandLine& command, Arguments& args) {
+  command.option("scan", args.scan, "points to write (.ply)").required();
+  command.option("--seed", args.seed, "of the random numbers").with_default();
+}
+
+int run(const Arguments& args) {
+  write_point_ply(args.scan, gel_breast_scan(args.seed));
+  return 0;
+}
+
+}  // namespace
+}  // namespace mammotwin
+
+int main(int argc, char** argv) {
+  using namespace mammotwin;
+  return run_plain_command<Arguments>(
+      argc, argv, "synthesize-scan",
+      "the simulated laser scan of a gel breast (noise 0.3 mm, holes, outliers)", declare, run);
 }

@@ -1,12 +1,11 @@
 // validate: the paper's gel cylinder, squeezed in four ways, against other codes -> validation.json, pictures.
 
-#include "pipeline/frame/plain_command.h"
+#include "pipeline/frame/command_line.h"
 #include "pipeline/frame/products.h"
 #include "pipeline/validation/claims.h"
 #include "pipeline/validation/gel_figures.h"
 #include "pipeline/validation/gel_table.h"
 
-#include <CLI/CLI.hpp>
 
 #include <iostream>
 
@@ -18,12 +17,12 @@ struct Arguments {
   bool claims = true;
 };
 
-void declare(CLI::App& app, Arguments& args) {
-  app.add_option("cases", args.cases, "folder with lateral.toml, plane_strain.toml, ...")
-      ->required()
-      ->check(CLI::ExistingDirectory);
-  app.add_option("result", args.result, "validation.json to write; pictures go beside it")->required();
-  app.add_flag("!--no-claims", args.claims, "leave out the tables of elements and penalties (a minute)");
+void declare(CommandLine& command, Arguments& args) {
+  command.option("cases", args.cases, "folder with lateral.toml, plane_strain.toml, ...")
+      .required()
+      .existing_folder();
+  command.option("result", args.result, "validation.json to write; pictures go beside it").required();
+  command.flag("!--no-claims", args.claims, "leave out the tables of elements and penalties (a minute)");
 }
 
 constexpr const char* kCases[] = {"lateral", "plane_strain", "axial", "bonded"};

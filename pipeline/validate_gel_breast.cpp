@@ -1,6 +1,6 @@
 // validate-gel-breast: a breast of gel, scanned, fitted and squeezed, against its true skin -> validation.json, a picture.
 
-#include "pipeline/frame/plain_command.h"
+#include "pipeline/frame/command_line.h"
 #include "pipeline/frame/products.h"
 #include "pipeline/validation/fit_convergence.h"
 #include "pipeline/validation/gel_breast_picture.h"
@@ -19,25 +19,25 @@ struct Arguments {
   std::vector<int> columns = {4, 6, 8, 12};
 };
 
-void declare(CLI::App& app, Arguments& args) {
-  app.add_option("scan", args.scan, "scan of the gel breast (.ply)")
-      ->required()
-      ->check(CLI::ExistingFile);
-  app.add_option("result", args.result, "validation.json to write; gel_breast.png goes beside it")
-      ->required();
-  app.add_option("--model-columns", args.meshes.model[0], "of the model's mesh, along x and z [4 to 16]")
-      ->check(CLI::Range(4, 16))
-      ->capture_default_str();
-  app.add_option("--true-columns", args.meshes.truth[0], "of the true breast's mesh, the same [4 to 16]")
-      ->check(CLI::Range(4, 16))
-      ->capture_default_str();
-  app.add_option("--columns", args.columns,
+void declare(CommandLine& command, Arguments& args) {
+  command.option("scan", args.scan, "scan of the gel breast (.ply)")
+      .required()
+      .existing_file();
+  command.option("result", args.result, "validation.json to write; gel_breast.png goes beside it")
+      .required();
+  command.option("--model-columns", args.meshes.model[0], "of the model's mesh, along x and z [4 to 16]")
+      .between(4, 16)
+      .with_default();
+  command.option("--true-columns", args.meshes.truth[0], "of the true breast's mesh, the same [4 to 16]")
+      .between(4, 16)
+      .with_default();
+  command.option("--columns", args.columns,
                  "of the meshes whose accuracy is compared, along x and z [1 to 16]")
-      ->check(CLI::Range(1, 16))
-      ->capture_default_str();
-  app.add_option("--fractions", args.fractions, "of the free extent that is taken away, each [0.05 to 0.7]")
-      ->check(CLI::Range(0.05, 0.7))
-      ->capture_default_str();
+      .between(1, 16)
+      .with_default();
+  command.option("--fractions", args.fractions, "of the free extent that is taken away, each [0.05 to 0.7]")
+      .between(0.05, 0.7)
+      .with_default();
 }
 
 constexpr double kPixelsPerPoint = 2;

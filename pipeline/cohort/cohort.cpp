@@ -1,7 +1,6 @@
 // mammotwin-cohort: results of many patients -> cohort.tsv, failed.tsv, cohort_times.tsv,
 // cohort.html.
 
-#include <CLI/CLI.hpp>
 #include <fstream>
 #include <iostream>
 #include <optional>
@@ -10,13 +9,14 @@
 #include "pipeline/cohort/page.h"
 #include "pipeline/cohort/patient_summary.h"
 #include "pipeline/cohort/tables.h"
+#include "pipeline/frame/command_line.h"
 #include "pipeline/frame/products.h"
 
 namespace mammotwin {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr int kBadData = 1, kBadUsage = 2;
+constexpr int kBadData = 1;
 
 struct Arguments {
   fs::path results;
@@ -24,15 +24,14 @@ struct Arguments {
   RunAgain again;
 };
 
-void declare(CLI::App& app, Arguments& args) {
-  app.add_option("results", args.results, "folder of patients' results; the tables go there, too")
-      ->required();
-  app.add_option("--patients", args.patients,
+void declare(CommandLine& command, Arguments& args) {
+  command.option("results", args.results, "folder of patients' results; the tables go there, too")
+      .required();
+  command.option("--patients", args.patients,
                  "file of patients' names, one a line, that are listed even without results");
-  app.add_option("--data", args.again.data, "folder of patients, for the commands that run again");
-  app.add_option("--front-door", args.again.front_door, "what those commands begin with")
-      ->capture_default_str();
-  app.set_version_flag("--version", std::string(MAMMOTWIN_VERSION));
+  command.option("--data", args.again.data, "folder of patients, for the commands that run again");
+  command.option("--front-door", args.again.front_door, "what those commands begin with")
+      .with_default();
 }
 
 bool is_patient(const fs::directory_entry& entry) {
@@ -83,18 +82,10 @@ int run(Arguments args) {
 }  // namespace mammotwin
 
 int main(int argc, char** argv) {
-  CLI::App app(
-      "mammotwin-cohort: gathers the results of many patients into cohort.tsv, failed.tsv, "
-      "cohort_times.tsv and cohort.html. Exit code 1 if a patient failed.");
-  mammotwin::Arguments args;
-  mammotwin::declare(app, args);
-  try {
-    app.parse(argc, argv);
-    return mammotwin::run(args);
-  } catch (const CLI::ParseError& e) {
-    return app.exit(e) == 0 ? 0 : mammotwin::kBadUsage;
-  } catch (const std::exception& e) {
-    std::cerr << "cohort: " << e.what() << "\n";
-    return mammotwin::kBadData;
-  }
+  using namespace mammotwin;
+  return run_plain_command<Arguments>(
+      argc, argv, "cohort",
+      "gathers the results of many patients into cohort.tsv, failed.tsv, cohort_times.tsv and "
+      "cohort.html. Exit code 1 if a patient failed.",
+      declare, run);
 }

@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 constexpr int kBadData = 1;
 constexpr int kBadUsage = 2;
 
-struct CommandLine {
+struct CommonArguments {
   std::optional<fs::path> patient_file;
   bool force = false;
 };
@@ -31,18 +31,12 @@ std::string bracketed_range(const Setting& setting) {
   return range == "any" ? "" : " [" + range + "]";
 }
 
-void declare_common(CLI::App& app, const Settings& settings, CommandLine& line) {
-  app.add_option("--patient", line.patient_file, "patient.toml with this patient's settings");
-  app.add_flag("--force", line.force, "run even if the product is current");
-  app.add_flag_callback(
-      "--list-settings",
-      [&settings] {
-        std::cout << settings_table(settings.all());
-        throw CLI::Success();
-      },
+void declare_common(CommandLine& command, const Settings& settings, CommonArguments& common) {
+  command.option("--patient", common.patient_file, "patient.toml with this patient's settings");
+  command.flag("--force", common.force, "run even if the product is current");
+  command.text_flag(
+      "--list-settings", [&settings] { return settings_table(settings.all()); },
       "print every key of patient.toml as a table");
-  app.set_version_flag("--version", std::string(MAMMOTWIN_VERSION));
-  app.get_formatter()->column_width(44);
 }
 
 void require_reasons(const Outcome& outcome) {
@@ -158,13 +152,13 @@ Provenance plan_provenance(const Stage& stage, const StageDeclaration& declarati
 }  // namespace
 
 void StageDeclaration::input(const std::string& name, fs::path& variable, const std::string& help) {
-  app_.add_option(name, variable, help)->required();
+  command_.option(name, variable, help).required();
   inputs_.push_back(&variable);
 }
 
 void StageDeclaration::product(const std::string& name, fs::path& variable,
                                const std::string& help) {
-  app_.add_option(name, variable, help)->required();
+  command_.option(name, variable, help).required();
   product_ = &variable;
 }
 
@@ -175,11 +169,10 @@ void StageDeclaration::options_from(const std::string& prefix, bool cut_prefix) 
     given->key = setting.key;
     given->flag = flag_of(cut_prefix ? setting.key.substr(prefix.size()) : setting.key);
     const nlohmann::json value = setting.value();
-    app_.add_option(given->flag, given->text, setting.help + bracketed_range(setting))
-        ->type_name(setting.type)
-        ->default_str(value.is_null()     ? ""
-                      : value.is_string() ? value.get<std::string>()
-                                          : value.dump());
+    command_.option(given->flag, given->text, setting.help + bracketed_range(setting))
+        .described_as(setting.type, value.is_null()     ? ""
+                                    : value.is_string() ? value.get<std::string>()
+                                                        : value.dump());
     options_.push_back(given);
   }
 }
@@ -187,7 +180,7 @@ void StageDeclaration::options_from(const std::string& prefix, bool cut_prefix) 
 std::vector<StageDeclaration::Given> StageDeclaration::given() const {
   std::vector<Given> given;
   for (const auto& option : options_)
-    if (app_.count(option->flag) > 0) given.push_back(*option);
+    if (command_.has(option->flag)) given.push_back(*option);
   return given;
 }
 
@@ -197,19 +190,15 @@ int run_stage(int argc, char** argv, const Stage& stage) {
   Settings settings;
   patient.declare(settings);
 
-  CLI::App app("mammotwin-" + stage.name + ": " + stage.summary);
-  CommandLine line;
-  StageDeclaration declaration(app, settings);
+  CommandLine command("mammotwin-" + stage.name + ": " + stage.summary);
+  CommonArguments common;
+  StageDeclaration declaration(command, settings);
   stage.declare(declaration);
-  declare_common(app, settings, line);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& e) {
-    return app.exit(e) == 0 ? 0 : kBadUsage;
-  }
+  declare_common(command, settings, common);
+  if (const auto code = command.parse(argc, argv)) return *code;
   const fs::path product = declaration.product_path();
   try {
-    if (line.patient_file) patient.read(*line.patient_file, settings);
+    if (common.patient_file) patient.read(*common.patient_file, settings);
   } catch (const std::exception& e) {
     return refuse_before_running(stage, product, e.what());
   }
@@ -222,11 +211,11 @@ int run_stage(int argc, char** argv, const Stage& stage) {
   }
   try {
     const Provenance provenance = plan_provenance(stage, declaration, patient, settings);
-    if (!line.force && current_sidecar(product, provenance)) {
+    if (!common.force && current_sidecar(product, provenance)) {
       std::cerr << stage.name << ": " << product.string() << " is up to date\n";
       return 0;
     }
-    if (!line.force)
+    if (!common.force)
       if (const auto failure = standing_failure(product, provenance))
         return say_standing_failure(stage, *failure);
     return run_parsed(stage, product, patient, provenance, argc, argv);

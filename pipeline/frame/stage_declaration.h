@@ -1,11 +1,11 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "pipeline/frame/command_line.h"
 #include "pipeline/frame/settings.h"
 
 namespace mammotwin {
@@ -14,14 +14,15 @@ namespace mammotwin {
 /// from the settings that concern it.
 class StageDeclaration {
  public:
-  StageDeclaration(CLI::App& app, Settings& settings) : app_(app), settings_(settings) {}
+  StageDeclaration(CommandLine& command, Settings& settings)
+      : command_(command), settings_(settings) {}
 
   void input(const std::string& name, std::filesystem::path& variable, const std::string& help);
   void product(const std::string& name, std::filesystem::path& variable, const std::string& help);
   /// Every setting below `prefix` becomes an option: `prefix` is cut off if it is the stage's own,
   /// dots and underscores become dashes.
   void options_from(const std::string& prefix, bool cut_prefix);
-  CLI::App& app() { return app_; }
+  CommandLine& command() { return command_; }
 
   struct Given {
     std::string flag, key, text;
@@ -31,7 +32,7 @@ class StageDeclaration {
   std::vector<Given> given() const;
 
  private:
-  CLI::App& app_;
+  CommandLine& command_;
   Settings& settings_;
   std::vector<std::filesystem::path*> inputs_;
   std::filesystem::path* product_ = nullptr;

@@ -93,8 +93,8 @@ Stage fake_stage(const std::string& name, Arguments& args) {
   stage.name = name;
   stage.summary = "a stage without mathematics";
   stage.declare = [&, name](StageDeclaration& declaration) {
-    if (name == "compress") declaration.app().add_option("view", args.view)->required();
-    if (name == "report") declaration.app().add_option("folder", args.view)->required();
+    if (name == "compress") declaration.command().option("view", args.view, "which view").required();
+    if (name == "report") declaration.command().option("folder", args.view, "of results").required();
     for (std::size_t i = 0; i < shape.num_inputs; ++i)
       declaration.input("input" + std::to_string(i), args.inputs[i], "");
     declaration.product("product", args.product, "");
