@@ -7,6 +7,7 @@
 #include "registration/lesion_table.h"
 #include "registration/markups.h"
 #include "registration/point_carrier.h"
+#include "registration/ray_curve.h"
 #include "segmentation/segmentation_file.h"
 
 #include <cstdio>
@@ -67,6 +68,7 @@ void require_inside(const ProjectedLandmark& lesion) {
 
 /// What `lesions.csv` gives; half of this probability's semi-axes is 0.55 of them.
 constexpr double kEllipseProbability = 0.9;
+constexpr int kRimPoints = 36;
 
 void set_ellipse(const SearchEllipse& ellipse, LesionRow& row) {
   row.ellipse_major_mm = ellipse.major_mm;
@@ -88,6 +90,8 @@ class Registration {
 
   void add(const RegisteredView& registered) {
     const ViewProjection& view = registered.projection;
+    const ViewRays rays(registered.prone, registered.compressed, view.view(), view.detector());
+    int number = 0;
     const ProjectedLandmark nipple = view.project(nipple_);
     for (const Landmark& landmark : landmarks_) {
       const ProjectedLandmark lesion = view.project(landmark);
@@ -96,8 +100,14 @@ class Registration {
         reasons_.push_back("lesion " + landmark.id + " lies behind the detector's edge in " +
                            view.view().name + ": that mammogram would not show it");
       rows_.push_back(view_row(stage_.patient.name(), view.view(), lesion, nipple));
-      if (const auto covariance = registered.covariance(lesion.point))
-        set_ellipse(search_ellipse(*covariance, kEllipseProbability), rows_.back());
+      if (const auto covariance = registered.covariance(lesion.point)) {
+        const SearchEllipse ellipse = search_ellipse(*covariance, kEllipseProbability);
+        set_ellipse(ellipse, rows_.back());
+        write_closed_curve(
+            stage_.products.write("ellipse_" + view.view().name + "_" + std::to_string(++number) + ".mrk.json"),
+            landmark.id + " in " + view.view().name,
+            ellipse_in_prone(rays, lesion.on_detector, rim(ellipse, kRimPoints), lesion.in_view.z()));
+      }
     }
     write_points(view.view().name,
                  [&](const Landmark& l) { return view.project(l).compressed_in_lps; });

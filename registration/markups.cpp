@@ -49,23 +49,40 @@ void append_points(const nlohmann::json& markup, std::vector<MarkupPoint>& point
   }
 }
 
-}  // namespace
-
-void write_markups(const std::filesystem::path& path, const std::vector<MarkupPoint>& points) {
+nlohmann::ordered_json markup(const std::string& type, const std::string& name,
+                              const std::vector<MarkupPoint>& points) {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
   for (const MarkupPoint& point : points) list.push_back(control_point(point, list.size() + 1));
-  const nlohmann::ordered_json markup = {{"type", "Fiducial"},
-                                         {"coordinateSystem", "LPS"},
-                                         {"coordinateUnits", "mm"},
-                                         {"locked", false},
-                                         {"labelFormat", "%N-%d"},
-                                         {"controlPoints", list}};
+  nlohmann::ordered_json markup = {{"type", type},
+                                   {"coordinateSystem", "LPS"},
+                                   {"coordinateUnits", "mm"},
+                                   {"locked", false},
+                                   {"labelFormat", "%N-%d"},
+                                   {"controlPoints", list}};
+  if (!name.empty()) markup["name"] = name;
+  return markup;
+}
+
+void write_file(const std::filesystem::path& path, const nlohmann::ordered_json& markup) {
   const nlohmann::ordered_json file = {{"@schema", kSchema},
                                        {"markups", nlohmann::ordered_json::array({markup})}};
   std::ofstream out(path);
   out << file.dump(2) << '\n';
   out.close();
   if (!out) throw std::runtime_error(path.string() + ": cannot be written; is the disk full?");
+}
+
+}  // namespace
+
+void write_markups(const std::filesystem::path& path, const std::vector<MarkupPoint>& points) {
+  write_file(path, markup("Fiducial", "", points));
+}
+
+void write_closed_curve(const std::filesystem::path& path, const std::string& name,
+                        const std::vector<Eigen::Vector3d>& in_lps) {
+  std::vector<MarkupPoint> points;
+  for (const Eigen::Vector3d& x : in_lps) points.push_back({"", x});
+  write_file(path, markup("ClosedCurve", name, points));
 }
 
 std::vector<MarkupPoint> read_markups(const std::filesystem::path& path) {

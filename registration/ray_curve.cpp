@@ -90,6 +90,16 @@ Eigen::Vector2d ViewRays::project(const MeshPoint& point) const {
   return detector_.project(view_.frame.view_from_lps(compressed_.position(point)));
 }
 
+std::vector<Eigen::Vector3d> ellipse_in_prone(const ViewRays& view, const Eigen::Vector2d& middle,
+                                              const std::vector<Eigen::Vector2d>& rim,
+                                              double height_mm) {
+  std::vector<Eigen::Vector3d> points;
+  for (const Eigen::Vector2d& off : rim)
+    if (const auto found = view.at_height(middle + off, height_mm))
+      points.push_back(found->prone_in_lps);
+  return points;
+}
+
 std::vector<Eigen::Vector2d> curve_in_other_view(const ViewRays& marked,
                                                  const Eigen::Vector2d& on_detector,
                                                  const ViewRays& other, double step_mm) {

@@ -48,6 +48,12 @@ class ViewRays {
   double lowest_mm_ = 0, highest_mm_ = 0;  ///< heights that tissue reaches
 };
 
+/// Where a search ellipse round a mark lies in the prone MRI, for tissue at a lesion's height above
+/// the support: points of its rim that meet the breast [mm], in order.
+std::vector<Eigen::Vector3d> ellipse_in_prone(const ViewRays& view, const Eigen::Vector2d& middle,
+                                              const std::vector<Eigen::Vector2d>& rim,
+                                              double height_mm);
+
 /// A mark on one view as the other view can see it: the curve's (u, v) there, by height.
 std::vector<Eigen::Vector2d> curve_in_other_view(const ViewRays& marked,
                                                  const Eigen::Vector2d& on_detector,

@@ -1,6 +1,7 @@
 #include "registration/search_ellipse.h"
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 
 #include <cmath>
 #include <numbers>
@@ -54,6 +55,17 @@ SearchEllipse search_ellipse(const Eigen::Matrix2d& covariance, double probabili
   if (angle <= -90) angle += 180;  // a direction, not an arrow
   if (angle > 90) angle -= 180;
   return {scale * std::sqrt(axes.eigenvalues()[1]), scale * std::sqrt(axes.eigenvalues()[0]), angle};
+}
+
+std::vector<Eigen::Vector2d> rim(const SearchEllipse& ellipse, int points) {
+  const Eigen::Rotation2Dd turn(ellipse.angle_deg * std::numbers::pi / 180);
+  std::vector<Eigen::Vector2d> all;
+  for (int n = 0; n < points; ++n) {
+    const double t = 2 * std::numbers::pi * n / points;
+    all.push_back(turn * Eigen::Vector2d(ellipse.major_mm * std::cos(t),
+                                         ellipse.minor_mm * std::sin(t)));
+  }
+  return all;
 }
 
 bool contains(const SearchEllipse& ellipse, const Eigen::Vector2d& off) {

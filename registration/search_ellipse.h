@@ -33,6 +33,9 @@ Eigen::Matrix2d detector_covariance(const ViewUncertainty& uncertainty,
 /// sqrt(-2 ln(1 - p)) standard deviations.
 SearchEllipse search_ellipse(const Eigen::Matrix2d& covariance, double probability);
 
+/// Points of the ellipse, from its middle, evenly in its own angle.
+std::vector<Eigen::Vector2d> rim(const SearchEllipse& ellipse, int points);
+
 /// True inside it; `off` from its middle [mm].
 bool contains(const SearchEllipse& ellipse, const Eigen::Vector2d& off);
 

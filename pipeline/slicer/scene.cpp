@@ -21,6 +21,7 @@ class Scene {
     add_images();
     if (results_.prone) add_surfaces();
     for (const char* state : {"prone", "unloaded", "cc", "mlo"}) add_lesions(state);
+    add_ellipses();
     for (const char* view : {"cc", "mlo"}) add_transform(view);
     return nodes_.text();
   }
@@ -60,6 +61,13 @@ class Scene {
   void add_lesions(const std::string& state) {
     const std::string file = "lesions_" + state + ".mrk.json";
     if (has(file)) nodes_.add_markups("Lesions " + state, file, palette::lesion, state == "prone");
+  }
+
+  /// What a view's search ellipses are in the prone MRI.
+  void add_ellipses() {
+    for (const std::string& file : results_.files)
+      if (file.starts_with("ellipse_") && file.ends_with(".mrk.json"))
+        nodes_.add_closed_curve(file.substr(0, file.find('.')), file, palette::lesion, true);
   }
 
   /// The field on the compressed grid that says where its tissue was prone: what Slicer, as ITK,

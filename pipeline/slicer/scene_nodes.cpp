@@ -77,6 +77,13 @@ void SceneNodes::add_markups(const std::string& name, const std::string& file, c
            {{"selectedColor", shown(colour)}, {"color", shown(colour)}, {"visibility", truth(visible)}});
 }
 
+void SceneNodes::add_closed_curve(const std::string& name, const std::string& file,
+                                  const Colour& colour, bool visible) {
+  add_item("MarkupsClosedCurve", name, "MarkupsJsonStorage",
+           {{"fileName", file}, {"coordinateSystem", "LPS"}}, "MarkupsDisplay",
+           {{"selectedColor", shown(colour)}, {"color", shown(colour)}, {"visibility", truth(visible)}});
+}
+
 void SceneNodes::add_transform(const std::string& name, const std::string& file) {
   add_item("Transform", name, "TransformStorage", {{"fileName", file}}, "", {});
 }

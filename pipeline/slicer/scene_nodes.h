@@ -20,6 +20,7 @@ class SceneNodes {
   void add_model(const std::string& name, const std::string& file, const Colour& colour, bool shown,
                  const std::string& numbers = "");
   void add_markups(const std::string& name, const std::string& file, const Colour& colour, bool shown);
+  void add_closed_curve(const std::string& name, const std::string& file, const Colour& colour, bool shown);
   /// A displacement field as the transform that Slicer applies to what lives on the field's target.
   void add_transform(const std::string& name, const std::string& file);
   /// Behind the three slice views.

@@ -29,7 +29,8 @@ class SlicerScene : public ScratchFolder {
     std::vector<MarkupPoint> points;
     for (const Landmark& lesion : results_.lesions()) points.push_back({lesion.id, lesion.prone_in_lps});
     write_markups(folder_ / "lesions_prone.mrk.json", points);
-    results_.files = {"lesions_prone.mrk.json", "mri.nrrd", "prone_from_cc.nrrd", "segmentation.seg.nrrd"};
+    write_closed_curve(folder_ / "ellipse_cc_1.mrk.json", "L1 in cc", {{1, 2, 3}, {2, 3, 4}, {3, 5, 3}});
+    results_.files = {"ellipse_cc_1.mrk.json", "lesions_prone.mrk.json", "mri.nrrd", "prone_from_cc.nrrd", "segmentation.seg.nrrd"};
     const auto text = slicer_scene(results_, [&](const std::string& name) { return folder_ / name; });
     nodes_ = read_scene(write("scene.mrml", text));
   }
@@ -57,7 +58,7 @@ TEST_F(SlicerScene, RefersOnlyToNodesAndFilesThatAreThere) {
     EXPECT_TRUE(std::filesystem::exists(folder_ / node.attribute("fileName"))) << node.attribute("fileName");
     ++files;
   }
-  EXPECT_EQ(files, 1 + 1 + 4 + 1 + 1);  // MRI, segmentation, four surfaces, lesions, transform
+  EXPECT_EQ(files, 1 + 1 + 4 + 1 + 1 + 1);  // MRI, segmentation, four surfaces, lesions, ellipse, transform
 }
 
 TEST_F(SlicerScene, LaysSurfacesWhereTheMeshIs) {

@@ -39,6 +39,16 @@ TEST(Markups, SayTheirFrameUnitAndSchema) {
   EXPECT_EQ(file["markups"][0]["coordinateUnits"], "mm");
 }
 
+TEST(Markups, ACurveIsClosedAndNamed) {
+  const auto path = scratch("curve.mrk.json");
+  write_closed_curve(path, "L1 in cc", {{1, 2, 3}, {4, 5, 6}, {7, 8, 10}});
+  const auto markup = nlohmann::json::parse(std::ifstream(path)).at("markups").at(0);
+  EXPECT_EQ(markup["type"], "ClosedCurve");
+  EXPECT_EQ(markup["name"], "L1 in cc");
+  EXPECT_EQ(markup["coordinateSystem"], "LPS");
+  EXPECT_EQ(read_markups(path).at(2).x_in_lps, Eigen::Vector3d(7, 8, 10));
+}
+
 TEST(Markups, AreTurnedFromRasToLps) {
   const auto path = write_text("ras.mrk.json", R"({"markups": [{"type": "Fiducial",
       "coordinateSystem": "RAS",

@@ -105,6 +105,14 @@ TEST(SearchEllipse, HoldsTheProbabilityThatItStates) {
   EXPECT_NEAR(in_half / double(draws), 0.5, 0.032);
 }
 
+TEST(SearchEllipse, ItsRimPartsInsideFromOutside) {
+  const SearchEllipse ellipse{8, 3, 25};
+  for (const Eigen::Vector2d& off : rim(ellipse, 36)) {
+    EXPECT_TRUE(contains(ellipse, 0.999 * off));
+    EXPECT_FALSE(contains(ellipse, 1.001 * off));
+  }
+}
+
 TEST(SearchEllipse, GrowsWithWhatIsNotKnown) {
   const BoxView box;
   CompressedView view = box.box.view;

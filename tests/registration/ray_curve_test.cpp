@@ -1,6 +1,7 @@
 #include "registration/ray_curve.h"
 
 #include "registration/project_lesions.h"
+#include "registration/search_ellipse.h"
 #include "squeezed_box.h"
 
 #include <gtest/gtest.h>
@@ -54,6 +55,22 @@ TEST(ViewRays, SlopeIsTheDerivativeOfTheCurve) {
              high = rays.at_height(mark, 15 + h);
   const Eigen::Vector3d difference = (high->prone_in_lps - low->prone_in_lps) / (2 * h);
   EXPECT_LT((rays.slope(mark, *at) - difference).norm(), 1e-6);
+}
+
+// Tissue at the lesion's height whose mark lies 10 mm from the lesion's; beyond the skin there is none.
+TEST(ViewRays, AnEllipseInTheMriIsSeenAsTheEllipse) {
+  const SqueezedBox breast = squeezed_box(Side::left, 45, 0.5);
+  const ViewRays rays = rays_of(breast);
+  const Eigen::Vector3d lesion(62, -33, 9);
+  const Eigen::Vector2d mark = mark_of(breast, lesion);
+  const double height = breast.view.frame.view_from_lps(breast.A * lesion + breast.b).z();
+  const auto points = ellipse_in_prone(rays, mark, rim({10, 10, 0}, 12), height);
+  ASSERT_EQ(points.size(), 12u);
+  for (const Eigen::Vector3d& x : points) {
+    EXPECT_NEAR((mark_of(breast, x) - mark).norm(), 10, kRoundTrip_mm);
+    EXPECT_NEAR(breast.view.frame.view_from_lps(breast.A * x + breast.b).z(), height, kRoundTrip_mm);
+  }
+  EXPECT_TRUE(ellipse_in_prone(rays, mark, rim({300, 300, 0}, 12), height).empty());
 }
 
 TEST(ClosestApproach, OfTwoMarksOfOneLesionIsTheLesion) {
