@@ -21,6 +21,8 @@ using nlohmann::json;
 
 constexpr int kMostAttempts = 30;      // of the drawn build: not every chest carries every breast
 constexpr int kMostCpuSeconds = 3600;
+/// Not mri.nrrd: `segment`, whose products stand in the same folder, leaves its part of the MRI there.
+constexpr const char* kScan = "scan.nrrd";
 constexpr int kPoints = 20;            // landmarks beside the lesions
 
 SyntheticPatient make_drawn(int number, DrawnPatient& drawn) {
@@ -72,7 +74,9 @@ std::string landmark_table(const TrueBreast& breast, const std::vector<TrueView>
 
 std::string toml_of(const SyntheticPatient& patient, const DrawnPatient& drawn,
                     const std::vector<TrueView>& views, const Detector& detector) {
-  const std::string text = patient_toml(patient);
+  std::string text = patient_toml(patient);
+  const std::string own = "\"mri.nrrd\"";
+  text.replace(text.find(own), own.size(), std::string("\"") + kScan + "\"");
   std::ostringstream toml;
   toml << text.substr(0, text.find("[views.cc]"));
   for (std::size_t n = 0; n < views.size(); ++n) {
@@ -130,7 +134,7 @@ void make_registration_case(int number, const fs::path& folder) {
   for (const TrueView& view : views)
     write_png(folder / (view.view.name + ".png"),
               true_mammogram(breast, view, detector, drawn.patient.anatomy.seed));
-  write_nrrd(folder / "mri.nrrd", patient.scan.image);
+  write_nrrd(folder / kScan, patient.scan.image);
   write_text_atomically(folder / "landmarks.csv", landmark_table(breast, views, detector, number));
   write_text_atomically(folder / "drawn.json", drawn_json(drawn, views).dump(1) + "\n");
   write_text_atomically(folder / "patient.toml", toml_of(patient, drawn, views, detector));
