@@ -22,7 +22,7 @@ unexport MAKEFLAGS MAKEOVERRIDES
 
 .PHONY: help patient segment fit unload compress register report slicer synthesize cohort verify-results build \
         evaluate-segmentation evaluate-fitting evaluate-compression evaluate-unload evaluate-registration \
-        evaluate-niftysim evaluate-victre validate bench chain programs configured \
+        evaluate-outlines evaluate-niftysim evaluate-victre validate bench chain programs configured \
         install docs test clean
 .DEFAULT_GOAL := help
 
@@ -43,6 +43,8 @@ help:
 	@echo '                       both views: RESULTS/evaluation/compression.json; JOBS=2 at a time'
 	@echo 'make evaluate-registration  registers SYNTHETIC=10 patients with mammograms of another model:'
 	@echo '                       RESULTS/evaluation/registration.json; JOBS=2 at a time'
+	@echo 'make evaluate-outlines   outlines of what RESULTS holds compressed in CC against those of real patients:'
+	@echo '                       RESULTS/evaluation/outlines.json'
 	@echo 'make validate          the gel cylinder against other codes: RESULTS/gel_cylinder/validation.json;'
 	@echo '                       the gel breast against its true skin: RESULTS/gel_breast/validation.json'
 	@echo 'make evaluate-niftysim   a breast that NiftySim compressed, node by node: RESULTS/evaluation/niftysim.json'
@@ -80,6 +82,10 @@ evaluate-compression: programs
 evaluate-registration: programs
 	@"$$BIN/mammotwin-evaluate-registration" "$$RESULTS/evaluation/registration.json" \
 	  $${SYNTHETIC:+--synthetic "$$SYNTHETIC"} $${JOBS:+--jobs "$$JOBS"}
+
+evaluate-outlines: programs
+	@"$$BIN/mammotwin-evaluate-outlines" "$$CASES/compressed_outlines" "$$RESULTS/evaluation/outlines.json" \
+	  $$(find -L "$$RESULTS" -name cc.vtu | sort)
 
 validate: programs
 	@"$$BIN/mammotwin-validate" sample_data/gel_cylinder "$$RESULTS/gel_cylinder/validation.json"
