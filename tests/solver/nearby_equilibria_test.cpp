@@ -63,12 +63,13 @@ double error_of_step(const Change& change, double by) {
     move = std::max(move, difference.norm());
     error = std::max(error, (step[i].col(0) / nudge - difference).norm());
   }
-  EXPECT_GT(move, 1e-3);
+  EXPECT_GT(move, 1e-5);
   return error / move;
 }
 
-// Two solves on either side differ by the step and terms of third order (1e-5 at this size), and by
-// points that touch or let go between them (9e-2 were the plates moved by 0.1 mm on this mesh).
+// Two solves on either side differ by the step and terms of third order, so the relative error falls
+// with the square of the nudge: plates 1e-2, 1e-3, 1e-4 for 3e-3, 1e-3, 3e-4 mm; tissue 4e-3, 4e-4, 4e-5
+// for 1e-2, 3e-3, 1e-3. This coarse mesh bends that strongly, as single points touch and let go.
 TEST(NearbyEquilibria, StepIsTheDifferenceOfTwoSolves) {
   ASSERT_TRUE(equilibrium().report.usable()) << equilibrium().report.reason;
   const Change plates = [](CompressionProblem& p, double q) {
@@ -81,8 +82,8 @@ TEST(NearbyEquilibria, StepIsTheDifferenceOfTwoSolves) {
     p.boundary.chest_wall_spring *= 1 - q;
     p.laws.laws[1] = std::make_shared<NeoHookean>(2.5 * (1 + q));
   };
-  EXPECT_LT(error_of_step(plates, 0.01), 1e-3);
-  EXPECT_LT(error_of_step(tissue, 0.01), 1e-3);
+  EXPECT_LT(error_of_step(plates, 3e-4), 1e-3);
+  EXPECT_LT(error_of_step(tissue, 1e-3), 1e-3);
 }
 
 TEST(NearbyEquilibria, NoChangeIsNoStep) {
