@@ -101,8 +101,9 @@ TEST(WallSurface, PointsOnUnevenPatchesAreFoundOnThem) {
     ++patches;
     const WallSurface wall = wall_of(mesh);
     for (const MeshPoint& p : wall_points())
-      if ((p.xi - Eigen::Vector3d(0.5, 0.5, 0)).cwiseAbs().maxCoeff() < 0.49)
+      if ((p.xi - Eigen::Vector3d(0.5, 0.5, 0)).cwiseAbs().maxCoeff() < 0.49) {
         EXPECT_NEAR(wall.gap(mesh.position(p)).gap, 0, 1e-9) << seed << ": " << p.xi;
+      }
   }
   EXPECT_GT(patches, 400);
 }
