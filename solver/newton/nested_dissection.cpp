@@ -2,6 +2,7 @@
 
 #include <suitesparse/cholmod.h>
 
+#include <mutex>
 #include <set>
 #include <stdexcept>
 
@@ -41,7 +42,11 @@ std::vector<int> nested_dissection(int num_nodes, const std::vector<std::vector<
   cholmod_start(&common);
   cholmod_sparse* A = lower_pattern(neighbours(num_nodes, cliques), common);
   std::vector<int> order(num_nodes);
-  const bool done = cholmod_metis(A, nullptr, 0, 1, order.data(), &common);
+  const bool done = [&] {
+    static std::mutex metis;  // draws from the process's one sequence of random numbers
+    const std::lock_guard lock(metis);
+    return cholmod_metis(A, nullptr, 0, 1, order.data(), &common) != 0;
+  }();
   cholmod_free_sparse(&A, &common);
   cholmod_finish(&common);
   if (!done) throw std::runtime_error("METIS could not order the mesh's nodes");
