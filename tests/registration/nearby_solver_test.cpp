@@ -10,8 +10,8 @@ namespace {
 
 /// A dome between plates that three of the state's numbers move.
 CompressionProblem dome_at(const ViewState& state) {
-  CompressionProblem problem = dome_problem(70 + state[kThickness]);
-  problem.mesh = dome_breast({3, 3, 1});
+  CompressionProblem problem = dome_problem(85 + state[kThickness]);
+  problem.mesh = dome_breast({2, 2, 1});
   problem.plates.lift = state[kLift];
   problem.plates.wall_clearance += state[kClearance];
   return problem;
