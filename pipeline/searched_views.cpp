@@ -53,6 +53,7 @@ json search_json(const SearchedView& view) {
   return {{"state", state},
           {"before", figures_json(*view.before)},
           {"after", figures_json(*view.after)},
+          {"evidence_variance", view.evidence_variance},
           {"complete", view.complete},
           {"failed_solves", view.failed_solves}};
 }

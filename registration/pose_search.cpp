@@ -14,6 +14,7 @@ constexpr double kNudge = 0.05;     // of a standard deviation: well above the o
 constexpr double kFarthest = 2.5;   // a mechanical number's modes are not believed beyond
 constexpr int kMostIterations = 25;
 constexpr double kGain = 1e-3;      // of the cost: less is converged
+constexpr double kOwnObservations = 10;  // what the evidence's stated standard deviations count as
 
 /// All views' numbers in one vector, shared ones once.
 class Joint {
@@ -87,14 +88,26 @@ class Search {
   }
 
   void describe(const Eigen::VectorXd& z, bool with_pattern, PoseEstimate& estimate) const {
-    estimate.cost = 0.5 * residuals(z, with_pattern).squaredNorm();
+    const Eigen::VectorXd r = residuals(z, with_pattern);
+    estimate.cost = 0.5 * r.squaredNorm();
     const Eigen::MatrixXd J = jacobian(z, with_pattern);
-    const Eigen::MatrixXd left = (J.transpose() * J).ldlt().solve(
-        Eigen::MatrixXd::Identity(joint_.size(), joint_.size()));
+    const Eigen::MatrixXd prior = Eigen::MatrixXd::Identity(z.size(), z.size());
+    const Eigen::MatrixXd evidence = J.transpose() * J - prior;  // the first rows are z itself
+    const double found = (evidence + prior).ldlt().solve(evidence).trace();  // numbers
+    estimate.evidence_variance =
+        (kOwnObservations + r.tail(r.size() - z.size()).squaredNorm()) /
+        (kOwnObservations + std::max(0.0, observations(with_pattern) - found));
+    const Eigen::MatrixXd left = (evidence / estimate.evidence_variance + prior).ldlt().solve(prior);
     for (std::size_t v = 0; v < views_.size(); ++v) {
       estimate.states.push_back(joint_.state(v, z));
       estimate.covariances.push_back(joint_.covariance(v, left));
     }
+  }
+
+  double observations(bool with_pattern) const {
+    double count = 0;
+    for (const ViewMatch* view : views_) count += view->observations(with_pattern);
+    return count;
   }
 
   Eigen::VectorXd residuals(const Eigen::VectorXd& z, bool with_pattern) const {

@@ -11,6 +11,10 @@ struct PoseEstimate {
   std::vector<ViewState> states;  ///< of each view
   std::vector<Eigen::Matrix<double, kStates, kStates>> covariances;  ///< what is left unknown
   double cost = 0;                ///< half the sum of squares
+  /// Of the evidence's differences left, over the one that their standard deviations say: these
+  /// count as ten observations, the mammograms as theirs less the numbers found from them. Is in
+  /// the covariances (Birge's ratio).
+  double evidence_variance = 1;
   int iterations = 0;
 };
 

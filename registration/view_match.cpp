@@ -23,6 +23,11 @@ double huber(double r) {
   return size <= kHuber ? r : std::copysign(std::sqrt(2 * kHuber * size - kHuber * kHuber), r);
 }
 
+/// Share of an independent piece of outline that lies between two rays.
+double piece(double radius_mm) {
+  return std::min(1.0, radius_mm * 3 * M_PI / 180 / kPiece_mm);  // rays every 3 degrees
+}
+
 /// Where the nipple goes: with its nearest tissue, its offset as it lies in the computed view.
 struct CarriedNipple {
   MeshPoint point;
@@ -97,9 +102,7 @@ Eigen::VectorXd ViewMatch::residuals(const ViewState& z, bool with_pattern) cons
   const RayDistances found = silhouette_.at(view_, z, detector_, centre_);
   for (int ray = 0; ray < kRays; ++ray) {
     if (!seen_[ray] || !found[ray]) continue;
-    const double arc = *seen_[ray] * 3 * M_PI / 180;  // of outline between rays [mm]
-    r[ray] = std::sqrt(std::min(1.0, arc / kPiece_mm)) *
-             huber((*found[ray] - *seen_[ray]) / kOutlineSd_mm);
+    r[ray] = std::sqrt(piece(*seen_[ray])) * huber((*found[ray] - *seen_[ray]) / kOutlineSd_mm);
   }
   if (evidence_.nipple) {
     const Eigen::Vector2d miss =
@@ -114,6 +117,15 @@ Eigen::VectorXd ViewMatch::residuals(const ViewState& z, bool with_pattern) cons
          evidence_.pattern) * (share / kPatternSd);
   }
   return r;
+}
+
+double ViewMatch::observations(bool with_pattern) const {
+  double count = evidence_.nipple ? 2 : 0;
+  for (const auto& radius : seen_)
+    if (radius) count += piece(*radius);
+  if (with_pattern && tissue_)
+    count += evidence_.pattern.size() * std::pow(evidence_.grid.cell_mm / kPatternPiece_mm, 2);
+  return count;
 }
 
 MatchFigures ViewMatch::figures(const ViewState& z) const {

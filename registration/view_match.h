@@ -42,6 +42,9 @@ class ViewMatch {
   /// has in an independent piece (30 mm of outline; 15 mm x 15 mm of pattern).
   Eigen::VectorXd residuals(const ViewState& z, bool with_pattern) const;
 
+  /// How many independent observations the residuals stand for.
+  double observations(bool with_pattern) const;
+
   MatchFigures figures(const ViewState& z) const;
   const ReducedView& view() const { return view_; }
   const Detector& detector() const { return detector_; }

@@ -88,7 +88,7 @@ class ViewsSearch {
     std::vector<SearchedView> result;
     for (std::size_t v = 0; v < inputs_.size(); ++v) result.push_back(unmatched(v));
     for (std::size_t m = 0; m < matches_.size(); ++m)
-      result[numbers_[m]] = matched(m, before[m], found.covariances[m]);
+      result[numbers_[m]] = matched(m, before[m], found);
     return result;
   }
 
@@ -225,7 +225,8 @@ class ViewsSearch {
   }
 
   SearchedView matched(std::size_t m, const MatchFigures& before,
-                       const Eigen::Matrix<double, kStates, kStates>& covariance) const {
+                       const PoseEstimate& found) const {
+    const auto& covariance = found.covariances[m];
     const std::size_t v = numbers_[m];
     const ReducedView& reduced = matches_[m].view();
     const ViewState state = states_[m].cwiseProduct(reduced.sd);
@@ -240,6 +241,7 @@ class ViewsSearch {
     result.state_sd = covariance.diagonal().cwiseSqrt().cwiseProduct(reduced.sd);
     result.before = before;
     result.after = matches_[m].figures(states_[m]);
+    result.evidence_variance = found.evidence_variance;
     result.complete = complete_;
     result.failed_solves = reduced.failed_solves;
     return result;

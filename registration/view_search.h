@@ -22,6 +22,7 @@ struct SearchedView {
   ViewUncertainty uncertainty{};
   ViewState state = ViewState::Zero(), state_sd = ViewState::Zero();  ///< physical units
   std::optional<MatchFigures> before{}, after{};
+  double evidence_variance = 1;  ///< PoseEstimate's
   bool complete = true;      ///< false: it stopped where no equilibrium was found, at its best so far
   int failed_solves = 0;
 };
