@@ -5,6 +5,7 @@
 #include <fstream>
 #include <numeric>
 
+#include "pipeline/evaluate/mark_coverage.h"
 #include "pipeline/frame/settings.h"
 #include "pipeline/patient.h"
 #include "pipeline/registered_view.h"
@@ -45,41 +46,29 @@ struct Views {
   }
 };
 
-/// Marks of one view that lie inside their ellipses.
-struct Coverage {
-  std::vector<double> inside_50, inside_90, major;
-
-  void add(const RegisteredView& view, const LandmarkPair& pair) {
-    const ProjectedLandmark found = view.projection.project({pair.name, *pair.mri_in_lps});
-    const auto covariance = view.covariance(found.point);
-    if (!covariance) return;
-    const Eigen::Vector2d off =
-        view.projection.detector().detector_from_image(
-            pair.marks.at(view.projection.view().name)) - found.on_detector;
-    const SearchEllipse ninety = search_ellipse(*covariance, 0.9);
-    inside_50.push_back(contains(search_ellipse(*covariance, 0.5), off));
-    inside_90.push_back(contains(ninety, off));
-    major.push_back(ninety.major_mm);
-  }
-  static json mean(const std::vector<double>& values) {
-    if (values.empty()) return nullptr;
-    return std::accumulate(values.begin(), values.end(), 0.0) / values.size();
-  }
-};
-
 bool is_lesion(const LandmarkPair& pair) { return pair.name.front() == 'L'; }
 
+/// The predicted mark of one view; empty where register gave no uncertainty.
+std::optional<JudgedMark> judged(const RegisteredView& view, const LandmarkPair& pair) {
+  const ProjectedLandmark found = view.projection.project({pair.name, *pair.mri_in_lps});
+  const auto covariance = view.covariance(found.point);
+  if (!covariance) return std::nullopt;
+  const Eigen::Vector2d truth = view.projection.detector().detector_from_image(
+      pair.marks.at(view.projection.view().name));
+  return JudgedMark{is_lesion(pair), truth - found.on_detector, *covariance};
+}
+
 void add_coverage(const Views& views, const std::vector<LandmarkPair>& pairs, json& row) {
-  for (const bool lesions : {true, false}) {
-    Coverage coverage;
+  std::vector<JudgedMark> lesions, points;
+  row["marks"] = json::array();
+  for (const RegisteredView* view : {&views.cc, &views.mlo})
     for (const LandmarkPair& pair : pairs)
-      if (is_lesion(pair) == lesions)
-        for (const RegisteredView* view : {&views.cc, &views.mlo}) coverage.add(*view, pair);
-    const std::string prefix = lesions ? "" : "points_";
-    row[prefix + "inside_50_ellipse"] = Coverage::mean(coverage.inside_50);
-    row[prefix + "inside_90_ellipse"] = Coverage::mean(coverage.inside_90);
-    row[prefix + "ellipse_major_mm"] = median_of(coverage.major);
-  }
+      if (const auto mark = judged(*view, pair)) {
+        (mark->lesion ? lesions : points).push_back(*mark);
+        row["marks"].push_back(mark_json(*mark));
+      }
+  row["lesions"] = coverage_of(lesions);
+  row["points"] = coverage_of(points);
 }
 
 void add_errors(const std::string& prefix, const std::map<std::string, TargetErrors>& errors,
@@ -103,9 +92,7 @@ json empty_registration_row() {
   for (const char* space : kSpaces)
     for (const char* prefix : {"", "before_search_", "baseline_"})
       row[std::string(prefix) + "tre_" + space + "_mm"] = nullptr;
-  for (const char* prefix : {"", "points_"})
-    for (const char* key : {"inside_50_ellipse", "inside_90_ellipse", "ellipse_major_mm"})
-      row[std::string(prefix) + key] = nullptr;
+  for (const char* kind : {"lesions", "points"}) row[kind] = coverage_of({});
   return row;
 }
 
@@ -147,19 +134,12 @@ std::string registration_summary(const json& cases) {
                     quantile(all, 0.95), all.size());
       text += line;
     }
-  for (const char* key : {"inside_50_ellipse", "inside_90_ellipse", "ellipse_major_mm",
-                          "points_inside_50_ellipse", "points_inside_90_ellipse",
-                          "points_ellipse_major_mm"}) {
-    std::vector<double> all;
-    for (const json& row : cases)
-      if (row.contains(key) && row[key].is_number()) all.push_back(row[key]);
-    if (all.empty()) continue;
-    char line[160];
-    std::snprintf(line, sizeof line, "  %-26s mean %.3f, median %.3f over %zu patients\n", key,
-                  std::accumulate(all.begin(), all.end(), 0.0) / all.size(), quantile(all, 0.5),
-                  all.size());
-    text += line;
+  std::vector<std::vector<JudgedMark>> patients;
+  for (const json& row : cases) {
+    patients.emplace_back();
+    for (const json& mark : row.value("marks", json::array())) patients.back().push_back(mark_of(mark));
   }
+  text += coverage_summary(patients);
   return text;
 }
 

@@ -7,8 +7,8 @@
 namespace mammotwin {
 
 /// How far a registered synthetic patient's marks are from the truth in its landmarks.csv: medians
-/// over lesions and points after the search (`tre_*`), before it and for the baseline; fractions of
-/// the lesions' and view pairs inside the 50 and 90 % ellipses; all errors under `errors`.
+/// over lesions and points after the search (`tre_*`), before it and for the baseline; all errors
+/// under `errors`; coverage of `lesions` and `points` (`coverage_of`), whose `marks` follow.
 nlohmann::json registration_row(const std::filesystem::path& folder);
 
 /// A row's keys without values, for a patient that failed.
