@@ -44,7 +44,7 @@ help:
 	@echo 'make evaluate-registration  registers SYNTHETIC=10 patients with mammograms of another model:'
 	@echo '                       RESULTS/evaluation/registration.json; JOBS=2 at a time'
 	@echo 'make evaluate-outlines   outlines of what RESULTS holds compressed in CC against those of real patients:'
-	@echo '                       RESULTS/evaluation/outlines.json'
+	@echo '                       RESULTS/evaluation/outlines.json; PRESS=1 presses each to what is usual for its volume first'
 	@echo 'make validate          the gel cylinder against other codes: RESULTS/gel_cylinder/validation.json;'
 	@echo '                       the gel breast against its true skin: RESULTS/gel_breast/validation.json'
 	@echo 'make evaluate-niftysim   a breast that NiftySim compressed, node by node: RESULTS/evaluation/niftysim.json'
@@ -85,7 +85,7 @@ evaluate-registration: programs
 
 evaluate-outlines: programs
 	@"$$BIN/mammotwin-evaluate-outlines" "$$CASES/compressed_outlines" "$$RESULTS/evaluation/outlines.json" \
-	  $$(find -L "$$RESULTS" -name cc.vtu | sort)
+	  $${PRESS:+--press} $$(find -L "$$RESULTS" -name cc.vtu -not -path '*/evaluation/outlines/*' | sort)
 
 validate: programs
 	@"$$BIN/mammotwin-validate" sample_data/gel_cylinder "$$RESULTS/gel_cylinder/validation.json"

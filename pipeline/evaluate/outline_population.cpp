@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <fstream>
+#include <numbers>
 #include <stdexcept>
 #include <string>
 
@@ -48,20 +49,39 @@ OutlinePopulation::OutlinePopulation(const std::filesystem::path& folder)
   score_sd_ = scores.col(1);
 }
 
-OutlinePopulation::Radius OutlinePopulation::at(double thickness_mm, double angle_deg) const {
+Eigen::MatrixXd OutlinePopulation::mean_at(double thickness_mm) const {
   if (!(thickness_mm >= kThinnest_mm && thickness_mm <= kThickest_mm))
     throw std::invalid_argument("the population has no breasts of " + std::to_string(thickness_mm) +
                                 " mm; expected 30 to 90 mm");
+  Eigen::MatrixXd radius = mean_ + (kScorePerMm * thickness_mm + kScoreAtZero) * components_[0];
+  for (int i = 1; i < kComponents; ++i) radius += score_mean_[i] * components_[i];
+  return radius;
+}
+
+OutlinePopulation::Radius OutlinePopulation::at(double thickness_mm, double angle_deg) const {
   const int row = static_cast<int>(std::lround((angle_deg + 90) / 180 * (kAngles - 1)));
-  Eigen::RowVectorXd radius =
-      mean_.row(row) + (kScorePerMm * thickness_mm + kScoreAtZero) * components_[0].row(row);
-  for (int i = 1; i < kComponents; ++i) radius += score_mean_[i] * components_[i].row(row);
   Eigen::Index height;
-  const double mean = radius.maxCoeff(&height);
+  const double mean = mean_at(thickness_mm).row(row).maxCoeff(&height);
   double variance = 0;
   for (int i = 1; i < kComponents; ++i)
     variance += std::pow(score_sd_[i] * components_[i](row, height), 2);
   return {mean, std::sqrt(variance)};
+}
+
+// Sectors of a circle at evenly spaced heights.
+double OutlinePopulation::volume_ml(double thickness_mm) const {
+  const double sector = std::numbers::pi / (kAngles - 1);
+  const double area = 0.5 * sector * mean_at(thickness_mm).squaredNorm() / kHeights;
+  return area * thickness_mm / 1000;
+}
+
+double OutlinePopulation::typical_thickness_mm(double volume_ml) const {
+  double low = kThinnest_mm, high = kThickest_mm;
+  while (high - low > 0.01) {
+    const double middle = (low + high) / 2;
+    (this->volume_ml(middle) < volume_ml ? low : high) = middle;
+  }
+  return (low + high) / 2;
 }
 
 }  // namespace mammotwin

@@ -27,7 +27,17 @@ class OutlinePopulation {
   /// thicknesses.
   Radius at(double thickness_mm, double angle_deg) const;
 
+  /// Volume of the mean breast of that thickness in front of the chest-wall edge [ml].
+  double volume_ml(double thickness_mm) const;
+
+  /// Thickness of the mean breast with that volume, or the nearest that the model has: to what
+  /// radiographers press it.
+  double typical_thickness_mm(double volume_ml) const;
+
  private:
+  /// Radii of the mean breast [mm], a row an angle, a column a height.
+  Eigen::MatrixXd mean_at(double thickness_mm) const;
+
   Eigen::MatrixXd mean_;                     ///< [mm], a row an angle, a column a height
   std::vector<Eigen::MatrixXd> components_;  ///< [mm] for a score of 1
   Eigen::VectorXd score_mean_, score_sd_;

@@ -3,6 +3,8 @@
 #include "registration/compressed_view.h"
 #include "registration/silhouette.h"
 
+#include <Eigen/LU>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -44,6 +46,32 @@ Eigen::Vector2d middle_of(const ReducedView& view) {
   return {0, (low + high) / 2};
 }
 
+constexpr int kSamples = 12;  // of an element along each of its axes, each standing for its surroundings
+
+/// Volume of what lies in front of the plates' edge [ml].
+double volume_in_front_ml(const HermiteMesh& mesh, const ViewFrame& frame) {
+  double volume = 0;
+  for (int n = 0; n < kSamples * kSamples * kSamples; ++n) {
+    const Eigen::Vector3d xi =
+        (Eigen::Vector3d(n % kSamples, n / kSamples % kSamples, n / (kSamples * kSamples)).array() + 0.5) /
+        kSamples;
+    const HermiteMesh::Weights weights = HermiteMesh::weights(xi);
+    std::array<HermiteMesh::Weights, 3> slopes;
+    for (int i = 0; i < 3; ++i) {
+      std::array<int, 3> orders{};
+      orders[i] = 1;
+      slopes[i] = HermiteMesh::weights(xi, orders);
+    }
+    for (int e = 0; e < mesh.num_elements(); ++e) {
+      if (frame.view_from_lps(mesh.interpolate(e, weights)).x() <= 0) continue;
+      Eigen::Matrix3d J;
+      for (int i = 0; i < 3; ++i) J.col(i) = mesh.interpolate(e, slopes[i]);
+      volume += J.determinant();
+    }
+  }
+  return volume / (1000.0 * kSamples * kSamples * kSamples);
+}
+
 RayDistances outline_of(const MeshFile& file, const CompressedView& geometry) {
   ReducedView view;
   view.elements = file.mesh.elements();
@@ -57,13 +85,17 @@ RayDistances outline_of(const MeshFile& file, const CompressedView& geometry) {
 
 json outline_row(const MeshFile& compressed, const OutlinePopulation& population) {
   const CompressedView view = compressed_view("cc", "the compressed mesh", compressed.metadata);
-  json row{{"thickness_mm", view.thickness_mm}};
-  for (const char* key : {"compared", "within_2_sd", "mean_sd", "worst_sd", "depth_mm", "width_mm",
+  const double volume = volume_in_front_ml(compressed.mesh, view.frame);
+  json row{{"thickness_mm", view.thickness_mm},
+           {"volume_ml", volume},
+           {"typical_thickness_mm", population.typical_thickness_mm(volume)}};
+  for (const char* key : {"population_volume_ml", "compared", "within_2_sd", "mean_sd", "worst_sd", "depth_mm", "width_mm",
                           "population_depth_mm", "population_width_mm"})
     row[key] = nullptr;
   if (view.thickness_mm < OutlinePopulation::kThinnest_mm ||
       view.thickness_mm > OutlinePopulation::kThickest_mm)
     return row;
+  row["population_volume_ml"] = population.volume_ml(view.thickness_mm);
   Extent ours, theirs;
   int compared = 0, within = 0;
   double sum = 0, worst = 0;

@@ -38,6 +38,19 @@ TEST_F(Outlines, MeanIsThePublishedOne) {
   }
 }
 
+// 360, 613 and 1222 ml by a numpy script over the same tables; a half ellipse as deep and wide as the
+// mean at 55 mm, without a rounded rim, would have 729 ml.
+TEST_F(Outlines, TypicalThicknessIsThatOfTheVolume) {
+  const OutlinePopulation p = population();
+  EXPECT_NEAR(p.volume_ml(40), 360, 1);
+  EXPECT_NEAR(p.volume_ml(55), 613, 1);
+  EXPECT_NEAR(p.volume_ml(80), 1222, 1);
+  for (const double thickness : {35.0, 55.0, 80.0})
+    EXPECT_NEAR(p.typical_thickness_mm(p.volume_ml(thickness)), thickness, 0.01);
+  EXPECT_NEAR(p.typical_thickness_mm(100), 30, 0.01);
+  EXPECT_NEAR(p.typical_thickness_mm(2000), 90, 0.01);
+}
+
 TEST_F(Outlines, RefusesThicknessesWithoutPatients) {
   EXPECT_THROW(population().at(25, 0), std::invalid_argument);
   EXPECT_THROW(population().at(95, 0), std::invalid_argument);
@@ -56,6 +69,7 @@ TEST_F(Outlines, ABoxIsMeasuredAsOne) {
   // Rays end at 75 degrees: the sides are met 70.7 / tan 75 = 19 mm in front of the edge.
   EXPECT_NEAR(row["width_mm"].get<double>(), 100 * std::sqrt(2), 0.1);
   EXPECT_EQ(row["compared"], 51);
+  EXPECT_NEAR(row["volume_ml"].get<double>(), 480, 1e-6);  // 100 x 60 x 80 mm, squeezing keeps it
   EXPECT_NEAR(row["population_depth_mm"].get<double>(), 79.7, 0.5);
 }
 
