@@ -150,6 +150,13 @@ Nodes ReducedView::nodes_at(const ViewState& z) const {
   return x;
 }
 
+Nodes ReducedView::nodes_along_slope(const ViewState& z, int number) const {
+  Nodes x = nodes_at(z);
+  add(1, modes[number].linear, x);
+  add(2 * z[number], modes[number].quadratic, x);
+  return x;
+}
+
 Eigen::Vector3d ReducedView::placed(const Eigen::Vector3d& x, const ViewState& z) const {
   const double t = z[kTurn] * sd[kTurn] * std::numbers::pi / 180;
   return {std::cos(t) * x.x() - std::sin(t) * x.y() + z[kShiftDepth] * sd[kShiftDepth],

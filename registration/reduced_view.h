@@ -77,6 +77,9 @@ struct ReducedView {
   /// Nodes in view coordinates; turn and shifts left out.
   Nodes nodes_at(const ViewState& z) const;
 
+  /// Nodes at z moved on by the slope there of one mechanical number: x(z) + dx/dz_i.
+  Nodes nodes_along_slope(const ViewState& z, int number) const;
+
   /// Turn and shifts of a point.
   Eigen::Vector3d placed(const Eigen::Vector3d& x_in_view, const ViewState& z) const;
 

@@ -16,15 +16,16 @@ inline constexpr double kModelSd_mm = 1.2;
 
 /// A registered view with what is not known of its state.
 struct ViewUncertainty {
-  /// The breast with one mechanical number a standard deviation further, as it stands in the
-  /// registered view's frame, in LPS [mm]; empty: no effect.
+  /// The breast with one mechanical number a standard deviation further along the slope that the
+  /// covariance was found with, as it stands in the registered view's frame, in LPS [mm]; empty: no
+  /// effect.
   std::array<Nodes, kMechanical> varied;
   ViewState sd = prior_sd();
   Eigen::Matrix<double, kStates, kStates> covariance = prior_covariance();  ///< of z [-]
 };
 
 /// Covariance on the detector [mm^2] of a material point: J C J^T + kModelSd_mm^2, J being the
-/// differences that a standard deviation makes.
+/// slopes times a standard deviation.
 Eigen::Matrix2d detector_covariance(const ViewUncertainty& uncertainty,
                                     const HermiteMesh& compressed, const CompressedView& view,
                                     const Detector& detector, const MeshPoint& point);

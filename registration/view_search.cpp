@@ -217,10 +217,9 @@ class ViewsSearch {
                               const ViewFrame& frame) const {
     ViewUncertainty result;
     result.sd = reduced.sd;
-    for (int i = 0; i < kMechanical; ++i) {
-      if (reduced.modes[i].linear.empty()) continue;
-      result.varied[i] = in_lps(reduced.nodes_at(z + ViewState::Unit(i)), frame);
-    }
+    for (int i = 0; i < kMechanical; ++i)
+      if (!reduced.modes[i].linear.empty())
+        result.varied[i] = in_lps(reduced.nodes_along_slope(z, i), frame);
     return result;
   }
 

@@ -66,5 +66,20 @@ TEST(LinearView, IsTheBaseAndItsSlopes) {
   EXPECT_LT(largest(moved), 10);
 }
 
+// A quadratic's slope is its central difference, whatever the step.
+TEST(ReducedView, SlopeIsTheCentralDifference) {
+  ReducedView view;
+  view.base = {HermiteMesh::Node::Constant(1)};
+  view.modes[kRoll] = {{HermiteMesh::Node::Constant(2)}, {HermiteMesh::Node::Constant(0.5)}};
+  view.modes[kLift] = {{HermiteMesh::Node::Constant(-3)}, {HermiteMesh::Node::Constant(4)}};
+  ViewState z = ViewState::Zero();
+  z[kRoll] = 1.5;
+  z[kLift] = -0.4;
+  const Nodes up = view.nodes_at(z + 0.3 * ViewState::Unit(kRoll));
+  const Nodes down = view.nodes_at(z - 0.3 * ViewState::Unit(kRoll));
+  const Nodes expected = {view.nodes_at(z)[0] + (up[0] - down[0]) / 0.6};
+  EXPECT_LT((view.nodes_along_slope(z, kRoll)[0] - expected[0]).norm(), 1e-12);
+}
+
 }  // namespace
 }  // namespace mammotwin
