@@ -11,7 +11,7 @@ namespace mammotwin {
 namespace {
 
 constexpr double bin_mm = 0.25, outermost_mm = -3, innermost_mm = 5.5;
-constexpr double thinnest_mm = 0.5, thickest_mm = 5, thickness_step_mm = 0.05;
+constexpr double thinnest_mm = 0.5, thickness_step_mm = 0.05;
 constexpr std::size_t least_in_bin = 50;
 
 /// Median brightness by signed depth below the surface of the mask (negative: in air).
@@ -57,7 +57,7 @@ SlabFit fit_slab(const Profile& profile, double sigma) {
   const Eigen::Map<const Eigen::VectorXd> y(profile.value.data(), n);
   SlabFit best;
   for (double surface = -1.5; surface <= 1.5; surface += 0.1)
-    for (double t = thinnest_mm; t <= thickest_mm; t += thickness_step_mm) {
+    for (double t = thinnest_mm; t <= thickest_measured_skin_mm; t += thickness_step_mm) {
       Eigen::MatrixXd basis(n, 3);  // air, skin, fat
       for (Eigen::Index r = 0; r < n; ++r) {
         const double outer = step(profile.depth[r] - surface, sigma);

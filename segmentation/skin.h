@@ -12,6 +12,9 @@ struct SkinThickness {
   double misfit = 0;  ///< root mean square of the fit over the brightness of fat
 };
 
+/// Thickest slab tried [mm]: fat must show below it in the 5.5 mm that are looked at.
+inline constexpr double thickest_measured_skin_mm = 5;
+
 /// Fits a blurred slab (air, skin, fat) to the median profile along the depth below the skin.
 ///
 /// The image's own blur is not known: a Gaussian of 0.55 voxels is assumed, and the range is what

@@ -37,13 +37,18 @@ double find_skin(const HalfBreast& half, const BreastFrame& frame, const Segment
                  SegmentQuality& quality) {
   if (options.skin_thickness_mm) return quality.skin_thickness_mm = *options.skin_thickness_mm;
   const SkinThickness skin = measure_skin(half.image, half.body, skin_layer(half, frame));
-  constexpr double largest_misfit = 0.15, thickest_mm = 4;
-  if (!(skin.thickness > 0) || skin.misfit > largest_misfit || skin.thickness > thickest_mm) {
+  constexpr double largest_misfit = 0.15, thick_mm = 4;
+  if (!(skin.thickness > 0) || skin.misfit > largest_misfit ||
+      skin.thickness >= thickest_measured_skin_mm) {
     quality.doubt(SegmentStatus::look,
                   "the skin's thickness could not be measured: 1.5 mm was "
                   "taken; set segmentation.skin_thickness_mm where known");
     return quality.skin_thickness_mm = usual_skin_mm;
   }
+  if (skin.thickness > thick_mm)
+    quality.doubt(SegmentStatus::look,
+                  "the skin measures more than 4 mm; expected 1 to 3 mm (is it swollen, or does "
+                  "gland lie right under it?)");
   quality.skin_thickness_low_mm = skin.low;
   quality.skin_thickness_high_mm = skin.high;
   return quality.skin_thickness_mm = skin.thickness;

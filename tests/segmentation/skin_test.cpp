@@ -29,7 +29,7 @@ Volume<float> ball_with_skin(double skin_mm, double skin_level, Volume<std::uint
 
 TEST(Skin, ThicknessLiesInItsRange) {
   for (const double level : {1.8, 0.45})
-    for (const double thickness : {1.2, 1.8, 2.5, 3.0}) {
+    for (const double thickness : {1.2, 1.8, 2.5, 3.0, 4.2}) {
       Volume<std::uint8_t> body;
       const auto image = ball_with_skin(thickness, level, body);
       const SkinThickness skin = measure_skin(image, body, image.like<std::uint8_t>(1));
