@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <Eigen/LU>
+#include <Eigen/SVD>
 
 #include <algorithm>
 #include <cmath>
@@ -54,6 +55,47 @@ FoldoverEnergy::Hessian cofactor_derivative(const Eigen::Matrix3d& F) {
   return h;
 }
 
+FoldoverEnergy::Hessian hessian(const Eigen::Matrix3d& F, const Parts& p) {
+  const Vector9 f = flat(F), c = flat(cofactor(F));
+  FoldoverEnergy::Hessian h =
+      2 * p.by_I * FoldoverEnergy::Hessian::Identity() + p.by_d * cofactor_derivative(F);
+  h += p.by_d_d * c * c.transpose();
+  h += 2 * p.by_I_d * (f * c.transpose() + c * f.transpose());
+  return h;
+}
+
+/// F = u diag(sigma) vᵀ with rotations u and v: the smallest singular value has the sign of det F.
+struct RotationSvd {
+  Eigen::Matrix3d u, v;
+  Eigen::Vector3d sigma;
+
+  explicit RotationSvd(const Eigen::Matrix3d& F) {
+    const Eigen::JacobiSVD<Eigen::Matrix3d> svd(F, Eigen::ComputeFullU | Eigen::ComputeFullV);
+    u = svd.matrixU();
+    v = svd.matrixV();
+    sigma = svd.singularValues();
+    if (u.determinant() < 0) u.col(2) *= -1, sigma[2] *= -1;
+    if (v.determinant() < 0) v.col(2) *= -1, sigma[2] *= -1;
+  }
+};
+
+/// Second derivatives of e by the singular values.
+Eigen::Matrix3d scaling_hessian(const Eigen::Vector3d& s, const Parts& p) {
+  const Eigen::Vector3d c(s.y() * s.z(), s.z() * s.x(), s.x() * s.y());
+  Eigen::Matrix3d h = p.by_d_d * c * c.transpose();
+  h += 2 * p.by_I_d * (s * c.transpose() + c * s.transpose());
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) h(i, j) += i == j ? 2 * p.by_I : p.by_d * s[3 - i - j];
+  return h;
+}
+
+/// Brings a negative eigenvalue to zero; its eigenvector is a matrix of norm 1.
+void lift(double eigenvalue, const Eigen::Matrix3d& mode, FoldoverEnergy::Hessian& h) {
+  if (eigenvalue >= 0) return;
+  const Vector9 m = flat(mode);
+  h -= eigenvalue * m * m.transpose();
+}
+
 }  // namespace
 
 FoldoverEnergy FoldoverEnergy::for_smallest(double d_min) {
@@ -71,18 +113,28 @@ FoldoverEnergy::Gradient FoldoverEnergy::gradient(const Eigen::Matrix3d& F) cons
 }
 
 FoldoverEnergy::Hessian FoldoverEnergy::hessian(const Eigen::Matrix3d& F) const {
-  const Parts p = parts(F.squaredNorm(), F.determinant(), epsilon);
-  const Vector9 f = flat(F), c = flat(cofactor(F));
-  Hessian h = 2 * p.by_I * Hessian::Identity() + p.by_d * cofactor_derivative(F);
-  h += p.by_d_d * c * c.transpose();
-  h += 2 * p.by_I_d * (f * c.transpose() + c * f.transpose());
-  return h;
+  return mammotwin::hessian(F, parts(F.squaredNorm(), F.determinant(), epsilon));
 }
 
+// Eigenvectors by singular vectors: Smith, de Goes, Kim, "Analytic eigensystems for isotropic
+// distortion energies", ACM Trans. Graph. 38(1), 2019. A quarter of the time of a 9 x 9 solver.
 FoldoverEnergy::Hessian FoldoverEnergy::positive_hessian(const Eigen::Matrix3d& F) const {
-  const Eigen::SelfAdjointEigenSolver<Hessian> eigen(hessian(F));
-  const Vector9 clamped = eigen.eigenvalues().cwiseMax(0);
-  return eigen.eigenvectors() * clamped.asDiagonal() * eigen.eigenvectors().transpose();
+  const Parts p = parts(F.squaredNorm(), F.determinant(), epsilon);
+  const RotationSvd svd(F);
+  Hessian h = mammotwin::hessian(F, p);
+  for (int k = 0; k < 3; ++k) {
+    const int i = (k + 1) % 3, j = (k + 2) % 3;
+    const Eigen::Matrix3d ij = svd.u.col(i) * svd.v.col(j).transpose();
+    const Eigen::Matrix3d ji = svd.u.col(j) * svd.v.col(i).transpose();
+    const double turn = p.by_d * svd.sigma[k];
+    lift(2 * p.by_I - turn, M_SQRT1_2 * (ij + ji), h);
+    lift(2 * p.by_I + turn, M_SQRT1_2 * (ij - ji), h);
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> scaling(scaling_hessian(svd.sigma, p));
+  for (int m = 0; m < 3; ++m)
+    lift(scaling.eigenvalues()[m],
+         svd.u * scaling.eigenvectors().col(m).asDiagonal() * svd.v.transpose(), h);
+  return h;
 }
 
 }  // namespace mammotwin
