@@ -40,15 +40,24 @@ Eigen::Vector3d mean_lengths(const HermiteMesh& mesh) {
 
 /// First derivatives of the basis at a grid of points, in units of `lengths`.
 Eigen::MatrixXd gradient_matrix(const std::vector<double>& x, const Eigen::Vector3d& lengths) {
-  const int n = static_cast<int>(x.size());
-  Eigen::MatrixXd matrix(3 * n * n * n, 64);
-  for (int q = 0; q < n * n * n; ++q)
+  const int n = static_cast<int>(x.size()), points = n * n * n;
+  Eigen::MatrixXd matrix(3 * points, 64);
+  for (int q = 0; q < points; ++q)
     for (int i = 0; i < 3; ++i) {
       std::array<int, 3> order = {0, 0, 0};
       order[i] = 1;
-      matrix.row(3 * q + i) = basis_row({x[q % n], x[q / n % n], x[q / n / n]}, order) / lengths[i];
+      matrix.row(i * points + q) = basis_row({x[q % n], x[q / n % n], x[q / n / n]}, order) / lengths[i];
     }
   return matrix;
+}
+
+/// F at point q.
+template <class Gradients>
+Eigen::Matrix3d at(const Gradients& F, int q) {
+  const auto points = F.cols() / 3;
+  Eigen::Matrix3d at_q;
+  at_q << F.col(q), F.col(points + q), F.col(2 * points + q);
+  return at_q;
 }
 
 /// Typical length over the one that each element should have along each ξ.
@@ -106,7 +115,8 @@ FitModel::FitModel(const Slab& slab, const HermiteMesh& start, double mu, double
 
 FitModel::Gradients FitModel::gradients_of(const Shape& x, int element) const {
   Gradients F = x * gradients(element).transpose();
-  for (int column = 0; column < F.cols(); ++column) F.col(column) *= stretch_[element][column % 3];
+  const auto points = F.cols() / 3;
+  for (int i = 0; i < 3; ++i) F.middleCols(i * points, points) *= stretch_[element][i];
   return F;
 }
 
@@ -128,9 +138,9 @@ double FitModel::smallest_determinant(const std::vector<HermiteMesh::Node>& node
   std::vector<double> smallest(elements_.size());
   tbb::parallel_for(0, static_cast<int>(elements_.size()), [&](int e) {
     const Gradients F = gradients_of(shape(nodes, e), e);
-    smallest[e] = F.leftCols<3>().determinant();
+    smallest[e] = at(F, 0).determinant();
     for (int q = 1; q < F.cols() / 3; ++q)
-      smallest[e] = std::min(smallest[e], F.middleCols<3>(3 * q).determinant());
+      smallest[e] = std::min(smallest[e], at(F, q).determinant());
   });
   return *std::min_element(smallest.begin(), smallest.end());
 }
@@ -142,78 +152,90 @@ void FitModel::update(const std::vector<HermiteMesh::Node>& nodes,
   for (std::size_t s = 0; s < samples.size(); ++s)
     of_element[samples[s].point.element].push_back(static_cast<int>(s));
   linear_.resize(elements_.size());
-  tbb::parallel_for(0, static_cast<int>(elements_.size()), [&](int e) {
-    Linear& l = linear_[e];
-    l.a = ElementMatrix::Zero(element_size, element_size);
-    l.b.setZero();
-    l.c = 0;
-    for (int s : of_element[e]) {
-      const PlaneSample& sample = samples[s];
-      const auto basis = basis_row(sample.point.xi, {0, 0, 0});
-      std::array<int, 64> used;
-      int count = 0;
-      for (int a = 0; a < 64; ++a)
-        if (basis[a] != 0) used[count++] = a;
-      const double goal = sample.normal.dot(sample.target - centre_);
-      l.c += sample.weight * goal * goal / 2;
-      for (int p = 0; p < count; ++p) {
-        const Eigen::Vector3d row = sample.weight * basis[used[p]] * sample.normal;
-        l.b.segment<3>(3 * used[p]) += goal * row;
-        for (int q = 0; q <= p; ++q)
-          l.a.block<3, 3>(3 * used[p], 3 * used[q]) +=
-              basis[used[q]] * row * sample.normal.transpose();
-      }
-    }
-    l.a = ElementMatrix(l.a.selfadjointView<Eigen::Lower>());
-  });
+  tbb::parallel_for(0, static_cast<int>(elements_.size()),
+                    [&](int e) { linear_[e] = linear(samples, of_element[e], centre_); });
+}
+
+FitModel::Linear FitModel::linear(const std::vector<PlaneSample>& samples,
+                                  const std::vector<int>& of_element,
+                                  const Eigen::Vector3d& centre) {
+  Eigen::MatrixXd basis(of_element.size(), 64);
+  for (std::size_t i = 0; i < of_element.size(); ++i)
+    basis.row(i) = basis_row(samples[of_element[i]].point.xi, {0, 0, 0});
+  std::vector<int> seen;
+  for (int p = 0; p < 64; ++p)
+    if (!basis.col(p).isZero(0)) seen.push_back(p);
+
+  Linear l;
+  for (int p : seen) l.parameters.insert(l.parameters.end(), {3 * p, 3 * p + 1, 3 * p + 2});
+  l.a.setZero(l.parameters.size(), l.parameters.size());
+  l.b.setZero(l.parameters.size());
+  Eigen::VectorXd row(l.parameters.size());
+  for (std::size_t i = 0; i < of_element.size(); ++i) {
+    const PlaneSample& sample = samples[of_element[i]];
+    for (std::size_t p = 0; p < seen.size(); ++p)
+      row.segment<3>(3 * p) = basis(i, seen[p]) * sample.normal;
+    const double goal = sample.normal.dot(sample.target - centre);
+    l.a.selfadjointView<Eigen::Lower>().rankUpdate(row, sample.weight);
+    l.b += sample.weight * goal * row;
+    l.c += sample.weight * goal * goal / 2;
+  }
+  l.a.triangularView<Eigen::StrictlyUpper>() = l.a.transpose();
+  return l;
+}
+
+double FitModel::Linear::cost(const ElementVector& x) const {
+  const Eigen::VectorXd seen = x(parameters);
+  return 0.5 * seen.dot(a * seen) - b.dot(seen) + c;
 }
 
 double FitModel::cost(const std::vector<HermiteMesh::Node>& nodes, int e) const {
   const Shape x = shape(nodes, e);
   const Eigen::Map<const ElementVector> flat(x.data());
-  const Linear& l = linear_[e];
-  double cost = 0.5 * flat.dot(l.a * flat) - l.b.dot(flat) + l.c;
+  double cost = linear_[e].cost(flat);
   cost += 0.5 * sobolev_ * (x * smoothing_).cwiseProduct(x).sum();
   const Gradients F = gradients_of(x, e);
   double energy = 0;
-  for (int q = 0; q < F.cols() / 3; ++q) energy += energy_.value(F.middleCols<3>(3 * q));
+  for (int q = 0; q < F.cols() / 3; ++q) energy += energy_.value(at(F, q));
   return cost + energy_weight(e) * energy;
 }
 
 FitModel::Quadratic FitModel::quadratic(const std::vector<HermiteMesh::Node>& nodes, int e) const {
   const Shape x = shape(nodes, e);
   const Eigen::Map<const ElementVector> flat(x.data());
-  const Linear& l = linear_[e];
   Quadratic result;
   result.cost = cost(nodes, e);
-  result.gradient = l.a * flat - l.b;
-  result.hessian = l.a;
+  result.hessian.resize(element_size, element_size);
 
   const Eigen::MatrixXd& gradients = this->gradients(e);
   const int num_points = static_cast<int>(gradients.rows() / 3);
+  const auto along = [&](int i) { return gradients.middleRows(i * num_points, num_points).array(); };
   const double scale = energy_weight(e);
   const Gradients F = gradients_of(x, e);
   const Eigen::Vector3d& stretch = stretch_[e];
   Gradients stress(3, 3 * num_points);
-  std::vector<FoldoverEnergy::Hessian> tangent(num_points);
+  Eigen::Array<double, Eigen::Dynamic, 81> tangent(num_points, 81);  // entry (r, s) in column r + 9 s
   for (int q = 0; q < num_points; ++q) {
-    const Eigen::Matrix3d Fq = F.middleCols<3>(3 * q);
-    stress.middleCols<3>(3 * q) =
+    const Eigen::Matrix3d Fq = at(F, q);
+    const Eigen::Matrix3d stress_q =
         scale * energy_.gradient(Fq).reshaped(3, 3) * stretch.asDiagonal();
-    tangent[q] = scale * energy_.positive_hessian(Fq);
+    for (int i = 0; i < 3; ++i) stress.col(i * num_points + q) = stress_q.col(i);
+    tangent.row(q) = scale * energy_.positive_hessian(Fq).reshaped().transpose().array();
   }
   const Shape by_x = stress * gradients + sobolev_ * x * smoothing_;
-  result.gradient += Eigen::Map<const ElementVector>(by_x.data());
+  result.gradient = Eigen::Map<const ElementVector>(by_x.data());
 
   Eigen::MatrixXd product(3 * num_points, 64), block(64, 64);
   for (int c = 0; c < 3; ++c)
     for (int b = 0; b <= c; ++b) {
-      for (int q = 0; q < num_points; ++q) {
-        Eigen::Matrix3d part;
-        for (int i = 0; i < 3; ++i)
-          for (int j = 0; j < 3; ++j)
-            part(i, j) = stretch[i] * stretch[j] * tangent[q](c + 3 * i, b + 3 * j);
-        product.middleRows<3>(3 * q).noalias() = part * gradients.middleRows<3>(3 * q);
+      for (int i = 0; i < 3; ++i) {
+        const auto part = [&](int j) {
+          return stretch[i] * stretch[j] * tangent.col(c + 3 * i + 9 * (b + 3 * j));
+        };
+        const Eigen::ArrayXd by_0 = part(0), by_1 = part(1), by_2 = part(2);
+        product.middleRows(i * num_points, num_points) = along(0).colwise() * by_0 +
+                                                         along(1).colwise() * by_1 +
+                                                         along(2).colwise() * by_2;
       }
       cblas_dgemm(CblasColMajor, CblasTrans, CblasNoTrans, 64, 64, 3 * num_points, 1,
                   gradients.data(), 3 * num_points, product.data(), 3 * num_points, 0,
@@ -221,10 +243,13 @@ FitModel::Quadratic FitModel::quadratic(const std::vector<HermiteMesh::Node>& no
       if (b == c) block += sobolev_ * smoothing_;
       for (int p = 0; p < 64; ++p)
         for (int r = 0; r < 64; ++r) {
-          result.hessian(3 * p + c, 3 * r + b) += block(p, r);
-          if (b != c) result.hessian(3 * r + b, 3 * p + c) += block(p, r);
+          result.hessian(3 * p + c, 3 * r + b) = block(p, r);
+          if (b != c) result.hessian(3 * r + b, 3 * p + c) = block(p, r);
         }
     }
+  const Linear& l = linear_[e];
+  result.gradient(l.parameters) += l.a * flat(l.parameters) - l.b;
+  result.hessian(l.parameters, l.parameters) += l.a;
   return result;
 }
 

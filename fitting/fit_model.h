@@ -50,24 +50,29 @@ class FitModel {
 
  private:
   using Shape = Eigen::Matrix<double, 3, 64>;
-  using Gradients = Eigen::Matrix<double, 3, Eigen::Dynamic>;  ///< F of every point side by side
+  using Gradients = Eigen::Matrix<double, 3, Eigen::Dynamic>;  ///< column i of F of every point, then column i + 1
   Shape shape(const std::vector<HermiteMesh::Node>& nodes, int element) const;
   double smallest_determinant(const std::vector<HermiteMesh::Node>& nodes) const;
   const Eigen::MatrixXd& gradients(int element) const { return gradients_[emphasis_[element] > 0]; }
   Gradients gradients_of(const Shape& x, int element) const;
   double energy_weight(int element) const;  ///< of each of its points
 
-  struct Linear {  ///< samples of one element: ½ xᵀ A x − bᵀ x + c over all 192 parameters
-    ElementMatrix a;
-    ElementVector b;
+  /// Samples of one element: ½ xᵀ a x − bᵀ x + c over the parameters that they see, 48 on a face.
+  struct Linear {
+    std::vector<int> parameters;
+    Eigen::MatrixXd a;
+    Eigen::VectorXd b;
     double c = 0;
+    double cost(const ElementVector& x) const;
   };
+  static Linear linear(const std::vector<PlaneSample>& samples, const std::vector<int>& of_element,
+                       const Eigen::Vector3d& centre);
 
   std::vector<HermiteMesh::Corners> elements_;
   double mu_, sobolev_;
   Eigen::Vector3d centre_;                  ///< positions are taken from here, for rounding
   std::vector<int> emphasis_;
-  /// Without and with emphasis: row 3q + i is ∂/∂ξᵢ₊₁ of every basis function at point q, scaled.
+  /// Without and with emphasis: row i N + q is ∂/∂ξᵢ₊₁ of every basis function at point q of N, scaled.
   std::array<Eigen::MatrixXd, 2> gradients_;
   Eigen::Matrix<double, 64, 64> smoothing_;
   std::vector<Eigen::Vector3d> stretch_;    ///< of each element: typical length over wanted one
