@@ -110,7 +110,7 @@ Coverage coverage(const HermiteMesh& mesh, const Volume<std::uint8_t>& labels,
     Count& count = counts[k];
     for (int i = 0; i < labels.size.x(); ++i) {
       if (!region.contains(labels.position(i, 0, k))) continue;
-      MeshPoint guess{0, Eigen::Vector3d::Constant(0.5)};
+      MeshPoint guess{0, Eigen::Vector3d::Constant(0.5)}, last{-1, guess.xi};
       for (int j = 0; j < labels.size.y(); ++j) {
         const std::uint8_t value = labels(i, j, k);
         if (!label::is_breast(value)) {
@@ -118,7 +118,11 @@ Coverage coverage(const HermiteMesh& mesh, const Volume<std::uint8_t>& labels,
           continue;
         }
         const auto found = map.locate(labels.position(i, j, k), guess);
-        if (found) guess = *found;
+        if (found) {
+          // Two in a row show where the next one is.
+          guess = {found->element, found->element == last.element ? 2 * found->xi - last.xi : found->xi};
+          last = *found;
+        }
         ++count.breast;
         count.breast_inside += found.has_value();
         if (label::is_lesion(value)) {

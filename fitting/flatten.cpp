@@ -1,5 +1,6 @@
 #include "fitting/flatten.h"
 
+#include <CGAL/Eigen_solver_traits.h>
 #include <CGAL/Polygon_mesh_processing/measure.h>
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>
@@ -19,7 +20,11 @@ using Kernel = CGAL::Simple_cartesian<double>;
 using SurfaceMesh = CGAL::Surface_mesh<Kernel::Point_3>;
 using Vertex = SurfaceMesh::Vertex_index;
 using Border = parameterization::Square_border_arc_length_parameterizer_3<SurfaceMesh>;
-using MeanValue = parameterization::Mean_value_coordinates_parameterizer_3<SurfaceMesh, Border>;
+// A direct solver takes a third of the time of CGAL's default, BiCGSTAB on an incomplete LU.
+using Solver = CGAL::Eigen_solver_traits<
+    Eigen::SparseLU<CGAL::Eigen_sparse_matrix<double>::EigenType, Eigen::COLAMDOrdering<int>>>;
+using MeanValue =
+    parameterization::Mean_value_coordinates_parameterizer_3<SurfaceMesh, Border, Solver>;
 
 /// Corners in the order (x_min, z_min), (x_max, z_min), (x_max, z_max), (x_min, z_max).
 Eigen::Vector2d corner(const BreastRegion& r, int c) {
