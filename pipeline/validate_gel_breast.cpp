@@ -16,7 +16,7 @@ struct Arguments {
   std::filesystem::path scan, result;
   GelBreastMeshes meshes;
   std::vector<double> fractions = {0.25, 0.5};
-  std::vector<int> columns = {4, 6, 8, 12};
+  std::vector<int> columns = {4, 5, 6, 8, 10, 12};
 };
 
 void declare(CommandLine& command, Arguments& args) {

@@ -5,6 +5,7 @@
 #include "fitting/skin_patches.h"
 #include "fitting/skin_to_fit.h"
 #include "pipeline/report/palette.h"
+#include "pipeline/validation/box_fit.h"
 #include "pipeline/validation/chart.h"
 #include "pipeline/validation/skin_distance.h"
 #include "pipeline/validation/true_skin.h"
@@ -63,7 +64,28 @@ double rms_to_skin(const std::vector<Eigen::Vector3d>& points, const MeshFile& f
 }
 
 const char* name_of(KnownSkin skin) {
-  return skin == KnownSkin::bell ? "smooth bell" : "gel breast";
+  switch (skin) {
+    case KnownSkin::gel_breast: return "gel breast";
+    case KnownSkin::bell: return "smooth bell";
+    case KnownSkin::bell_on_box: return "smooth bell, distance alone";
+  }
+  return "";
+}
+
+const Colour& colour_of(KnownSkin skin) {
+  switch (skin) {
+    case KnownSkin::gel_breast: return palette::lesion;
+    case KnownSkin::bell: return palette::nipple;
+    case KnownSkin::bell_on_box: return palette::ink;
+  }
+  return palette::lesion;
+}
+
+FitAccuracy on_box(int columns) {
+  const Slab slab{{columns, columns, 1}};
+  std::vector<HermiteMesh::Node> nodes = box_nodes(slab);
+  return {KnownSkin::bell_on_box, columns, kBoxSide_mm / columns,
+          fit_box(slab, bell_on_box, {}, nodes)};
 }
 
 }  // namespace
@@ -73,6 +95,12 @@ std::vector<FitAccuracy> fit_convergence(const std::filesystem::path& scan,
                                          const std::function<void(const std::string&)>& say) {
   const ScannedBreast breast = read_scanned_breast(scan, {});
   std::vector<FitAccuracy> accuracies;
+  const auto add = [&](const FitAccuracy& a) {
+    accuracies.push_back(a);
+    say(std::string(name_of(a.skin)) + ", " + std::to_string(a.columns) +
+        " columns: " + std::to_string(a.rms_mm) + " mm");
+  };
+  for (const int n : columns) add(on_box(n));
   for (const KnownSkin skin : {KnownSkin::gel_breast, KnownSkin::bell}) {
     const ScannedSkin truth = skin == KnownSkin::bell ? bell(breast) : true_skin(breast, kStep_mm);
     const std::vector<Eigen::Vector3d> points =
@@ -86,10 +114,7 @@ std::vector<FitAccuracy> fit_convergence(const std::filesystem::path& scan,
       if (!fit.report.usable()) continue;
       const std::vector<double> areas = skin_surface(fit.mesh).vertex_areas();
       const double area = std::accumulate(areas.begin(), areas.end(), 0.0);
-      accuracies.push_back({skin, n, std::sqrt(area) / n,
-                            rms_to_skin(points, fit.mesh, n)});
-      say(std::string(name_of(skin)) + ", " + std::to_string(n) +
-          " columns: " + std::to_string(accuracies.back().rms_mm) + " mm");
+      add({skin, n, std::sqrt(area) / n, rms_to_skin(points, fit.mesh, n)});
     }
   }
   return accuracies;
@@ -123,7 +148,7 @@ Picture fit_convergence_picture(const std::vector<FitAccuracy>& accuracies) {
               {"skin RMS [mm]", lowest / room, std::pow(room, 5) * highest, true});
   chart.line(expected, palette::baseline, "fourth power of the element size");
   for (const auto& [skin, line] : points)
-    chart.line(line, skin == KnownSkin::bell ? palette::nipple : palette::lesion, name_of(skin));
+    chart.line(line, colour_of(skin), name_of(skin));
   return chart.picture();
 }
 
