@@ -95,8 +95,8 @@ class Search {
     const Eigen::MatrixXd evidence = J.transpose() * J - prior;  // the first rows are z itself
     const double found = (evidence + prior).ldlt().solve(evidence).trace();  // numbers
     estimate.evidence_variance =
-        (kOwnObservations + r.tail(r.size() - z.size()).squaredNorm()) /
-        (kOwnObservations + std::max(0.0, observations(with_pattern) - found));
+        std::max(1.0, (kOwnObservations + r.tail(r.size() - z.size()).squaredNorm()) /
+                          (kOwnObservations + std::max(0.0, observations(with_pattern) - found)));
     const Eigen::MatrixXd left = (evidence / estimate.evidence_variance + prior).ldlt().solve(prior);
     for (std::size_t v = 0; v < views_.size(); ++v) {
       estimate.states.push_back(joint_.state(v, z));

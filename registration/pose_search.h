@@ -11,9 +11,9 @@ struct PoseEstimate {
   std::vector<ViewState> states;  ///< of each view
   std::vector<Eigen::Matrix<double, kStates, kStates>> covariances;  ///< what is left unknown
   double cost = 0;                ///< half the sum of squares
-  /// Of the evidence's differences left, over the one that their standard deviations say: these
-  /// count as ten observations, the mammograms as theirs less the numbers found from them. Is in
-  /// the covariances (Birge's ratio).
+  /// Of the evidence's differences left, over the one that their standard deviations say, where it
+  /// is more (Birge's ratio): these count as ten observations, the mammograms as theirs less the
+  /// numbers found from them. Is in the covariances.
   double evidence_variance = 1;
   int iterations = 0;
 };
