@@ -20,7 +20,7 @@ using nlohmann::json;
 struct Arguments {
   fs::path table;
   int synthetic = 10, first = 0, jobs = 2;
-  bool judge = false;
+  bool coarse = false, judge = false;
 };
 
 void declare(CommandLine& command, Arguments& args) {
@@ -36,16 +36,18 @@ void declare(CommandLine& command, Arguments& args) {
   command.option("--jobs", args.jobs, "patients at a time, each on all cores [1 to 64]")
       .between(1, 64)
       .with_default();
+  command.flag("--coarse", args.coarse,
+               "few elements in the truth and in the model: seconds a patient, to try it out");
   command.flag("--judge", args.judge, "judge what lies there, without making or running anything");
 }
 
-json evaluate(int number, const fs::path& folder, bool judge) {
+json evaluate(int number, const fs::path& folder, const Arguments& args) {
   json row = empty_registration_row();
   row["name"] = "synthetic-" + std::to_string(number);
   row["reason"] = nullptr;
   try {
-    if (!judge) {
-      make_registration_case(number, folder);
+    if (!args.judge) {
+      make_registration_case(number, args.coarse, folder);
       run_registration_case(folder);
     }
     row.update(registration_row(folder));
@@ -72,7 +74,7 @@ int run(const Arguments& args) {
     for (int n; (n = next++) < args.synthetic;) {
       const int number = args.first + n;
       json row =
-          evaluate(number, beside / ("synthetic-" + std::to_string(number)), args.judge);
+          evaluate(number, beside / ("synthetic-" + std::to_string(number)), args);
       const std::lock_guard lock(mutex);
       std::cerr << row["name"] << " " << row["reason"] << " CC " << row["tre_cc_mm"] << " MLO "
                 << row["tre_mlo_mm"] << " 3-D " << row["tre_3d_mm"] << " mm" << std::endl;

@@ -25,9 +25,9 @@ constexpr int kMostCpuSeconds = 3600;
 constexpr const char* kScan = "scan.nrrd";
 constexpr int kPoints = 20;            // landmarks beside the lesions
 
-SyntheticPatient make_drawn(int number, DrawnPatient& drawn) {
+SyntheticPatient make_drawn(int number, bool coarse, DrawnPatient& drawn) {
   for (int attempt = 0;; ++attempt) {
-    drawn = draw_registration(number, attempt);
+    drawn = draw_registration(number, coarse, attempt);
     try {
       return make_patient(drawn.patient);
     } catch (const std::invalid_argument&) {
@@ -78,6 +78,8 @@ std::string toml_of(const SyntheticPatient& patient, const DrawnPatient& drawn,
   const std::string own = "\"mri.nrrd\"";
   text.replace(text.find(own), own.size(), std::string("\"") + kScan + "\"");
   std::ostringstream toml;
+  if (const auto& e = drawn.elements)
+    toml << "fit.elements = [" << e->x() << ", " << e->y() << ", " << e->z() << "]\n";
   toml << text.substr(0, text.find("[views.cc]"));
   for (std::size_t n = 0; n < views.size(); ++n) {
     const std::string key = "[views." + views[n].view.name;
@@ -122,11 +124,11 @@ void run_stage_in(const fs::path& folder, const std::string& stage,
 
 }  // namespace
 
-void make_registration_case(int number, const fs::path& folder) {
+void make_registration_case(int number, bool coarse, const fs::path& folder) {
   if (fs::exists(folder / "patient.toml")) return;
   fs::create_directories(folder);
   DrawnPatient drawn;
-  const SyntheticPatient patient = make_drawn(number, drawn);
+  const SyntheticPatient patient = make_drawn(number, coarse, drawn);
   const TrueBreast breast(patient, drawn);
   const Detector detector = synthetic_detector(drawn.patient.anatomy.side);
   std::vector<TrueView> views;

@@ -8,8 +8,8 @@ namespace mammotwin {
 
 /// Makes synthetic patient n in `folder`: mri.nrrd, cc.png, mlo.png, patient.toml, landmarks.csv
 /// (lesions first, then points spread through the gland) and drawn.json. What is there already is
-/// kept. Throws std::runtime_error where the truth cannot be made.
-void make_registration_case(int number, const std::filesystem::path& folder);
+/// kept. `coarse`: few elements, to try it out. Throws std::runtime_error where the truth cannot be made.
+void make_registration_case(int number, bool coarse, const std::filesystem::path& folder);
 
 /// Takes it through segment, fit, unload, compress and register, which skip what is current.
 /// Throws std::runtime_error with the reason of a stage that leaves no product.

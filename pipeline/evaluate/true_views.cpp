@@ -17,7 +17,8 @@ namespace mammotwin {
 namespace {
 
 constexpr std::uint64_t kSeed = 8051;
-const Eigen::Vector3i kElements{8, 8, 3};  // `fit` makes 6 x 6 x 2
+const Eigen::Vector3i kCoarse{3, 3, 1}, kCoarseTruth{4, 4, 1};
+constexpr double kCoarseVoxel_mm = 1.8;
 constexpr double kSpringFactor = 3, kSkinFactor = 2, kPaddleTilt = 3;  // [-], [-], [deg]
 constexpr double kStiffening = 1;  // at half the thickness, I1 - 3 = 1.25, a modulus of 3.5 times
 
@@ -36,19 +37,19 @@ CompressionSettings true_settings(double stiffness_ratio) {
   return s;
 }
 
-MeshFile true_mesh(const Segmentation& truth) {
+MeshFile true_mesh(const Segmentation& truth, const Eigen::Vector3i& elements) {
   FitOptions options;
-  options.elements = kElements;
+  options.elements = elements;
   const FitResult fit = fit_breast(truth, options, {});
   if (!fit.report.usable())
     throw std::runtime_error("truth: no mesh of the true breast: " + fit.report.reasons.front());
   return fit.mesh;
 }
 
-MeshFile unloaded_truth(const Segmentation& truth, double stiffness_ratio) {
-  MeshFile file = true_mesh(truth);
+MeshFile unloaded_truth(const Segmentation& truth, const DrawnPatient& drawn) {
+  MeshFile file = true_mesh(truth, drawn.true_elements);
   const TissueSampler tissue = tissue_of(file, truth.fractions);
-  CompressionProblem problem = breast_problem(file, tissue, true_settings(stiffness_ratio), 1);
+  CompressionProblem problem = breast_problem(file, tissue, true_settings(drawn.stiffness_ratio), 1);
   problem.gravity = gravity_in_lps(Pose::prone);
   problem.density = GravitySettings().density();
   UnloadOptions options;
@@ -86,9 +87,14 @@ DrawnView draw_view(CounterRandom& random, const std::string& name, double angle
 
 }  // namespace
 
-DrawnPatient draw_registration(int number, int attempt) {
+DrawnPatient draw_registration(int number, bool coarse, int attempt) {
   CounterRandom random(kSeed, number, 0), build(kSeed, number, 1000 * (attempt + 1));
   DrawnPatient drawn;
+  if (coarse) {
+    drawn.true_elements = kCoarseTruth;
+    drawn.elements = kCoarse;
+    drawn.patient.scan.voxel_mm = kCoarseVoxel_mm;
+  }
   AnatomyOptions& a = drawn.patient.anatomy;
   a.seed = kSeed * 1000 + number * 50 + attempt;
   a.side = random.uniform() < 0.5 ? Side::left : Side::right;
@@ -111,7 +117,7 @@ TrueBreast::TrueBreast(const SyntheticPatient& patient, const DrawnPatient& draw
     : truth_(true_segmentation(patient.tissue, patient.labels, patient.truth)),
       stiffness_ratio_(drawn.stiffness_ratio),
       side_(drawn.patient.anatomy.side),
-      unloaded_(unloaded_truth(truth_, drawn.stiffness_ratio)),
+      unloaded_(unloaded_truth(truth_, drawn)),
       prone_(unloaded_.configurations.at("prone"), unloaded_.mesh.elements()) {}
 
 TrueView TrueBreast::compress_view(const DrawnView& drawn) const {

@@ -6,6 +6,7 @@
 #include "solver/compress.h"
 
 #include <array>
+#include <optional>
 #include <string>
 
 namespace mammotwin {
@@ -28,9 +29,12 @@ struct DrawnView {
 struct DrawnPatient {
   PatientOptions patient;
   double stiffness_ratio = 1;  ///< fibroglandular over fat
+  Eigen::Vector3i true_elements{8, 8, 3};   ///< of the truth's mesh
+  std::optional<Eigen::Vector3i> elements;  ///< of the mesh that registers; absent: as `fit` chooses
   std::array<DrawnView, 2> views;
 };
-DrawnPatient draw_registration(int number, int attempt = 0);
+/// `coarse`: few elements in both, so that it takes seconds instead of minutes.
+DrawnPatient draw_registration(int number, bool coarse, int attempt = 0);
 
 /// A synthetic patient's breast in one true view.
 struct TrueView {
