@@ -1,7 +1,14 @@
 // Real MRI and real label maps made by others, from the image to lesions.csv, where they are
 // present.
 
+#include "registration/csv.h"
 #include "tests/pipeline/patient_case.h"
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
 
 namespace mammotwin {
 namespace {
@@ -35,6 +42,22 @@ class RealPatient : public PatientCase {
                       "\"\nair = [0]\nfat = [1]\nfibroglandular = [2]\nskin = [3]\nmuscle = [4]\n"
                       "lesion = [5, 6]\ntransition = [7]\n" + kNoSearch);
   }
+  /// (u, v) of the first lesion in lesions.csv [mm].
+  Eigen::Vector2d on_detector(const std::string& name, const std::string& view) const {
+    std::ifstream in(results() / name / "lesions.csv");
+    std::string line;
+    std::getline(in, line);
+    const std::vector<std::string> header = csv::cells(line);
+    const auto column = [&](const char* key) {
+      return std::find(header.begin(), header.end(), key) - header.begin();
+    };
+    while (std::getline(in, line)) {
+      const std::vector<std::string> cells = csv::cells(line);
+      if (cells.at(column("view")) == view)
+        return {std::stod(cells.at(column("detector_u_mm"))), std::stod(cells.at(column("detector_v_mm")))};
+    }
+    throw std::runtime_error("lesions.csv has no row of " + view);
+  }
   void expect_positions_in_both_views(const std::string& name) {
     const CommandResult result = run("patient", name);
     ASSERT_EQ(result.exit_code, 0) << result.text;
@@ -54,11 +77,37 @@ TEST_F(RealPatient, Mri8af60052) {
   expect_positions_in_both_views("8af60052");
 }
 
-TEST_F(RealPatient, Mri6e4da81a) {
-  // 196 mm of breast, cut by the field of view at both ends, under plates with sharp edges does not
-  // converge at the default thickness; rounder plates farther from the chest wall do.
-  mri("6e4da81a", "[compress]\nplate_rounding_mm = 30\nwall_clearance_mm = 30\n" + kNoSearch);
+// 196 mm of breast, cut by the field of view at both ends. The radiologist's contours of its lesion in
+// CC and MLO have no spacing, no image size and no nipple beside them. What they allow:
+// - the spacing, from the lesion's size in MRI and in both views (about 0.1 mm);
+// - columns are depths from the chest wall's edge of the image, if the left breast's is the left one;
+// - rows, if both images are equally high: how much higher up the lesion lies in MLO than in CC, by as
+//   much as the breast is equally centred on both detectors.
+// Detectors' edges and breasts' places differ by centimetres between exams (registration/README.md has
+// what is measured here), so the limits are two of the standard deviations of such places, 12 mm
+// sideways, and 15 mm in depth, where the plates' edge is assumed.
+TEST_F(RealPatient, Mri6e4da81aAgainstItsMammograms) {
+  mri("6e4da81a", kNoSearch);
   expect_positions_in_both_views("6e4da81a");
+  const json contours = json::parse(
+      std::ifstream(kCases / "mimbcd_6e4da81a" / "lesions_radiologist.json"));
+  const auto size = [](const json& extent) {
+    return std::sqrt(extent[0].get<double>() * extent[1].get<double>());
+  };
+  const json& cc = contours["mg"][0];
+  const json& mlo = contours["mg"][1];
+  const double spacing = size(contours["mri"][0]["size_mm"]) /
+                         std::sqrt(size(cc["size_px"]) * size(mlo["size_px"]));
+  EXPECT_NEAR(size(cc["size_px"]) / size(mlo["size_px"]), 1, 0.1);  // it is the same lesion
+  const Eigen::Vector2d in_cc = on_detector("6e4da81a", "cc"), in_mlo = on_detector("6e4da81a", "mlo");
+  const auto depth = [&](const json& mark) { return spacing * mark["centroid_px"][0].get<double>(); };
+  const double rise = spacing * (cc["centroid_px"][1].get<double>() - mlo["centroid_px"][1].get<double>());
+  std::cout << "spacing " << spacing << " mm; depth in CC " << in_cc.x() << " (mammogram " << depth(cc)
+            << "), in MLO " << in_mlo.x() << " (" << depth(mlo) << "), MLO above CC "
+            << in_mlo.y() - in_cc.y() << " (" << rise << ") mm\n";
+  EXPECT_NEAR(in_cc.x(), depth(cc), 30);
+  EXPECT_NEAR(in_mlo.x(), depth(mlo), 30);
+  EXPECT_NEAR(in_mlo.y() - in_cc.y(), rise, 24);
 }
 
 TEST_F(RealPatient, TwoPatientsInOneFolderAreRefusedAndListed) {
