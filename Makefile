@@ -20,7 +20,7 @@ override SYNTHETIC := $(value SYNTHETIC)
 export P DATA RESULTS FORCE BIN SEED PATIENTS JOBS ONLY ENGINE CONFIG PREFIX CASES SYNTHETIC
 unexport MAKEFLAGS MAKEOVERRIDES
 
-.PHONY: help patient segment fit unload compress register report slicer synthesize cohort verify-results build \
+.PHONY: help patient segment fit unload compress register report slicer paraview synthesize cohort verify-results build \
         evaluate-segmentation evaluate-fitting evaluate-compression evaluate-unload evaluate-registration \
         evaluate-outlines evaluate-niftysim evaluate-victre validate bench chain programs configured \
         install docs test clean
@@ -31,6 +31,7 @@ help:
 	@echo 'make segment|fit|unload|compress|register|report P=042'
 	@echo '                       the same, up to and including that stage'
 	@echo 'make slicer P=042      the chain, and a scene for 3D Slicer: RESULTS/042/scene.mrml'
+	@echo 'make paraview P=042    the chain, and each load step for ParaView: RESULTS/042/cc_course.pvd, mlo_course.pvd'
 	@echo 'make synthesize P=name SEED=1   a synthetic patient in DATA/name'
 	@echo 'make cohort            every patient of DATA (or PATIENTS="042 043"): cohort.tsv, failed.tsv,'
 	@echo '                       cohort.html; JOBS=4 at a time, ONLY=failed, ENGINE=slurm, CONFIG=file'
@@ -59,7 +60,7 @@ help:
 	@echo 'RESULTS=folder         where results go (default results)'
 	@echo 'FORCE=1                runs stages that are up to date, too'
 
-patient segment fit unload compress register report slicer synthesize: chain
+patient segment fit unload compress register report slicer paraview synthesize: chain
 	@pipeline/run_patient.sh $@
 
 cohort: chain

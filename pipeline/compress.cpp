@@ -2,6 +2,7 @@
 
 #include "solver/compress.h"
 
+#include "pipeline/compression_course.h"
 #include "pipeline/compression_quality.h"
 #include "pipeline/frame/stage.h"
 #include "pipeline/view_header.h"
@@ -56,6 +57,7 @@ MeshFile compressed_file(const MeshFile& reference, const CompressionResult& res
   file.fields.insert(result.fields.begin(), result.fields.end());
   write_view(view, file.metadata);
   remember_solution(result, file);
+  remember_course(result.report, file);
   return file;
 }
 

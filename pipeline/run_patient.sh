@@ -1,6 +1,6 @@
 #!/bin/sh
 # run_patient.sh STAGE: takes patient $P through the stages up to STAGE (all of them for "patient"),
-# and on to a scene for 3D Slicer ("slicer"), or makes a synthetic one ("synthesize", environment: SEED).
+# and on to a scene for 3D Slicer ("slicer") or series for ParaView ("paraview"), or makes a synthetic one ("synthesize", environment: SEED).
 # Environment: P (name of the patient's folder), DATA, RESULTS (folders), FORCE (1: run anyway),
 # BIN (folder of the programs).
 set -u
@@ -32,6 +32,11 @@ compress() {
 register() { "$BIN/mammotwin-register" "$out/segmentation.seg.nrrd" "$out/fractions.nrrd" "$out/cc.vtu" "$out/mlo.vtu" "$out/lesions.csv" "$@"; }
 report() { "$BIN/mammotwin-report" "$out" "$out/report.html" "$@"; }
 slicer() { "$BIN/mammotwin-slicer" "$out" "$out/scene.mrml" "$@"; }
+paraview() {
+  for view in cc mlo; do
+    "$BIN/mammotwin-paraview" "$out/$view.vtu" "$out/${view}_course.pvd" "$@" || return
+  done
+}
 
 for stage in segment fit unload compress register report; do
   "$stage" "$@" || {
@@ -44,6 +49,7 @@ for stage in segment fit unload compress register report; do
 done
 
 [ "$last" != slicer ] || slicer "$@" || exit
+[ "$last" != paraview ] || paraview "$@" || exit
 
 echo
 echo "Results of $P: $out (open $out/report.html)"

@@ -148,7 +148,8 @@ void Compression::record(const LoadSteppingReport& load, const State& state,
                          const NewtonReport& newton) {
   const Balance balance = press_.newton().balance(state);
   report_.history.push_back({press_.thickness(state), press_.paddle_force(state),
-                             newton.iterations, press_.penalty(), balance.min_J, balance.max_J});
+                             newton.iterations, press_.penalty(), balance.min_J, balance.max_J,
+                             state.x});
   good_.load = load;
   good_.before = std::exchange(good_.reached, {load.reached, state});
   good_.tilt = press_.placed().paddle_tilt;

@@ -105,6 +105,7 @@ struct CompressionStep {
   int iterations = 0;
   double penalty = 0;       ///< [kPa/mm]
   double min_J = 1, max_J = 1;
+  std::vector<HermiteMesh::Node> deformed;
 };
 
 enum class CompressionStatus { converged, not_converged };

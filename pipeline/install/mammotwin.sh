@@ -15,6 +15,7 @@ Targets:
   register         likewise
   report           likewise
   slicer           the whole chain, and a scene for 3D Slicer
+  paraview         the whole chain, and each load step as a series for ParaView
   cohort           every patient of DATA: tables and a page
   verify-results   are all files of a patient still those that were written?
 
@@ -57,7 +58,7 @@ for word in "$@"; do
 done
 
 case "$target" in
-  patient | segment | fit | unload | compress | register | report | slicer) exec "$scripts/run_patient.sh" "$target" ;;
+  patient | segment | fit | unload | compress | register | report | slicer | paraview) exec "$scripts/run_patient.sh" "$target" ;;
   cohort) exec "$scripts/cohort/run_cohort.sh" ;;
   verify-results) exec "$scripts/cohort/verify_patient.sh" ;;
   help | -h | --help) usage ;;

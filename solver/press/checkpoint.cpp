@@ -12,20 +12,25 @@ using nlohmann::json;
 
 constexpr int kNodeDoubles = 24;
 
-json to_json(const State& state) {
+json to_json(const std::vector<HermiteMesh::Node>& nodes) {
   std::vector<double> x;
-  for (const HermiteMesh::Node& node : state.x) x.insert(x.end(), node.data(), node.data() + node.size());
-  return {{"x", x}, {"pressure", state.pressure}};
+  for (const HermiteMesh::Node& node : nodes) x.insert(x.end(), node.data(), node.data() + node.size());
+  return x;
 }
 
-State state_from(const json& from) {
-  const std::vector<double> x = from.at("x");
+std::vector<HermiteMesh::Node> nodes_from(const json& from) {
+  const std::vector<double> x = from;
   if (x.size() % kNodeDoubles != 0) throw std::runtime_error("nodes are cut off");
-  State state;
+  std::vector<HermiteMesh::Node> nodes;
   for (std::size_t i = 0; i < x.size(); i += kNodeDoubles)
-    state.x.push_back(Eigen::Map<const HermiteMesh::Node>(x.data() + i));
-  state.pressure = from.at("pressure").get<std::vector<double>>();
-  return state;
+    nodes.push_back(Eigen::Map<const HermiteMesh::Node>(x.data() + i));
+  return nodes;
+}
+
+json to_json(const State& state) { return {{"x", to_json(state.x)}, {"pressure", state.pressure}}; }
+
+State state_from(const json& from) {
+  return {nodes_from(from.at("x")), from.at("pressure").get<std::vector<double>>()};
 }
 
 json to_json(const CompressionCheckpoint::GoodStep& step) {
@@ -69,7 +74,8 @@ PlateFriction::History history_from(const json& from) {
 json to_json(const CompressionReport& report) {
   json history = json::array();
   for (const CompressionStep& s : report.history)
-    history.push_back({s.thickness_mm, s.force_N, s.iterations, s.penalty, s.min_J, s.max_J});
+    history.push_back({s.thickness_mm, s.force_N, s.iterations, s.penalty, s.min_J, s.max_J,
+                       to_json(s.deformed)});
   return {{"newton_iterations", report.newton_iterations},
           {"indefinite_matrices", report.indefinite_matrices},
           {"history", history}};
@@ -80,7 +86,8 @@ CompressionReport report_from(const json& from) {
   report.newton_iterations = from.at("newton_iterations");
   report.indefinite_matrices = from.at("indefinite_matrices");
   for (const json& s : from.at("history"))
-    report.history.push_back({s.at(0), s.at(1), s.at(2), s.at(3), s.at(4), s.at(5)});
+    report.history.push_back(
+        {s.at(0), s.at(1), s.at(2), s.at(3), s.at(4), s.at(5), nodes_from(s.at(6))});
   return report;
 }
 
