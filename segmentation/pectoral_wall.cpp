@@ -64,6 +64,24 @@ class RayCaster {
   const PectoralWall& map_;
 };
 
+/// Mean brightness 3 to 8 mm behind the wall, of each ray.
+std::vector<float> brightness_behind(const PectoralWall& wall, const Volume<float>& image) {
+  constexpr int from_mm = 3, to_mm = 8;
+  std::vector<float> behind;
+  for (std::size_t n = 0; n < wall.radius.size(); ++n) {
+    const double theta = wall.first_angle + static_cast<double>(n % wall.angles) * wall.angle_step;
+    const double z = wall.first_z + static_cast<double>(n / wall.angles) * wall.z_step;
+    float sum = 0;
+    for (int d = from_mm; d <= to_mm; ++d) {
+      const double r = wall.radius[n] - d;
+      sum += interpolated(
+          image, {wall.axis_x + r * std::sin(theta), wall.axis_y - r * std::cos(theta), z});
+    }
+    behind.push_back(sum / (to_mm - from_mm + 1));
+  }
+  return behind;
+}
+
 /// Means over pieces of a ray in constant time.
 class RunningSum {
  public:
@@ -187,6 +205,7 @@ PectoralWall find_pectoral_wall(const Volume<float>& corrected, const Volume<std
     wall.cost.push_back(cost[n * depths + static_cast<std::size_t>(std::lround(depth[n]))]);
     wall.radius.push_back(least_radius_mm + depth[n] - 0.5);  // between the samples d - 1 and d
   }
+  wall.behind = brightness_behind(wall, corrected);
   return wall;
 }
 
@@ -206,18 +225,39 @@ bool PectoralWall::is_behind(const Eigen::Vector3d& x_in_lps) const {
   return dx * dx + dy * dy < here * here;
 }
 
-double PectoralWall::doubt(Side side, double z_low, double z_high) const {
-  constexpr double supported = -0.5, front_degrees = 50;
-  double weak = 0, all = 0;
+std::vector<std::size_t> PectoralWall::rays_before(Side side, double z_low, double z_high) const {
+  constexpr double front_degrees = 50;
+  std::vector<std::size_t> rays;
   for (int row = 0; row < rows; ++row)
     for (int a = 0; a < angles; ++a) {
       const double angle = first_angle + a * angle_step, z = first_z + row * z_step;
       const double outward = side == Side::left ? angle : -angle;
       if (outward < 0 || outward > front_degrees * degree || z < z_low || z > z_high) continue;
-      weak += cost[static_cast<std::size_t>(row) * angles + a] > supported;
-      ++all;
+      rays.push_back(static_cast<std::size_t>(row) * angles + a);
     }
-  return all > 0 ? weak / all : 1;
+  return rays;
+}
+
+double PectoralWall::doubt(Side side, double z_low, double z_high) const {
+  constexpr double supported = -0.5;
+  const std::vector<std::size_t> rays = rays_before(side, z_low, z_high);
+  if (rays.empty()) return 1;
+  double weak = 0;
+  for (const std::size_t n : rays) weak += cost[n] > supported;
+  return weak / static_cast<double>(rays.size());
+}
+
+double PectoralWall::fat_behind(Side side, double z_low, double z_high, double muscle) const {
+  const std::vector<std::size_t> rays = rays_before(side, z_low, z_high);
+  if (rays.empty()) return 1;
+  constexpr float least = 0.02F;  // noise can leave nothing of a value
+  const double middle = std::log(muscle) / 2;
+  double fat = 0;
+  for (const std::size_t n : rays) {
+    const double value = std::log(std::max(behind[n], least));
+    fat += muscle > 1 ? value < middle : value > middle;
+  }
+  return fat / static_cast<double>(rays.size());
 }
 
 }  // namespace mammotwin

@@ -18,6 +18,7 @@ struct PectoralWall {
   int angles = 0, rows = 0;
   std::vector<double> radius;  ///< [mm], angles fastest
   std::vector<float> cost;     ///< of the wall found there; below -0.5 the image supports it
+  std::vector<float> behind;   ///< mean brightness 3 to 8 mm behind it, fat = 1
 
   /// True if a point lies behind the front; beyond the last angle the last radius holds.
   bool is_behind(const Eigen::Vector3d& x_in_lps) const;
@@ -25,6 +26,14 @@ struct PectoralWall {
   /// Share of the wall in front of one side (within 50 degrees, in the breasts' slices) that the
   /// image does not support.
   double doubt(Side side, double z_low, double z_high) const;
+
+  /// Share of that part behind which it is rather as bright as fat (1) than as `muscle`, by the
+  /// logarithm. Sees a wall on a wrong edge, whose cost is good.
+  double fat_behind(Side side, double z_low, double z_high, double muscle) const;
+
+ private:
+  /// Rays in front of one side, as indices into `radius`.
+  std::vector<std::size_t> rays_before(Side side, double z_low, double z_high) const;
 };
 
 /// Brightness of what lies on both sides of the wall, with fat at 1.

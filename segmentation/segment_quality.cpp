@@ -67,6 +67,7 @@ json to_json(const SegmentQuality& q) {
            {optional_number(q.skin_thickness_low_mm), optional_number(q.skin_thickness_high_mm)}},
           {"nipple_lps_mm", point(q.nipple_in_lps)},
           {"chest_wall_doubt", optional_number(q.chest_wall_doubt)},
+          {"chest_wall_fat_behind", optional_number(q.chest_wall_fat_behind)},
           {"failed_suppression_ml", optional_number(q.failed_suppression_ml)},
           {"signal_to_noise", optional_number(q.signal_to_noise)},
           {"clipped_share", optional_number(q.clipped_share)},

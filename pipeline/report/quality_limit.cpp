@@ -21,6 +21,7 @@ struct Limit {
 constexpr Limit kLimits[] = {
     {"segmentation.seg.nrrd", "breast_volume_ml", 30, 4000, " ml"},
     {"segmentation.seg.nrrd", "chest_wall_doubt", -kNone, 0.12, ""},
+    {"segmentation.seg.nrrd", "chest_wall_fat_behind", -kNone, 0.05, ""},
     {"segmentation.seg.nrrd", "signal_to_noise", 8, kNone, ""},
     {"segmentation.seg.nrrd", "volume_ratio", 0.4, kNone, ""},
     {"prone.vtu", "skin_rms_mesh_to_data_mm", -kNone, 1, " mm"},
