@@ -41,17 +41,44 @@ SyntheticPatient make_possible(PatientOptions options) {
   }
 }
 
-SegmentationCase case_of(const LabelMapBreast& breast, int n, Contrast contrast) {
+ScanOptions map_scan(int n, Contrast contrast) {
   ScanOptions scan;
   scan.contrast = contrast;
   scan.noise = spread(n, 0.03, 0.08, 3, 10);
   scan.shading = contrast == Contrast::fat_suppressed ? 1.2 : 1;  // 1:5 to 1:7 in these bodies
+  return scan;
+}
+
+std::function<SyntheticPatient()> scan_of(const LabelMapBreast& breast, int n,
+                                          const ScanOptions& scan) {
   const auto seed = static_cast<std::uint64_t>(2000 + n);
+  return [breast, scan, seed] {
+    const MapBody body = body_of_map(read_labels(breast.file), label_map_values(), seed);
+    return make_map_patient(body, breast.side, scan, seed);
+  };
+}
+
+SegmentationCase case_of(const LabelMapBreast& breast, int n, Contrast contrast) {
   const std::string side = breast.side == Side::left ? "-left-" : "-right-";
-  return {breast.exam + side + name_of(contrast), contrast, [breast, scan, seed] {
-            const MapBody body = body_of_map(read_labels(breast.file), label_map_values(), seed);
-            return make_map_patient(body, breast.side, scan, seed);
-          }};
+  return {breast.exam + side + name_of(contrast), contrast,
+          scan_of(breast, n, map_scan(n, contrast))};
+}
+
+/// The same body imaged before and after contrast agent.
+SegmentationCase pre_post_case_of(const LabelMapBreast& breast, int n) {
+  SegmentationCase c = case_of(breast, n, Contrast::not_suppressed);
+  c.name += "-pre_post";
+  c.make_pre = c.make;
+  ScanOptions after = map_scan(n, Contrast::not_suppressed);
+  after.contrast_agent = true;
+  c.make = scan_of(breast, n, after);
+  return c;
+}
+
+SegmentationCase drawn_pre_post(const SegmentationCase& drawn, PatientOptions options) {
+  options.scan.contrast_agent = true;
+  return {drawn.name + "-pre_post", drawn.contrast, [options] { return make_possible(options); },
+          drawn.make};
 }
 
 }  // namespace
@@ -62,6 +89,8 @@ std::vector<SegmentationCase> drawn_cases(int count) {
     const PatientOptions options = drawn_options(n);
     cases.push_back({"seed-" + std::to_string(options.anatomy.seed), options.scan.contrast,
                      [options] { return make_possible(options); }});
+    if (options.scan.contrast == Contrast::not_suppressed)
+      cases.push_back(drawn_pre_post(cases.back(), options));
   }
   return cases;
 }
@@ -72,6 +101,7 @@ std::vector<SegmentationCase> label_map_cases(const std::filesystem::path& folde
   for (const LabelMapBreast& breast : label_map_breasts(folder)) {
     for (const Contrast contrast : {Contrast::fat_suppressed, Contrast::not_suppressed})
       cases.push_back(case_of(breast, n, contrast));
+    cases.push_back(pre_post_case_of(breast, n));
     ++n;
   }
   return cases;

@@ -11,9 +11,10 @@ namespace mammotwin {
 
 /// A breast whose truth is known, imaged by the simulator when asked for.
 struct SegmentationCase {
-  std::string name;  ///< "seed-1004" or "Exam_07-left-not_suppressed"
+  std::string name;  ///< "seed-1004", "Exam_07-left-not_suppressed", with "-pre_post" if two images
   Contrast contrast = Contrast::fat_suppressed;
   std::function<SyntheticPatient()> make;
+  std::function<SyntheticPatient()> make_pre = {};  ///< before contrast agent; empty if not imaged
 };
 
 /// Patients drawn from seeds 1000, 1001, ...: they differ in everything that the study of
@@ -22,6 +23,9 @@ std::vector<SegmentationCase> drawn_cases(int count);
 
 /// Both breasts of every label map below `cases`, each in both contrasts: noise 3 to 8 % of fat,
 /// shading over 1:5, voxels of 1.2 mm, 10 to 25 mm of muscle in front of a filled thorax.
+///
+/// The unsuppressed ones stand there again (`pre_post`), imaged before and after contrast agent:
+/// only then is their lesion 1.78 times as bright as gland, and brighter than before.
 std::vector<SegmentationCase> label_map_cases(const std::filesystem::path& cases);
 
 }  // namespace mammotwin

@@ -73,6 +73,7 @@ void add_quality(const SegmentResult& result, double true_skin, json& row) {
   row["reasons"] = q.reasons;
   row["found_contrast"] = q.contrast;
   row["chest_wall_doubt"] = number(q.chest_wall_doubt);
+  row["chest_wall_fat_behind"] = number(q.chest_wall_fat_behind);
   row["skin_thickness_mm"] = number(true_skin);
   row["skin_thickness_found_mm"] = q.skin_thickness_mm;
   row["skin_thickness_range_mm"] = {number(q.skin_thickness_low_mm),
@@ -80,8 +81,12 @@ void add_quality(const SegmentResult& result, double true_skin, json& row) {
   row["skin_thickness_error_mm"] = number(std::abs(q.skin_thickness_mm - true_skin));
 }
 
+constexpr const char* pre_post = ", before and after contrast agent";
+
 json empty_row(const SegmentationCase& c) {
-  json row = {{"name", c.name}, {"contrast", name_of(c.contrast)}, {"reason", nullptr}};
+  json row = {{"name", c.name},
+              {"contrast", name_of(c.contrast) + (c.make_pre ? pre_post : "")},
+              {"reason", nullptr}};
   for (const char* key :
        {"breast_dice", "fibroglandular_dice", "chest_wall_mean_mm", "skin_thickness_error_mm",
         "skin_surface_mean_mm", "nipple_mm", "lesion_dice", "lesion_centroid_mm"})
@@ -134,13 +139,19 @@ void summarise(const Aim& aim, const std::vector<const json*>& rows, std::ostrea
 json segmentation_row(const SegmentationCase& c, const std::filesystem::path& image,
                       const std::filesystem::path& keep) {
   json row = empty_row(c);
+  const auto pre = image.parent_path() / ("pre_" + image.filename().string());
   try {
     const SyntheticPatient patient = c.make();
     row["noise"] = patient.options.scan.noise;
     row["shading_ratio"] = patient.truth.shading_ratio;
     write_scan(image, patient.scan.image);
+    SegmentInput input = input_of(patient, image);
+    if (c.make_pre) {
+      write_scan(pre, c.make_pre().scan.image);
+      input.pre = pre;
+    }
     const auto start = std::chrono::steady_clock::now();
-    const SegmentResult result = segment(input_of(patient, image), {});
+    const SegmentResult result = segment(input, {});
     row["seconds"] =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     const Segmentation truth = true_segmentation(patient.tissue, patient.labels, patient.truth);
@@ -154,13 +165,16 @@ json segmentation_row(const SegmentationCase& c, const std::filesystem::path& im
     row["reason"] = error.what();
   }
   std::filesystem::remove(image);
+  std::filesystem::remove(pre);
   return row;
 }
 
 std::string segmentation_summary(const json& cases) {
   std::ostringstream out;
   out << std::setprecision(3);
-  for (const char* contrast : {"fat_suppressed", "not_suppressed"})
+  for (const std::string& contrast :
+       {std::string("fat_suppressed"), std::string("not_suppressed"),
+        std::string("not_suppressed") + pre_post})
     for (const bool drawn : {true, false}) {
       std::vector<const json*> rows;
       for (const json& row : cases)

@@ -44,6 +44,7 @@ struct ScanOptions {
   double texture = 1;
   double lesion_to_gland = 1.78;
   bool failed_suppression = false;
+  bool contrast_agent = false;  ///< not suppressed: the image after it, of the same body
 };
 
 /// What the plates are asked for in `patient.toml`.

@@ -131,6 +131,8 @@ std::array<double, num_substances> intensities(const ScanOptions& o) {
   //      air skin fat  gland lesion                muscle rib  lung  heart liver
   if (o.contrast == Contrast::fat_suppressed)
     return {0, 2.0, 1.0, 1.8, 1.8 * o.lesion_to_gland, 1.55, 0.95, 0.25, 1.4, 1.3};
+  if (o.contrast_agent)  // gland takes up a tenth, a lesion doubles, blood is bright
+    return {0, 0.5, 1.0, 0.5, 0.5 * o.lesion_to_gland, 0.44, 0.8, 0.06, 0.8, 0.7};
   return {0, 0.45, 1.0, 0.45, 0.42, 0.40, 0.8, 0.06, 0.4, 0.5};
 }
 
@@ -147,7 +149,8 @@ Scan scan(const TissueMap& tissue, const Coil& coil, const ScanOptions& o, std::
   Scan result{signal.like<std::int16_t>(), shading_ratio(shading, tissue)};
   for_voxels(signal.size, [&](int i, int j, int k) {
     const std::size_t n = signal.offset(i, j, k);
-    CounterRandom random(seed, 91, 8 * n);  // a voxel draws two normals: eight words
+    // A voxel draws two normals: eight words. The second image of a body has noise of its own.
+    CounterRandom random(seed, o.contrast_agent ? 92 : 91, 8 * n);
     const double real =
         static_cast<double>(signal.values[n]) * shading.values[n] + o.noise * random.normal();
     const double imaginary = o.noise * random.normal();
