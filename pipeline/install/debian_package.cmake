@@ -12,7 +12,7 @@ install(FILES copyright ${documents}/changelog.gz
   DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/libmammotwin-dev COMPONENT development)
 
 file(STRINGS debian_packages.txt build_list REGEX "-dev$")
-list(FILTER build_list EXCLUDE REGEX "gtest|benchmark|cairo|mustache|cli11|spdlog|tomlplusplus")
+list(FILTER build_list EXCLUDE REGEX "gtest|benchmark|cairo|mustache|cli11|tomlplusplus")
 string(REPLACE ";" ", " build_list "${build_list}")
 
 set(CPACK_GENERATOR DEB)
