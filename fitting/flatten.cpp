@@ -122,6 +122,9 @@ FlatSkin flatten(const TriangleSurface& skin, const BreastRegion& region) {
   for (Vertex v : mesh.vertices())
     flat.uv.push_back(swapped ? Eigen::Vector2d(uv[v].y(), uv[v].x())
                               : Eigen::Vector2d(uv[v].x(), uv[v].y()));
+  for (const Eigen::Vector2d& uv : flat.uv)
+    if (!uv.allFinite())
+      throw std::runtime_error("the skin surface cannot be laid on a square: its triangles are degenerate");
   return flat;
 }
 
