@@ -5,6 +5,7 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
@@ -16,7 +17,8 @@ namespace {
 // Of a standard deviation, to either side: a derivative. Plates must move by less than what contact
 // lets them sink in (hundredths of a mm), for beyond that the residual is not linear.
 constexpr double kNudge = 1e-4;
-constexpr double kSofter = 0.1;  // of the penalty that the compression ended with
+// Of the penalty that the compression ended with: the softest at which the breast stays where it is.
+constexpr std::array<double, 3> kSofter = {0.1, 0.3, 1};
 
 CompressionOptions soft_options() {
   CompressionOptions options;
@@ -82,8 +84,12 @@ CompressedView view_of_plates(const std::string& name, Side side, double angle_d
 NearbySolver::NearbySolver(SolvedView base, ProblemAt problem_at)
     : base_(std::move(base)), problem_at_(std::move(problem_at)) {
   CompressionResult near = base_.result;
-  near.penalty *= kSofter;
-  soft_base_ = solve_from(near, ViewState::Zero());
+  const double penalty = near.penalty;
+  for (const double softer : kSofter) {
+    near.penalty = softer * penalty;
+    soft_base_ = solve_from(near, ViewState::Zero());
+    if (soft_base_) break;
+  }
 }
 
 std::optional<SolvedView> NearbySolver::solve_from(const CompressionResult& near,
