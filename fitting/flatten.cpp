@@ -20,7 +20,7 @@ using Kernel = CGAL::Simple_cartesian<double>;
 using SurfaceMesh = CGAL::Surface_mesh<Kernel::Point_3>;
 using Vertex = SurfaceMesh::Vertex_index;
 using Border = parameterization::Square_border_arc_length_parameterizer_3<SurfaceMesh>;
-// A direct solver takes a third of the time of CGAL's default, BiCGSTAB on an incomplete LU.
+// CGAL's default, BiCGSTAB on an incomplete LU, can leave NaN without a word.
 using Solver = CGAL::Eigen_solver_traits<
     Eigen::SparseLU<CGAL::Eigen_sparse_matrix<double>::EigenType, Eigen::COLAMDOrdering<int>>>;
 using MeanValue =

@@ -15,7 +15,7 @@ struct Arguments {
 void declare(StageDeclaration& stage, Arguments& args) {
   stage.input("compressed", args.compressed, "compressed mesh from compress (.vtu)");
   stage.product("collection", args.collection,
-                "series to write (.pvd; its meshes go to a folder of that name beside it)");
+                "series to write (.pvd; its meshes <name>_00.vtu and so on beside it)");
 }
 
 StagePlan plan(const Arguments&, const Patient&) { return {}; }
@@ -26,8 +26,7 @@ Outcome run(const Arguments& args, StageRun& stage) {
   if (course.empty())
     throw std::runtime_error(args.compressed.string() +
                              ": holds no load steps; run compress again (FORCE=1)");
-  const std::string folder = args.collection.stem().string();
-  write_course(compressed, course, folder, stage.products.write_main(),
+  write_course(compressed, course, args.collection.stem().string(), stage.products.write_main(),
                [&](const std::string& name) { return stage.products.write(name); });
   Outcome outcome;
   outcome.quality = {{"steps", course.size() - 1}};

@@ -20,11 +20,12 @@ void declare(StageDeclaration& stage, Arguments& args) {
   stage.product("scene", args.scene, "scene to write in that folder (.mrml; scene_*.vtp beside it)");
 }
 
-/// The products of the stages before it; pages and sidecars are not in the scene.
+/// The products of the stages before it; pages, sidecars and load steps are not in the scene.
 bool is_input(const std::filesystem::path& file) {
   const std::string name = file.filename().string();
   const auto ends = [&](const char* end) { return name.ends_with(end); };
   return name.front() != '.' && name.rfind("scene", 0) != 0 &&
+         name.find("_course_") == std::string::npos &&
          (ends(".nrrd") || ends(".vtu") || ends(".mrk.json") || name == "lesions.csv");
 }
 
