@@ -97,6 +97,9 @@ struct CompressionOptions {
   /// pressed again with this coefficient of friction, then with twice it, and the report says so;
   /// 0: it is not. In [0, 1].
   double holding_friction = 0.2;
+  /// Of the tissue in front of the plates' edges, in [0, 1): where less stays there the breast counts
+  /// as slipped out.
+  double least_retained = 0.5;
 };
 
 struct CompressionStep {

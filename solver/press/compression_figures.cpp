@@ -58,8 +58,7 @@ double retained_fraction(const Press& press, const State& state) {
 }  // namespace
 
 bool slipped_out(const Press& press, const State& state) {
-  constexpr double least_retained = 0.5;
-  return retained_fraction(press, state) < least_retained;
+  return retained_fraction(press, state) < press.options().least_retained;
 }
 
 void measure_compression(const Press& press, const State& state, CompressionReport& report) {
