@@ -1,19 +1,20 @@
 #include "registration/solved_search.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace mammotwin {
 namespace {
 
-constexpr int kMostRounds = 5;       // of searching and solving
-constexpr int kMostHalvings = 2;     // of a step to a state where no equilibrium is found
+constexpr int kMostRounds = 5;           // of searching and solving
+constexpr double kShortestStep = 0.125;  // of a way on which no equilibrium is found in one
 constexpr double kTrusted = 0.02;    // of the cost: where solve and reduced model differ by less, it ends
 constexpr double kLeastGain = 0.01;  // of the cost, by a round
 
 using States = std::vector<ViewState>;
 
-States middle(States a, const States& b) {
-  for (std::size_t v = 0; v < a.size(); ++v) a[v] = (a[v] + b[v]) / 2;
+States between(States a, const States& b, double share) {
+  for (std::size_t v = 0; v < a.size(); ++v) a[v] += share * (b[v] - a[v]);
   return a;
 }
 
@@ -39,8 +40,8 @@ class Rounds {
     for (int round = 0; round < kMostRounds; ++round) {
       if (progress_) progress_(0.65 + 0.15 * round / kMostRounds, "search");
       const PoseEstimate aim = search_pose(matches_, here.states);
-      const States next = round == 0 ? aim.states : middle(aim.states, here.states);
-      end.complete = go_towards(next, best, here);
+      const States next = round == 0 ? aim.states : between(here.states, aim.states, 0.5);
+      end.complete = go_towards(next, here);
       if (!end.complete) break;
       const bool gained = here.cost < (1 - kLeastGain) * best.cost;
       if (here.cost < best.cost) best = here;
@@ -63,31 +64,52 @@ class Rounds {
     return place;
   }
 
-  /// Solves at `aim`, or nearer to the best where that fails; false if all fails.
-  bool go_towards(States aim, const Place& best, Place& here) {
-    for (int halving = 0; halving <= kMostHalvings; ++halving) {
-      if (solve_at(aim, here)) {
-        stand_at(here);
-        here.cost = pose_at(matches_, here.states).cost;
-        return true;
-      }
-      aim = middle(aim, best.states);
+  /// Solves at `aim`, or on the way there as far as all views come; false if one does not move.
+  bool go_towards(const States& aim, Place& here) {
+    std::vector<Walk> walks = walks_to(aim, here);
+    double share = 1;
+    for (const Walk& walk : walks) share = std::min(share, walk.share);
+    if (share == 0) return false;
+    const States reached = between(here.states, aim, share);
+    for (std::size_t v = 0; v < views_.size(); ++v) {
+      if (walks[v].share == share) continue;
+      walks[v] = walk_to(v, reached[v], here);
+      if (walks[v].share < 1) return false;
     }
-    return false;
+    here = solved_place(reached, walks);
+    stand_at(here);
+    here.cost = pose_at(matches_, here.states).cost;
+    return true;
   }
 
-  bool solve_at(const States& states, Place& place) const {
-    Place there{states, {}, {}, 0};
+  std::vector<Walk> walks_to(const States& aim, const Place& here) const {
+    std::vector<Walk> walks(views_.size());
+    for (std::size_t v = 0; v < views_.size(); ++v) walks[v] = walk_to(v, aim[v], here);
+    return walks;
+  }
+
+  /// From where the search began, so that what is found depends on the state alone; where that fails,
+  /// from `here`.
+  Walk walk_to(std::size_t v, const ViewState& aim, const Place& here) const {
+    const NearbySolver& solver = *views_[v].solver;
+    const ViewState& sd = views_[v].match.view().sd;
+    if (!solver.soft_base()) return {};
+    const ViewState to = aim.cwiseProduct(sd);
+    if (here.states[v].isZero()) return solver.walk_to(to, kShortestStep);
+    if (Walk walk = solver.walk_to(to); walk.share == 1) return walk;
+    return solver.walk_from(here.solved[v], here.states[v].cwiseProduct(sd), to, kShortestStep);
+  }
+
+  Place solved_place(const States& states, const std::vector<Walk>& walks) const {
+    Place place{states, {}, {}, 0};
     for (std::size_t v = 0; v < views_.size(); ++v) {
       ReducedView reduced = views_[v].match.view();
-      const auto solved = views_[v].solver->solve(states[v].cwiseProduct(reduced.sd));
-      if (!solved) return false;
-      reduced.rebase(states[v], in_view(solved->result.deformed, solved->view.frame));
-      there.reduced.push_back(std::move(reduced));
-      there.solved.push_back(*solved);
+      const SolvedView& solved = walks[v].end;
+      reduced.rebase(states[v], in_view(solved.result.deformed, solved.view.frame));
+      place.reduced.push_back(std::move(reduced));
+      place.solved.push_back(solved);
     }
-    place = std::move(there);
-    return true;
+    return place;
   }
 
   void stand_at(const Place& place) {

@@ -21,7 +21,8 @@ struct SolvedSearch {
 /// A search on the reduced models, a solve where it ends, the models shifted to meet that, and again,
 /// until the solves bear out what the reduced models said or get no better. From the second round on
 /// only half of the way is gone: the shift is another at the search's new end, and full steps were
-/// seen to go to and fro about where they should have ended. The best solve is what counts.
+/// seen to go to and fro about where they should have ended. Where a view finds no equilibrium on the
+/// way, all go as far as it comes, and the search goes on from there. The best solve is what counts.
 SolvedSearch search_and_solve(std::vector<ViewToSearch>& views, const Progress& progress);
 
 }  // namespace mammotwin

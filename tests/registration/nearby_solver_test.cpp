@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <stdexcept>
 
 namespace mammotwin {
 namespace {
@@ -52,6 +54,54 @@ TEST(NearbySolver, SlopesAreWhatSolvesSay) {
     EXPECT_LT(largest(off), 0.01 * largest((*slopes)[i])) << kStateNames[i];
   }
   EXPECT_EQ(largest((*slopes)[kTilt]), 0);  // of which dome_at knows nothing
+}
+
+// Far from the chest wall and on weak springs, 6 mm thinner: what then stays between the plates is less
+// than half of the tissue, which `compress` calls slipped out. A search has to be able to go there.
+TEST(NearbySolver, GoesOnWhereTheBreastSlipsBackwards) {
+  const auto loose_at = [](const ViewState& state) {
+    CompressionProblem problem = dome_problem(30 + state[kThickness], false);
+    problem.mesh = dome_breast({2, 2, 1});
+    problem.plates.wall_clearance = 20;
+    return problem;
+  };
+  const CompressionProblem problem = loose_at(ViewState::Zero());
+  CompressionOptions options;
+  options.gap_tolerance = 0.1;
+  options.thickness_tolerance = 1;
+  options.least_retained = 0;
+  const CompressionResult result = compress(problem, options);
+  ASSERT_TRUE(result.report.usable()) << result.report.reason;
+  EXPECT_GT(result.report.retained_fraction, 0.5);
+  const NearbySolver solver({result, view_of_plates("cc", Side::left, 0, problem.plates, result)},
+                            loose_at);
+  const auto thinner = solver.solve(-6 * ViewState::Unit(kThickness));
+  ASSERT_TRUE(thinner);
+  EXPECT_LT(thinner->result.report.retained_fraction, 0.5);
+  const auto apart = [](const PlacedPlates& p) { return p.paddle_height - p.support_height; };
+  EXPECT_NEAR(apart(thinner->result.plates), apart(result.plates) - 6, 1e-9);
+}
+
+// A thickness more than 2 mm above the base cannot be posed, so its sample is the one at half of the
+// standard deviation of 3 mm. The quadratic still goes through all that was solved.
+TEST(ReducedView, TakesWhatIsFoundNearerToTheBase) {
+  const NearbySolver whole = dome_solver();
+  const NearbySolver solver(whole.base(), [](const ViewState& state) {
+    if (state[kThickness] > 2) throw std::invalid_argument("too thick");
+    if (state.norm() != std::abs(state[kThickness])) throw std::invalid_argument("not asked for here");
+    return dome_at(state);
+  });
+  ReducedView view = reduce_view(solver, prior_sd());
+  EXPECT_EQ(view.failed_solves, 2 * (kMechanical - 1));
+  view.base = in_view(solver.soft_base()->result.deformed, solver.soft_base()->view.frame);
+  for (const double z : {0.5, -1.0}) {
+    const auto solved = whole.solve(3 * z * ViewState::Unit(kThickness));
+    ASSERT_TRUE(solved);
+    Nodes off = view.nodes_at(z * ViewState::Unit(kThickness));
+    const Nodes there = in_view(solved->result.deformed, solved->view.frame);
+    for (std::size_t n = 0; n < off.size(); ++n) off[n] -= there[n];
+    EXPECT_LT(largest(off), 1e-9) << z;  // the same solve
+  }
 }
 
 TEST(LinearView, IsTheBaseAndItsSlopes) {
