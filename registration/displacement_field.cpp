@@ -4,7 +4,10 @@
 #include "registration/position_grid.h"
 #include "segmentation/write_image_file.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 
@@ -27,7 +30,7 @@ bool touches(const Volume<std::uint8_t>& state, int i, int j, int k) {
 void continue_one_layer(const PointCarrier& carrier, Volume<std::uint8_t>& state,
                         DisplacementField& field) {
   const Volume<std::uint8_t> before = state;
-  for (int k = 0; k < state.size.z(); ++k)
+  tbb::parallel_for(0, state.size.z(), [&](int k) {
     for (int j = 0; j < state.size.y(); ++j)
       for (int i = 0; i < state.size.x(); ++i) {
         if (before(i, j, k) != unknown || !touches(before, i, j, k)) continue;
@@ -35,22 +38,37 @@ void continue_one_layer(const PointCarrier& carrier, Volume<std::uint8_t>& state
         field(i, j, k) = (carrier.carry(x).in_lps - x).cast<float>();
         state(i, j, k) = continued;
       }
+  });
 }
 
 /// Voxels that a point is interpolated from, with their weights.
-template <class Visit>
-void for_each_corner(const DisplacementField& field, const Eigen::Vector3d& x, const Visit& visit) {
+struct Corners {
+  int count = 0;  // of the eight that lie in the grid
+  std::array<std::size_t, 8> voxels;
+  std::array<double, 8> weights;
+};
+Corners corners_of(const DisplacementField& field, const Eigen::Vector3d& x) {
   const Eigen::Vector3d index = field.index(x);
   const Eigen::Vector3i low = index.array().floor().cast<int>();
   const Eigen::Vector3d t = index - low.cast<double>();
+  Corners corners;
   for (int corner = 0; corner < 8; ++corner) {
     const Eigen::Vector3i bits(corner & 1, corner >> 1 & 1, corner >> 2);
     const Eigen::Vector3i v = low + bits;
     if (!field.contains(v.x(), v.y(), v.z())) continue;
     double weight = 1;
     for (int a = 0; a < 3; ++a) weight *= bits[a] ? t[a] : 1 - t[a];
-    visit(field.offset(v.x(), v.y(), v.z()), weight);
+    corners.voxels[corners.count] = field.offset(v.x(), v.y(), v.z());
+    corners.weights[corners.count++] = weight;
   }
+  return corners;
+}
+
+Eigen::Vector3d interpolate(const DisplacementField& field, const Corners& corners) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (int c = 0; c < corners.count; ++c)
+    sum += corners.weights[c] * field.values[corners.voxels[c]].cast<double>();
+  return sum;
 }
 
 /// A voxel centre of a field inside its mesh, and where the field takes it.
@@ -96,26 +114,29 @@ DisplacementField displacement_field(const HermiteMesh& here, const HermiteMesh&
 }
 
 Eigen::Vector3d displacement_at(const DisplacementField& field, const Eigen::Vector3d& x) {
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for_each_corner(field, x, [&](std::size_t voxel, double weight) {
-    sum += weight * field.values[voxel].cast<double>();
-  });
-  return sum;
+  return interpolate(field, corners_of(field, x));
 }
 
 void compose_to_identity(const DisplacementField& there, const HermiteMesh& there_mesh,
                          double tolerance_mm, DisplacementField& back) {
   constexpr int most_rounds = 60;
   const std::vector<Composed> points = composed(there, there_mesh);
+  std::vector<Corners> corners(points.size());  // the same in every round
+  tbb::parallel_for(std::size_t{0}, points.size(),
+                    [&](std::size_t p) { corners[p] = corners_of(back, points[p].y); });
+  std::vector<Eigen::Vector3d> misses(points.size());
+  std::vector<Eigen::Vector4d> left(back.values.size());
   for (int round = 0; round < most_rounds; ++round) {
-    std::vector<Eigen::Vector4d> left(back.values.size(), Eigen::Vector4d::Zero());
+    tbb::parallel_for(std::size_t{0}, points.size(), [&](std::size_t p) {
+      misses[p] = points[p].y + interpolate(back, corners[p]) - points[p].x;
+    });
+    std::fill(left.begin(), left.end(), Eigen::Vector4d::Zero());
     double worst = 0;
-    for (const Composed& p : points) {
-      const Eigen::Vector3d miss = p.y + displacement_at(back, p.y) - p.x;
-      worst = std::max(worst, miss.norm());
-      for_each_corner(back, p.y, [&](std::size_t voxel, double weight) {
-        left[voxel] += weight * Eigen::Vector4d(miss.x(), miss.y(), miss.z(), 1);
-      });
+    for (std::size_t p = 0; p < points.size(); ++p) {
+      const Eigen::Vector4d miss(misses[p].x(), misses[p].y(), misses[p].z(), 1);
+      worst = std::max(worst, misses[p].norm());
+      for (int c = 0; c < corners[p].count; ++c)
+        left[corners[p].voxels[c]] += corners[p].weights[c] * miss;
     }
     if (worst <= tolerance_mm) return;
     for (std::size_t v = 0; v < left.size(); ++v)
