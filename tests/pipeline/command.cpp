@@ -49,7 +49,7 @@ CommandResult run_command(const std::vector<std::string>& arguments,
   return result;
 }
 
-void run_and_kill_after(double seconds, const std::vector<std::string>& arguments,
+bool run_and_kill_after(double seconds, const std::vector<std::string>& arguments,
                         const std::vector<std::string>& environment) {
   prctl(PR_SET_CHILD_SUBREAPER, 1);  // orphans of what is killed come to this process
   const pid_t child = fork();
@@ -60,9 +60,11 @@ void run_and_kill_after(double seconds, const std::vector<std::string>& argument
   }
   setpgid(child, child);
   std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
+  const bool running = waitpid(child, nullptr, WNOHANG) == 0;
   kill(-child, SIGKILL);
   while (waitpid(-child, nullptr, 0) > 0) {
   }
+  return running;
 }
 
 }  // namespace mammotwin

@@ -1,0 +1,95 @@
+#include "tests/pipeline/chain_run.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iostream>
+#include <iterator>
+#include <random>
+
+namespace mammotwin {
+namespace {
+
+namespace fs = std::filesystem;
+using Bytes = std::map<std::string, std::string>;
+using Times = std::map<std::string, fs::file_time_type>;
+
+std::string text_of(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// `finished`: when each product with a sidecar was written; new ones are added.
+void expect_nothing_half_written(const ChainRun& chain, const Bytes& expected, Times& finished) {
+  const fs::path folder = chain.results / chain.patient;
+  for (const auto& [name, bytes] : chain.products()) {
+    if (name.front() == '.') continue;  // temporary
+    EXPECT_TRUE(expected.count(name) && bytes == expected.at(name)) << name << " is half-written";
+    if (!fs::exists(folder / (name + ".json"))) continue;
+    const auto [before, is_new] = finished.emplace(name, fs::last_write_time(folder / name));
+    EXPECT_EQ(before->second, fs::last_write_time(folder / name)) << name << " was made again";
+  }
+}
+
+void expect_end(const ChainRun& chain, const Bytes& expected, Times& finished) {
+  const CommandResult end = chain.run_script("run_patient.sh", "patient");
+  EXPECT_EQ(end.exit_code, 0) << end.text;
+  expect_nothing_half_written(chain, expected, finished);
+  const Bytes found = chain.products();
+  EXPECT_EQ(found.size(), expected.size());
+  for (const auto& [name, bytes] : expected) EXPECT_TRUE(found.count(name)) << name << " is missing";
+}
+
+}  // namespace
+
+std::vector<std::string> ChainRun::environment() const {
+  return {"P=" + patient, "DATA=" + data.string(), "RESULTS=" + results.string(), "BIN=" MAMMOTWIN_BIN};
+}
+
+CommandResult ChainRun::run_script(const std::string& script, const std::string& target) const {
+  std::vector<std::string> words{MAMMOTWIN_SOURCE_DIR "/pipeline/" + script};
+  if (!target.empty()) words.push_back(target);
+  return run_command(words, environment());
+}
+
+Bytes ChainRun::products() const {
+  Bytes bytes;
+  if (!fs::exists(results / patient)) return bytes;
+  for (const auto& entry : fs::directory_iterator(results / patient))
+    if (entry.path().extension() != ".json" || entry.path().stem().extension() == ".mrk")
+      bytes[entry.path().filename().string()] = text_of(entry.path());
+  return bytes;
+}
+
+std::string ChainRun::next_product() const {
+  for (const char* product : {"segmentation.seg.nrrd", "prone.vtu", "unloaded.vtu", "cc.vtu", "mlo.vtu",
+                              "lesions.csv", "report.html"})
+    if (!fs::exists(results / patient / (std::string(product) + ".json"))) return product;
+  return "nothing";
+}
+
+void expect_nothing_lost_to_kills(const ChainRun& chain, int kills, int most_a_chain, double interval_s,
+                                  const Bytes& expected) {
+  std::mt19937 random(1);
+  std::map<std::string, int> killed_at;
+  int done = 0, chains = 0;
+  while (done < kills) {
+    fs::remove_all(chain.results / chain.patient);
+    Times finished;
+    bool killed = true;
+    for (int i = 0; killed && i < most_a_chain && done < kills; ++i) {
+      const double moment = 2 * interval_s * static_cast<double>(random()) / std::mt19937::max();
+      SCOPED_TRACE("killed after " + std::to_string(moment) + " s");
+      killed = run_and_kill_after(moment, {MAMMOTWIN_SOURCE_DIR "/pipeline/run_patient.sh", "patient"},
+                                  chain.environment());
+      done += killed;
+      killed_at[chain.next_product()] += killed;
+      expect_nothing_half_written(chain, expected, finished);
+    }
+    expect_end(chain, expected, finished);
+    std::cerr << done << " kills in " << ++chains << " chains\n";
+  }
+  for (const auto& [product, times] : killed_at) std::cerr << "  " << times << " before " << product << "\n";
+}
+
+}  // namespace mammotwin
