@@ -35,6 +35,10 @@ std::filesystem::path sidecar_path(const std::filesystem::path& product);
 std::optional<nlohmann::json> current_sidecar(const std::filesystem::path& product,
                                               const Provenance& provenance);
 
+/// What the run that left this product's sidecar wrote beside it: plain relative paths that do not
+/// lead out of the folder; empty where there is no sidecar.
+std::vector<std::string> former_outputs(const std::filesystem::path& product);
+
 /// The sidecar of a failure that would come again: refused or not converged with the same program,
 /// inputs and parameters, and not for want of memory or room on the disk.
 std::optional<nlohmann::json> standing_failure(const std::filesystem::path& product,

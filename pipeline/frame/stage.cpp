@@ -53,10 +53,15 @@ void say_outcome(const Stage& stage, const fs::path& product, const Outcome& out
               << minutes_and_seconds(seconds) << "\n";
 }
 
-/// A product never lies beside a sidecar that speaks of another run.
-void remove_stale_product(const fs::path& product) {
+/// Nothing of an earlier run lies beside a sidecar that speaks of another: neither the product of a
+/// stage that has failed since, nor a file that is not written any more.
+void remove_stale_outputs(const fs::path& product, const std::vector<std::string>& written) {
+  std::vector<std::string> stale = former_outputs(product);
+  stale.push_back(product.filename().string());
   std::error_code ignored;
-  fs::remove(product, ignored);
+  for (const std::string& name : stale)
+    if (std::find(written.begin(), written.end(), name) == written.end())
+      fs::remove(product.parent_path() / name, ignored);
 }
 
 /// So little that a stage may have failed for it alone.
@@ -105,9 +110,9 @@ int run_parsed(const Stage& stage, const fs::path& product, const Patient& patie
     written = products.names();
     products.commit();
   }
+  remove_stale_outputs(product, written);
   const auto sidecar = make_sidecar(product, provenance, a.outcome, written, a.usage);
   write_text_atomically(sidecar_path(product), sidecar.dump(1) + "\n");
-  if (!a.outcome.usable()) remove_stale_product(product);
   if (a.outcome.status != Status::refused) checkpoint.remove();
   say_outcome(stage, product, a.outcome, a.usage.seconds);
   return exit_code(a.outcome.status);

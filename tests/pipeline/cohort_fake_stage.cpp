@@ -1,7 +1,7 @@
 // A stage without mathematics inside the real frame: by the name that it is called by (a link
 // "mammotwin-fit") it reads its inputs and writes products whose bytes follow from them. A file
 // behaviour.txt beside patient.toml makes it fail: "refuse fit", "diverge compress", "die fit",
-// "look fit", "slow fit" (a line each).
+// "look fit", "slow fit", "short fit" (only its main product), a line each.
 
 #include <unistd.h>
 
@@ -81,7 +81,7 @@ Outcome run_fake(const std::string& name, const Shape& shape, const Arguments& a
   for (std::size_t i = 0; i < shape.num_inputs; ++i) text += sha256_of_path(args.inputs[i]);
   const std::string hash = sha256_of_text(text);
   write_product(run.products.write_main(), hash);
-  for (const std::string& side : shape.side_products)
+  for (const std::string& side : is_asked("short") ? std::vector<std::string>{} : shape.side_products)
     write_product(run.products.write(side), sha256_of_text(hash + side));
   if (is_asked("look")) return {Status::look, {"the skin is thin"}, fake_quality(hash)};
   return {Status::ok, {}, fake_quality(hash)};

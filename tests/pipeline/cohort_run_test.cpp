@@ -203,6 +203,21 @@ TEST_F(VerifyResults, NamesAnInputThatIsGone) {
   EXPECT_NE(found.text.find("data/p/mri: is missing (read for"), std::string::npos) << found.text;
 }
 
+// A run with fewer load steps has fewer meshes; one that fails has none.
+TEST_F(VerifyResults, FindsNoFileOfAnEarlierRunThatALaterOneDidNotWrite) {
+  write("results/p/mine.txt", "not the program's");
+  for (const char* behaviour : {"short fit\n", "refuse fit\n"}) {
+    run_patient("p");
+    EXPECT_TRUE(fs::exists(results("p/prone.exf")));
+    write("data/p/behaviour.txt", behaviour);
+    run_patient("p");
+    EXPECT_FALSE(fs::exists(results("p/prone.exf"))) << behaviour;
+    EXPECT_EQ(fs::exists(results("p/prone.vtu")), behaviour == std::string("short fit\n"));
+    EXPECT_TRUE(fs::exists(results("p/mine.txt")));
+    write("data/p/behaviour.txt", "\n");
+  }
+}
+
 TEST_F(VerifyResults, NamesHalfWrittenFilesAndFoldersWithoutResults) {
   write("results/p/.partial-1-prone.vtu", "half");
   EXPECT_NE(verify("p").text.find("half-written"), std::string::npos);

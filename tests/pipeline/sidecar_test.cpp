@@ -47,6 +47,13 @@ TEST_F(SidecarTest, AProductIsNotCurrentAfterAnyChange) {
   EXPECT_FALSE(current_sidecar(product_, provenance())) << "another input";
 }
 
+TEST_F(SidecarTest, FormerOutputsDoNotLeadOutOfTheFolder) {
+  EXPECT_TRUE(former_outputs(product_).empty());
+  write("out.json", R"({"outputs": [{"path": "out"}, {"path": "dicom/cc.dcm"}, {"path": "../in"},
+                                    {"path": "a/../../in"}, {"path": "/in"}]})");
+  EXPECT_EQ(former_outputs(product_), (std::vector<std::string>{"out", "dicom/cc.dcm"}));
+}
+
 TEST_F(SidecarTest, AFailedStageIsNeverCurrent) {
   write_sidecar(Status::not_converged);
   EXPECT_FALSE(current_sidecar(product_, provenance()));
