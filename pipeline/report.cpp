@@ -22,9 +22,14 @@ void declare(StageDeclaration& stage, Arguments& args) {
   stage.command().flag("--picture", args.picture, "write the figures as picture.png beside it, too");
 }
 
+/// A scene for 3D Slicer and series for ParaView repeat what the page shows.
+bool is_made_on_request(const std::string& name) {
+  return name.starts_with("scene") || name.find("_course") != std::string::npos || name == "picture.png";
+}
+
 bool is_input(const std::filesystem::path& file, const std::filesystem::path& page) {
   const std::string name = file.filename().string();
-  return name.front() != '.' && name != "picture.png" && name.rfind("scene", 0) != 0 && name.rfind(page.filename().string(), 0) != 0;
+  return name.front() != '.' && !is_made_on_request(name) && !name.starts_with(page.filename().string());
 }
 
 constexpr const char* kViews[] = {"cc", "mlo"};

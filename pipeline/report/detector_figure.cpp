@@ -157,32 +157,28 @@ Picture drawn(const PatientResults& results, const DetectorView& view, const Ras
   return picture;
 }
 
-std::string legend(const PatientResults& results, const std::string& view) {
-  bool ellipse = false;
-  for (const LesionRow& row : results.rows) ellipse |= row.view == view && row.ellipse_major_mm;
-  return std::string(" Ring: lesion by the model; ") +
-         (ellipse ? "ellipse: holds it with 90 % probability; " : "") +
-         "cross: without physics; triangle: nipple.";
+Figure simulated_figure(const PatientResults& results, const ViewResult& view, const DetectorView& seen) {
+  return {drawn(results, seen, raster_of(seen.simulated, seen.section), seen.name + ", simulated"),
+          seen.name + " on the detector, simulated from the compressed model (cone beam, source at " +
+              word::number(view.detector.source_distance_mm, 0) + " mm)." + seen.hidden,
+          "Simulated " + seen.name + " mammogram." + described(results, seen.projection) + seen.hidden};
+}
+
+Figure own_figure(const PatientResults& results, const DetectorView& seen, const RealMammogram& real) {
+  return {drawn(results, seen, mammogram_raster(real, seen.section, kPixel_mm), seen.name + ", mammogram"),
+          "The patient's own " + seen.name + " mammogram with the predicted places." + seen.hidden,
+          "The patient's " + seen.name + " mammogram." + described(results, seen.projection) + seen.hidden};
 }
 
 }  // namespace
 
-Figure detector_figure(const PatientResults& results, const ViewResult& view) {
+std::vector<Figure> detector_figures(const PatientResults& results, const ViewResult& view) {
   const DetectorView seen = detector_view(results, view);
-  return {drawn(results, seen, raster_of(seen.simulated, seen.section), seen.name + ", simulated"),
-          seen.name + " on the detector, simulated from the compressed model (cone beam, source at " +
-              word::number(view.detector.source_distance_mm, 0) + " mm)." +
-              legend(results, view.view.name) + seen.hidden,
-          "Simulated " + seen.name + " mammogram." + described(results, seen.projection) + seen.hidden};
-}
-
-Figure mammogram_figure(const PatientResults& results, const ViewResult& view,
-                        const RealMammogram& real) {
-  const DetectorView seen = detector_view(results, view);
-  return {drawn(results, seen, mammogram_raster(real, seen.section, kPixel_mm), seen.name + ", mammogram"),
-          "The patient's own " + seen.name + " mammogram with the predicted places." +
-              legend(results, view.view.name) + seen.hidden,
-          "The patient's " + seen.name + " mammogram." + described(results, seen.projection) + seen.hidden};
+  std::vector<Figure> figures;
+  if (const RealMammogram* real = results.mammogram(view.view.name))
+    figures.push_back(own_figure(results, seen, *real));
+  figures.push_back(simulated_figure(results, view, seen));
+  return figures;
 }
 
 }  // namespace mammotwin

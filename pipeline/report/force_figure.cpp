@@ -10,6 +10,7 @@ namespace mammotwin {
 namespace {
 
 constexpr double kWidth = 460, kHeight = 250;                         // [pt]
+constexpr double kLabelHeight = 12;                                   // [pt]
 constexpr double kLeft = 48, kRight = 64, kTop = 14, kBottom = 40;    // [pt] margins
 
 struct Curve {
@@ -92,13 +93,16 @@ std::optional<Figure> force_figure(const PatientResults& results) {
   Picture picture(kWidth, kHeight);
   draw_axes(picture, axes);
   std::string alt = "Plate force against thickness.";
+  double lowest_label = INFINITY;
   for (const Curve& curve : curves) {
     Picture::Points line;
     for (const Eigen::Vector2d& p : curve.points) line.push_back(axes.at(p.x(), p.y()));
     picture.line(line, {curve.colour, 2});
     for (const Eigen::Vector2d& p : line) picture.disc(p, 2.6, curve.colour);
-    picture.text(line.back() + Eigen::Vector2d(7, 3), curve.name, 9.5, curve.colour, Anchor::start,
-                 true);
+    Eigen::Vector2d label = line.back() + Eigen::Vector2d(7, 3);
+    if (std::abs(label.y() - lowest_label) < kLabelHeight) label.y() = lowest_label + kLabelHeight;
+    lowest_label = label.y();
+    picture.text(label, curve.name, 9.5, curve.colour, Anchor::start, true);
     const Eigen::Vector2d& last = curve.points.back();
     alt += " " + curve.name + ": " + word::number(last.y(), 0) + " N at " + word::mm(last.x()) + " mm.";
   }

@@ -37,12 +37,11 @@ Picture overview_picture(const PatientResults& results) {
   if (results.segmentation && !lesions.empty())
     rows.push_back(beside({mri_figure(results, lesions.front()).picture}));
   if (results.prone) {
-    std::vector<Picture> breasts = {render_figure(results, nullptr).picture};
-    std::vector<Picture> detectors;
-    for (const ViewResult& view : results.views) {
-      breasts.push_back(render_figure(results, &view).picture);
-      detectors.push_back(detector_figure(results, view).picture);
-    }
+    std::vector<Picture> breasts, detectors;
+    for (const BreastShape& shape : breast_shapes(results))
+      breasts.push_back(render_figure(results, shape).picture);
+    for (const ViewResult& view : results.views)
+      detectors.push_back(detector_figures(results, view).back().picture);
     rows.push_back(beside(breasts));
     if (!detectors.empty()) rows.push_back(beside(detectors));
   }

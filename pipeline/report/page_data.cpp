@@ -49,12 +49,10 @@ void add_views(const PatientResults& results, json& page) {
   page["has_scene"] = page["has_views"];
   if (!page["has_views"]) return;
   page["scene"] = scene_data(results).dump();
-  page["renders"].push_back(figure_data(render_figure(results, nullptr)));
+  for (const BreastShape& shape : breast_shapes(results))
+    page["renders"].push_back(figure_data(render_figure(results, shape)));
   for (const ViewResult& view : results.views) {
-    if (const RealMammogram* real = results.mammogram(view.view.name))
-      page["detectors"].push_back(figure_data(mammogram_figure(results, view, *real)));
-    page["detectors"].push_back(figure_data(detector_figure(results, view)));
-    page["renders"].push_back(figure_data(render_figure(results, &view)));
+    for (const Figure& figure : detector_figures(results, view)) page["detectors"].push_back(figure_data(figure));
     for (const Landmark& lesion : results.lesions())
       page["cuts"].push_back(figure_data(compressed_figure(results, view, lesion)));
   }
@@ -68,6 +66,9 @@ void add_lesions(const PatientResults& results, json& page) {
   page["has_rows"] = !results.rows.empty();
   bool ellipses = false;
   for (const LesionRow& row : results.rows) ellipses |= row.ellipse_major_mm.has_value();
+  page["marks"] = ellipses ? "Ring: lesion by the model; ellipse: holds it with 90 % probability; cross: without "
+                             "physics; triangle: nipple."
+                           : "Ring: lesion by the model; cross: without physics; triangle: nipple.";
   page["frames"] = figure_data(frames_figure());
   page["ellipse_note"] =
       ellipses ? "The ellipse holds the lesion with 90 % probability as far as pose, thickness and stiffness "

@@ -12,6 +12,7 @@ inline constexpr Colour paper{1, 1, 1};
 inline constexpr Colour lesion{0.85, 0.07, 0.38};
 inline constexpr Colour nipple{0.00, 0.42, 0.58};
 inline constexpr Colour baseline{0.72, 0.42, 0.00};
+inline constexpr Colour baseline_label{1.00, 0.76, 0.35};  // read on black
 inline constexpr Colour mesh{0.15, 0.80, 0.95};
 inline constexpr Colour plate{0.45, 0.52, 0.60};
 inline constexpr Colour skin{0.93, 0.72, 0.60};

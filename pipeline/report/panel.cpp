@@ -77,8 +77,8 @@ void Panel::baseline_mark(const Eigen::Vector3d& x, const std::string& name) {
   picture_.cross(p, kMark, {palette::paper, 3.5});
   picture_.cross(p, kMark, {palette::baseline, 1.8});
   if (!name.empty())
-    picture_.text({p.x() + kMark + 3, p.y() + 3}, name, kSmall - 1, palette::baseline,
-                  Anchor::start, false);
+    picture_.text({p.x() - kMark - 3, p.y() + 3}, name, kSmall, palette::baseline_label, Anchor::end,
+                  false, true);
 }
 
 }  // namespace mammotwin

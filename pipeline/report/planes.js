@@ -88,7 +88,8 @@
       context.beginPath();
       context.arc(x, y, 7 * scale, 0, 2 * Math.PI);
       context.stroke();
-      context.fillText(place.name.replace("Lesion ", ""), x + 8 * scale, y - 4 * scale);
+      const name = place.name.replace("Lesion ", ""), right = plane.canvas.width - context.measureText(name).width;
+      context.fillText(name, Math.min(x + 8 * scale, right), Math.max(y - 4 * scale, 13 * devicePixelRatio));
     }
   }
 

@@ -56,15 +56,27 @@ Scene make_scene(const MeshFile& file, const HermiteMesh& mesh, Side side) {
 
 }  // namespace
 
-Figure render_figure(const PatientResults& results, const ViewResult* view) {
-  const MeshFile& file = view ? view->file : *results.prone;
+std::vector<BreastShape> breast_shapes(const PatientResults& results) {
+  std::vector<BreastShape> shapes{{"Prone", "Prone, as in the MRI.", &results.prone->mesh}};
+  if (results.unloaded && results.unloaded->num_elements() == results.prone->mesh.num_elements())
+    shapes.push_back({"Unloaded", "Unloaded: free of gravity and stress, where the plates begin.", &*results.unloaded});
+  for (const ViewResult& view : results.views) {
+    const std::string name = title_of_view(view.view.name);
+    shapes.push_back({name, name + ", between support and paddle (" + word::mm(view.view.thickness_mm) + " mm).",
+                      &view.file.mesh, &view});
+  }
+  return shapes;
+}
+
+Figure render_figure(const PatientResults& results, const BreastShape& shape) {
+  const ViewResult* view = shape.view;
   const Side side = view                   ? view->view.side
                     : results.segmentation ? results.segmentation->region.side
                                            : Side::left;
-  Scene scene = make_scene(file, file.mesh, side);
+  Scene scene = make_scene(view ? view->file : *results.prone, *shape.mesh, side);
   Eigen::AlignedBox3d in_view;
   if (view) {
-    in_view = bounding_box(in_view_frame(file.mesh, view->view.frame));
+    in_view = bounding_box(in_view_frame(*shape.mesh, view->view.frame));
     for (const double h : {0.0, view->view.thickness_mm})
       for (const Eigen::Vector3d& x : plate_corners(view->view.frame, in_view, h))
         scene.window.extend((scene.axes * x).head<2>().eval());
@@ -84,11 +96,9 @@ Figure render_figure(const PatientResults& results, const ViewResult* view) {
     picture.polygon(on_paper(far_side, scene.axes, plate_corners(view->view.frame, in_view, 0)),
                     palette::with_alpha(palette::plate, 0.45));
   picture.image(far_side.raster(), 0, 0, kWidth, kHeight);
-  std::optional<PointCarrier> carrier;
-  if (view) carrier.emplace(results.prone->mesh, file.mesh);
+  const PointCarrier carrier(results.prone->mesh, *shape.mesh);
   const auto place = [&](const Eigen::Vector3d& prone) {
-    const Eigen::Vector3d x = carrier ? carrier->carry(prone).in_lps : prone;
-    return (far_side.pixel(scene.axes * x) / kPixelsPerPoint).eval();
+    return (far_side.pixel(scene.axes * carrier.carry(prone).in_lps) / kPixelsPerPoint).eval();
   };
   for (const Landmark& lesion : results.lesions())
     picture.disc(place(lesion.prone_in_lps), std::max(3.0, 5 / pixel_mm / kPixelsPerPoint), palette::lesion);
@@ -103,12 +113,9 @@ Figure render_figure(const PatientResults& results, const ViewResult* view) {
   for (const Landmark& lesion : results.lesions())
     picture.text(place(lesion.prone_in_lps) + Eigen::Vector2d(7, 3), lesion.id, 9, palette::lesion, Anchor::start, true);
   if (const auto nipple = results.nipple()) picture.disc(place(*nipple), 3, palette::nipple);
-  const std::string name = view ? title_of_view(view->view.name) : "Prone";
-  picture.text({6, 14}, name, 11, palette::ink, Anchor::start, true);
-  return {picture,
-          view ? name + ", between support and paddle (" + word::mm(view->view.thickness_mm) + " mm)."
-               : "Prone, as in the MRI.",
-          name + " breast seen obliquely from the front, with lesions and nipple."};
+  picture.text({6, 14}, shape.name, 11, palette::ink, Anchor::start, true);
+  return {picture, shape.caption,
+          shape.name + " breast seen obliquely from the front, with lesions and nipple."};
 }
 
 }  // namespace mammotwin

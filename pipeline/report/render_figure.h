@@ -5,8 +5,17 @@
 
 namespace mammotwin {
 
-/// Breast seen obliquely from the front, shaded, with the lesions showing through the skin; in a
-/// view (not null) compressed and with its plates, else prone.
-Figure render_figure(const PatientResults& results, const ViewResult* view);
+/// What a still picture of the breast shows.
+struct BreastShape {
+  std::string name, caption;
+  const HermiteMesh* mesh;
+  const ViewResult* view = nullptr;  ///< whose plates are drawn, too
+};
+
+/// Prone, unloaded and compressed, as far as they exist. They refer to `results`.
+std::vector<BreastShape> breast_shapes(const PatientResults& results);
+
+/// A shape seen obliquely from the front, shaded, with the lesions showing through the skin.
+Figure render_figure(const PatientResults& results, const BreastShape& shape);
 
 }  // namespace mammotwin

@@ -10,12 +10,9 @@ namespace mammotwin {
 Figure compressed_figure(const PatientResults& results, const ViewResult& view,
                          const Landmark& lesion);
 
-/// The view as the detector sees it: simulated mammogram (or the breast's shadow where there are no
-/// tissue fractions), lesions, nipple, and the baseline's lesions beside them.
-Figure detector_figure(const PatientResults& results, const ViewResult& view);
-
-/// The same places on the patient's own mammogram of that view, in the same window.
-Figure mammogram_figure(const PatientResults& results, const ViewResult& view,
-                        const RealMammogram& real);
+/// The view as the detector sees it, with lesions, search ellipses, nipple, and the baseline's lesions
+/// beside them: on the patient's own mammogram where there is one, and last on the simulated one (or
+/// the breast's shadow where there are no tissue fractions), all in one window.
+std::vector<Figure> detector_figures(const PatientResults& results, const ViewResult& view);
 
 }  // namespace mammotwin
