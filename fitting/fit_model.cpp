@@ -2,8 +2,6 @@
 
 #include <Eigen/LU>
 
-#include <cblas.h>
-
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -39,14 +37,14 @@ Eigen::Vector3d mean_lengths(const HermiteMesh& mesh) {
 }
 
 /// First derivatives of the basis at a grid of points, in units of `lengths`.
-Eigen::MatrixXd gradient_matrix(const std::vector<double>& x, const Eigen::Vector3d& lengths) {
-  const int n = static_cast<int>(x.size()), points = n * n * n;
+Eigen::MatrixXd gradient_matrix(const TensorHessian& grid, const Eigen::Vector3d& lengths) {
+  const int points = grid.num_points();
   Eigen::MatrixXd matrix(3 * points, 64);
   for (int q = 0; q < points; ++q)
     for (int i = 0; i < 3; ++i) {
       std::array<int, 3> order = {0, 0, 0};
       order[i] = 1;
-      matrix.row(i * points + q) = basis_row({x[q % n], x[q / n % n], x[q / n / n]}, order) / lengths[i];
+      matrix.row(i * points + q) = basis_row(grid.point(q), order) / lengths[i];
     }
   return matrix;
 }
@@ -106,10 +104,14 @@ Eigen::Matrix<double, 64, 64> smoothing_matrix(const Eigen::Vector3i& n) {
 FitModel::FitModel(const Slab& slab, const HermiteMesh& start, double mu, double sobolev,
                    std::vector<int> emphasis)
     : elements_(start.elements()), mu_(mu), sobolev_(sobolev), centre_(Eigen::Vector3d::Zero()),
-      emphasis_(std::move(emphasis)), smoothing_(smoothing_matrix(slab.elements)) {
+      emphasis_(std::move(emphasis)),
+      grids_{TensorHessian(lobatto_points(), mean_lengths(start)),
+             TensorHessian(even_points(), mean_lengths(start))},
+      smoothing_(smoothing_matrix(slab.elements)) {
   for (int n = 0; n < start.num_nodes(); ++n) centre_ += start.node(n).col(0) / start.num_nodes();
   const Eigen::Vector3d lengths = mean_lengths(start);
-  gradients_ = {gradient_matrix(lobatto_points(), lengths), gradient_matrix(even_points(), lengths)};
+  for (int emphasised : {0, 1})
+    gradients_[emphasised] = gradient_matrix(grids_[emphasised], lengths);
   stretch_ = stretches(slab, start, lengths.z());
 }
 
@@ -205,52 +207,43 @@ FitModel::Quadratic FitModel::quadratic(const std::vector<HermiteMesh::Node>& no
   const Eigen::Map<const ElementVector> flat(x.data());
   Quadratic result;
   result.cost = cost(nodes, e);
-  result.hessian.resize(element_size, element_size);
-
-  const Eigen::MatrixXd& gradients = this->gradients(e);
-  const int num_points = static_cast<int>(gradients.rows() / 3);
-  const auto along = [&](int i) { return gradients.middleRows(i * num_points, num_points).array(); };
-  const double scale = energy_weight(e);
-  const Gradients F = gradients_of(x, e);
-  const Eigen::Vector3d& stretch = stretch_[e];
-  Gradients stress(3, 3 * num_points);
-  Eigen::Array<double, Eigen::Dynamic, 81> tangent(num_points, 81);  // entry (r, s) in column r + 9 s
-  for (int q = 0; q < num_points; ++q) {
-    const Eigen::Matrix3d Fq = at(F, q);
-    const Eigen::Matrix3d stress_q =
-        scale * energy_.gradient(Fq).reshaped(3, 3) * stretch.asDiagonal();
-    for (int i = 0; i < 3; ++i) stress.col(i * num_points + q) = stress_q.col(i);
-    tangent.row(q) = scale * energy_.positive_hessian(Fq).reshaped().transpose().array();
-  }
-  const Shape by_x = stress * gradients + sobolev_ * x * smoothing_;
-  result.gradient = Eigen::Map<const ElementVector>(by_x.data());
-
-  Eigen::MatrixXd product(3 * num_points, 64), block(64, 64);
+  add_energy(x, e, result);
+  const Shape smooth = sobolev_ * x * smoothing_;
+  result.gradient += Eigen::Map<const ElementVector>(smooth.data());
   for (int c = 0; c < 3; ++c)
-    for (int b = 0; b <= c; ++b) {
-      for (int i = 0; i < 3; ++i) {
-        const auto part = [&](int j) {
-          return stretch[i] * stretch[j] * tangent.col(c + 3 * i + 9 * (b + 3 * j));
-        };
-        const Eigen::ArrayXd by_0 = part(0), by_1 = part(1), by_2 = part(2);
-        product.middleRows(i * num_points, num_points) = along(0).colwise() * by_0 +
-                                                         along(1).colwise() * by_1 +
-                                                         along(2).colwise() * by_2;
-      }
-      cblas_dgemm(CblasColMajor, CblasTrans, CblasNoTrans, 64, 64, 3 * num_points, 1,
-                  gradients.data(), 3 * num_points, product.data(), 3 * num_points, 0,
-                  block.data(), 64);
-      if (b == c) block += sobolev_ * smoothing_;
-      for (int p = 0; p < 64; ++p)
-        for (int r = 0; r < 64; ++r) {
-          result.hessian(3 * p + c, 3 * r + b) = block(p, r);
-          if (b != c) result.hessian(3 * r + b, 3 * p + c) = block(p, r);
-        }
-    }
+    result.hessian(Eigen::seqN(c, 64, 3), Eigen::seqN(c, 64, 3)) += sobolev_ * smoothing_;
   const Linear& l = linear_[e];
   result.gradient(l.parameters) += l.a * flat(l.parameters) - l.b;
   result.hessian(l.parameters, l.parameters) += l.a;
   return result;
+}
+
+void FitModel::add_energy(const Shape& x, int e, Quadratic& to) const {
+  const TensorHessian& grid = this->grid(e);
+  const Gradients F = gradients_of(x, e);
+  const Eigen::Vector3d& stretch = stretch_[e];
+  const double scale = energy_weight(e);
+  Gradients stress(3, F.cols());
+  std::vector<double> tangents(grid.num_entries());
+  for (int q = 0; q < grid.num_points(); ++q) {
+    const Eigen::Matrix3d Fq = at(F, q);
+    const Eigen::Matrix3d stress_q =
+        scale * energy_.gradient(Fq).reshaped(3, 3) * stretch.asDiagonal();
+    const FoldoverEnergy::Hessian tangent = scale * energy_.positive_hessian(Fq);
+    for (int i = 0; i < 3; ++i) {
+      stress.col(i * grid.num_points() + q) = stress_q.col(i);
+      for (int j = 0; j < 3; ++j) {
+        double* entries = &tangents[grid.place(i, j, q)];
+        for (int c = 0; c < 3; ++c)
+          for (int b = 0; b <= c; ++b)
+            entries[TensorHessian::pair(c, b)] =
+                stretch[i] * stretch[j] * tangent(c + 3 * i, b + 3 * j);
+      }
+    }
+  }
+  const Shape by_x = stress * gradients(e);
+  to.gradient += Eigen::Map<const ElementVector>(by_x.data());
+  grid.add(tangents, to.hessian);
 }
 
 }  // namespace mammotwin

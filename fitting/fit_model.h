@@ -2,6 +2,7 @@
 
 #include "fitting/foldover_energy.h"
 #include "fitting/slab.h"
+#include "fitting/tensor_hessian.h"
 
 namespace mammotwin {
 
@@ -29,11 +30,11 @@ class FitModel {
   using ElementMatrix = Eigen::MatrixXd;
 
   /// Quadratic model of one element's share around the nodes it was made for. The Hessian
-  /// leaves out what would make it indefinite. BLAS must run on one thread (OneBlasThread).
+  /// leaves out what would make it indefinite..
   struct Quadratic {
     double cost = 0;
-    ElementVector gradient;
-    ElementMatrix hessian;
+    ElementVector gradient = ElementVector::Zero();
+    ElementMatrix hessian = ElementMatrix::Zero(element_size, element_size);
   };
 
   /// `emphasis` has one entry an element.
@@ -53,8 +54,11 @@ class FitModel {
   using Gradients = Eigen::Matrix<double, 3, Eigen::Dynamic>;  ///< column i of F of every point, then column i + 1
   Shape shape(const std::vector<HermiteMesh::Node>& nodes, int element) const;
   double smallest_determinant(const std::vector<HermiteMesh::Node>& nodes) const;
+  const TensorHessian& grid(int element) const { return grids_[emphasis_[element] > 0]; }
   const Eigen::MatrixXd& gradients(int element) const { return gradients_[emphasis_[element] > 0]; }
   Gradients gradients_of(const Shape& x, int element) const;
+  /// Adds the energy's gradient and Hessian.
+  void add_energy(const Shape& x, int element, Quadratic& to) const;
   double energy_weight(int element) const;  ///< of each of its points
 
   /// Samples of one element: ½ xᵀ a x − bᵀ x + c over the parameters that they see, 48 on a face.
@@ -72,7 +76,8 @@ class FitModel {
   double mu_, sobolev_;
   Eigen::Vector3d centre_;                  ///< positions are taken from here, for rounding
   std::vector<int> emphasis_;
-  /// Without and with emphasis: row i N + q is ∂/∂ξᵢ₊₁ of every basis function at point q of N, scaled.
+  std::array<TensorHessian, 2> grids_;      ///< without and with emphasis
+  /// Of these: row i N + q is ∂/∂ξᵢ₊₁ of every basis function at point q of N, scaled.
   std::array<Eigen::MatrixXd, 2> gradients_;
   Eigen::Matrix<double, 64, 64> smoothing_;
   std::vector<Eigen::Vector3d> stretch_;    ///< of each element: typical length over wanted one
