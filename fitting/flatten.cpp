@@ -1,5 +1,7 @@
 #include "fitting/flatten.h"
 
+#include "fitting/one_blas_thread.h"
+
 #include <CGAL/Eigen_solver_traits.h>
 #include <CGAL/Polygon_mesh_processing/measure.h>
 #include <CGAL/Simple_cartesian.h>
@@ -7,6 +9,8 @@
 #include <CGAL/Surface_mesh_parameterization/Mean_value_coordinates_parameterizer_3.h>
 #include <CGAL/Surface_mesh_parameterization/Square_border_parameterizer_3.h>
 #include <CGAL/Surface_mesh_parameterization/parameterize.h>
+
+#include <Eigen/UmfPackSupport>
 
 #include <algorithm>
 #include <stdexcept>
@@ -22,7 +26,7 @@ using Vertex = SurfaceMesh::Vertex_index;
 using Border = parameterization::Square_border_arc_length_parameterizer_3<SurfaceMesh>;
 // CGAL's default, BiCGSTAB on an incomplete LU, can leave NaN without a word.
 using Solver = CGAL::Eigen_solver_traits<
-    Eigen::SparseLU<CGAL::Eigen_sparse_matrix<double>::EigenType, Eigen::COLAMDOrdering<int>>>;
+    Eigen::UmfPackLU<CGAL::Eigen_sparse_matrix<double>::EigenType>>;
 using MeanValue =
     parameterization::Mean_value_coordinates_parameterizer_3<SurfaceMesh, Border, Solver>;
 
@@ -115,6 +119,7 @@ FlatSkin flatten(const TriangleSurface& skin, const BreastRegion& region) {
   const bool swapped = passes(next, 3);
   const auto vertex = [&](int c) { return Vertex(loop[place[c]]); };
   const Border square(vertex(0), vertex(swapped ? 3 : 1), vertex(2), vertex(swapped ? 1 : 3));
+  const OneBlasThread one_thread;  // UMFPACK's last bits depend on the number
   const auto error = parameterization::parameterize(mesh, MeanValue(square), border, uv);
   if (error != parameterization::OK)
     throw std::runtime_error(std::string("the skin surface cannot be laid on a square: ") +

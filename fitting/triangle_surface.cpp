@@ -6,7 +6,6 @@
 #include <cmath>
 #include <map>
 #include <numeric>
-#include <set>
 #include <utility>
 
 namespace mammotwin {
@@ -144,12 +143,13 @@ int euler_characteristic(const TriangleSurface& surface) {
 }
 
 std::vector<std::vector<int>> boundary_loops(const TriangleSurface& surface) {
-  std::set<Edge> directed;
+  std::vector<Edge> directed;
   for (const auto& t : surface.triangles)
-    for (int i = 0; i < 3; ++i) directed.insert({t[i], t[(i + 1) % 3]});
+    for (int i = 0; i < 3; ++i) directed.push_back({t[i], t[(i + 1) % 3]});
+  std::sort(directed.begin(), directed.end());
   std::map<int, int> next;
   for (const auto& [a, b] : directed)
-    if (!directed.count({b, a})) next[a] = b;
+    if (!std::binary_search(directed.begin(), directed.end(), Edge{b, a})) next[a] = b;
   std::vector<std::vector<int>> loops;
   while (!next.empty()) {
     std::vector<int>& loop = loops.emplace_back();
