@@ -1,16 +1,15 @@
 #include "fitting/newton_step.h"
 
-#include "fitting/mesh/jacobian_bound.h"
 #include "fitting/one_blas_thread.h"
 
 #include <Eigen/CholmodSupport>
-#include <Eigen/OrderingMethods>
 
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 namespace mammotwin {
 
@@ -30,17 +29,34 @@ double total_cost(const FitModel& model, const std::vector<HermiteMesh::Node>& n
   return std::accumulate(costs.begin(), costs.end(), 0.0);
 }
 
-/// Nodes in an order that eliminates cheaply (approximate minimum degree).
+/// CHOLMOD's workspace and settings.
+struct Cholmod {
+  cholmod_common common;
+  Cholmod() { cholmod_start(&common); }
+  ~Cholmod() { cholmod_finish(&common); }
+  Cholmod(const Cholmod&) = delete;
+  Cholmod& operator=(const Cholmod&) = delete;
+};
+
+/// Nodes in the order, of three, that eliminates cheapest.
 std::vector<int> elimination_order(int num_nodes, const std::vector<HermiteMesh::Corners>& elements) {
   std::vector<Eigen::Triplet<double>> pairs;
   for (const HermiteMesh::Corners& corners : elements)
     for (int a : corners)
-      for (int b : corners) pairs.emplace_back(a, b, 1.0);
+      for (int b : corners) pairs.emplace_back(std::max(a, b), std::min(a, b), 1.0);
   Eigen::SparseMatrix<double> graph(num_nodes, num_nodes);
   graph.setFromTriplets(pairs.begin(), pairs.end());
-  Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> order;
-  Eigen::AMDOrdering<int>()(graph, order);
-  return {order.indices().begin(), order.indices().end()};
+  Cholmod cholmod;
+  cholmod.common.nmethods = 3;
+  cholmod.common.method[0].ordering = CHOLMOD_AMD;
+  cholmod.common.method[1].ordering = CHOLMOD_METIS;
+  cholmod.common.method[2].ordering = CHOLMOD_NESDIS;
+  cholmod_sparse view = Eigen::viewAsCholmod(std::as_const(graph).selfadjointView<Eigen::Lower>());
+  cholmod_factor* symbolic = cholmod_analyze(&view, &cholmod.common);
+  const int* first = static_cast<const int*>(symbolic->Perm);
+  const std::vector<int> order(first, first + num_nodes);
+  cholmod_free_factor(&symbolic, &cholmod.common);
+  return order;
 }
 
 }  // namespace
@@ -135,8 +151,8 @@ NewtonStep::NewtonStep(const std::vector<HermiteMesh::Corners>& elements,
 
 NewtonStep::~NewtonStep() = default;
 
-StepReport NewtonStep::step(const FitModel& model, bool must_stay_proved,
-                            std::vector<HermiteMesh::Node>& nodes) {
+StepReport NewtonStep::step(const FitModel& model, std::vector<HermiteMesh::Node>& nodes,
+                            const Acceptable& acceptable) {
   const OneBlasThread one_thread;
   StepReport report;
   report.cost_before = report.cost_after = system_->assemble(model, nodes);
@@ -151,7 +167,7 @@ StepReport NewtonStep::step(const FitModel& model, bool must_stay_proved,
         trial[p / node_size].data()[p % node_size] += length * direction[row];
     const double cost = total_cost(model, trial);
     if (!(cost <= report.cost_before + armijo * length * slope)) continue;
-    if (must_stay_proved && !proved_valid(HermiteMesh(trial, system_->elements))) continue;
+    if (acceptable && !acceptable(HermiteMesh(trial, system_->elements))) continue;
     nodes = std::move(trial);
     report.length = length;
     report.cost_after = cost;

@@ -2,6 +2,7 @@
 
 #include "fitting/fit_model.h"
 
+#include <functional>
 #include <memory>
 
 namespace mammotwin {
@@ -13,17 +14,19 @@ struct StepReport {
 };
 
 /// Newton's method with a line search for FitModel: the factorisation's pattern is kept, a trial
-/// length costs one evaluation, and lengths whose mesh is not proved valid can be refused.
+/// length costs one evaluation, and lengths whose mesh is not acceptable can be refused.
 class NewtonStep {
  public:
   /// Parameters that are held keep their values.
   NewtonStep(const std::vector<HermiteMesh::Corners>& elements, const HeldParameters& held);
   ~NewtonStep();
 
-  /// `nodes` change in place. Halves the step until the cost falls (Armijo, 1e-4) and, if asked,
-  /// det(∂x/∂ξ) > 0 is proved.
-  StepReport step(const FitModel& model, bool must_stay_proved,
-                  std::vector<HermiteMesh::Node>& nodes);
+  using Acceptable = std::function<bool(const HermiteMesh&)>;
+
+  /// `nodes` change in place. Halves the step until the cost falls (Armijo, 1e-4) and the mesh is
+  /// acceptable, if that is asked.
+  StepReport step(const FitModel& model, std::vector<HermiteMesh::Node>& nodes,
+                  const Acceptable& acceptable = {});
 
  private:
   struct System;

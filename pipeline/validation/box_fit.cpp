@@ -90,7 +90,7 @@ double fit_box(const Slab& slab, const Skin& skin, const BoxFit& options,
     std::vector<PlaneSample> samples = target.samples(mesh, weights);
     if (options.hold > 0) hold_along_planes(mesh, options.hold, samples);
     model.update(nodes, samples);
-    newton.step(model, false, nodes);
+    newton.step(model, nodes);
   }
   target.samples(HermiteMesh(nodes, start.elements()), weights);
   return target.skin_rms();

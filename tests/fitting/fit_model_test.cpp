@@ -1,7 +1,7 @@
 #include "fitting/fit_model.h"
 
+#include "fitting/mesh/jacobian_bound.h"
 #include "fitting/newton_step.h"
-#include "fitting/one_blas_thread.h"
 #include "tests/fitting/distorted_mesh.h"
 
 #include <gtest/gtest.h>
@@ -25,8 +25,6 @@ std::vector<PlaneSample> some_samples(const HermiteMesh& mesh) {
   }
   return samples;
 }
-
-const OneBlasThread one_thread;  // as NewtonStep has it
 
 double total(const FitModel& model, const std::vector<HermiteMesh::Node>& nodes) {
   double sum = 0;
@@ -111,7 +109,7 @@ TEST(NewtonStep, PullsASheetToItsTargetsAndKeepsWhatIsHeld) {
   FitModel model(slab, box, 1e-3, 1e-8, {0, 0, 0, 0});
   for (int step = 0; step < 10; ++step) {
     model.update(nodes, samples);
-    newton.step(model, true, nodes);
+    newton.step(model, nodes, proved_valid);
   }
   const HermiteMesh moved(nodes, box.elements());
   for (const auto& s : samples) EXPECT_NEAR(moved.position(s.point).y(), s.target.y(), 0.01);
