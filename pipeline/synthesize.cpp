@@ -32,10 +32,10 @@ void declare(Settings& settings, Arguments& args) {
   settings.integer("seed", args.seed, {0, 2147483647, "-"}, "another number, another patient");
   settings.choice<Side>("side", args.options.anatomy.side,
                         {{"left", Side::left}, {"right", Side::right}}, "the breast with lesions");
-  settings.choice<Contrast>("contrast", args.options.scan.contrast,
-                            {{name_of(Contrast::fat_suppressed), Contrast::fat_suppressed},
-                             {name_of(Contrast::not_suppressed), Contrast::not_suppressed}},
-                            "T1, suppressed after or not suppressed before contrast agent");
+  settings.choice<ScanContrast>("contrast", args.options.scan.contrast,
+                                {{name_of(ScanContrast::fat_suppressed), ScanContrast::fat_suppressed},
+                                 {name_of(ScanContrast::not_suppressed), ScanContrast::not_suppressed}},
+                                "T1, suppressed after or not suppressed before contrast agent");
   settings.flag("failed_suppression", args.options.scan.failed_suppression,
                 "a patch in which fat stays bright (suppressed only)");
   visit_numbers(args.options, [&](const char* name, auto& variable, double low, double high,

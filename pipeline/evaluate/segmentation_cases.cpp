@@ -23,7 +23,7 @@ PatientOptions drawn_options(int n) {
   options.anatomy.skin_mm = spread(n, 1.0, 3.0, 5, 9);
   options.anatomy.ptosis = spread(n, 0, 0.8, 2, 5);
   options.anatomy.pectoral_mm = spread(n, 10, 25, 3, 4);
-  options.scan.contrast = n % 2 ? Contrast::not_suppressed : Contrast::fat_suppressed;
+  options.scan.contrast = n % 2 ? ScanContrast::not_suppressed : ScanContrast::fat_suppressed;
   options.scan.noise = spread(n, 0.03, 0.08, 1, 6);
   return options;
 }
@@ -41,11 +41,11 @@ SyntheticPatient make_possible(PatientOptions options) {
   }
 }
 
-ScanOptions map_scan(int n, Contrast contrast) {
+ScanOptions map_scan(int n, ScanContrast contrast) {
   ScanOptions scan;
   scan.contrast = contrast;
   scan.noise = spread(n, 0.03, 0.08, 3, 10);
-  scan.shading = contrast == Contrast::fat_suppressed ? 1.2 : 1;  // 1:5 to 1:7 in these bodies
+  scan.shading = contrast == ScanContrast::fat_suppressed ? 1.2 : 1;  // 1:5 to 1:7 in these bodies
   return scan;
 }
 
@@ -58,7 +58,7 @@ std::function<SyntheticPatient()> scan_of(const LabelMapBreast& breast, int n,
   };
 }
 
-SegmentationCase case_of(const LabelMapBreast& breast, int n, Contrast contrast) {
+SegmentationCase case_of(const LabelMapBreast& breast, int n, ScanContrast contrast) {
   const std::string side = breast.side == Side::left ? "-left-" : "-right-";
   return {breast.exam + side + name_of(contrast), contrast,
           scan_of(breast, n, map_scan(n, contrast))};
@@ -66,10 +66,10 @@ SegmentationCase case_of(const LabelMapBreast& breast, int n, Contrast contrast)
 
 /// The same body imaged before and after contrast agent.
 SegmentationCase pre_post_case_of(const LabelMapBreast& breast, int n) {
-  SegmentationCase c = case_of(breast, n, Contrast::not_suppressed);
+  SegmentationCase c = case_of(breast, n, ScanContrast::not_suppressed);
   c.name += "-pre_post";
   c.make_pre = c.make;
-  ScanOptions after = map_scan(n, Contrast::not_suppressed);
+  ScanOptions after = map_scan(n, ScanContrast::not_suppressed);
   after.contrast_agent = true;
   c.make = scan_of(breast, n, after);
   return c;
@@ -89,7 +89,7 @@ std::vector<SegmentationCase> drawn_cases(int count) {
     const PatientOptions options = drawn_options(n);
     cases.push_back({"seed-" + std::to_string(options.anatomy.seed), options.scan.contrast,
                      [options] { return make_possible(options); }});
-    if (options.scan.contrast == Contrast::not_suppressed)
+    if (options.scan.contrast == ScanContrast::not_suppressed)
       cases.push_back(drawn_pre_post(cases.back(), options));
   }
   return cases;
@@ -99,7 +99,7 @@ std::vector<SegmentationCase> label_map_cases(const std::filesystem::path& folde
   std::vector<SegmentationCase> cases;
   int n = 0;
   for (const LabelMapBreast& breast : label_map_breasts(folder)) {
-    for (const Contrast contrast : {Contrast::fat_suppressed, Contrast::not_suppressed})
+    for (const ScanContrast contrast : {ScanContrast::fat_suppressed, ScanContrast::not_suppressed})
       cases.push_back(case_of(breast, n, contrast));
     cases.push_back(pre_post_case_of(breast, n));
     ++n;

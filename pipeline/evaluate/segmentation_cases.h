@@ -12,7 +12,7 @@ namespace mammotwin {
 /// A breast whose truth is known, imaged by the simulator when asked for.
 struct SegmentationCase {
   std::string name;  ///< "seed-1004", "Exam_07-left-not_suppressed", with "-pre_post" if two images
-  Contrast contrast = Contrast::fat_suppressed;
+  ScanContrast contrast = ScanContrast::fat_suppressed;
   std::function<SyntheticPatient()> make;
   std::function<SyntheticPatient()> make_pre = {};  ///< before contrast agent; empty if not imaged
 };

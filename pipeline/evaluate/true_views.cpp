@@ -105,7 +105,7 @@ DrawnPatient draw_registration(int number, bool coarse, int attempt) {
   a.chest_half_width_mm = build.uniform(125, 150);
   a.lesions = 3;
   drawn.patient.scan.contrast =
-      number % 2 ? Contrast::not_suppressed : Contrast::fat_suppressed;
+      number % 2 ? ScanContrast::not_suppressed : ScanContrast::fat_suppressed;
   const double factor = number % 2 ? 2 : 0.5;  // off what the registering model assumes
   const CompressionSettings assumed;
   drawn.stiffness_ratio = factor * assumed.fibroglandular.c1_kpa / assumed.fat.c1_kpa;

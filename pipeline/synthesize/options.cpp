@@ -33,8 +33,8 @@ void check(const PatientOptions& options) {
 
 std::string name_of(Side side) { return side == Side::left ? "left" : "right"; }
 
-std::string name_of(Contrast contrast) {
-  return contrast == Contrast::fat_suppressed ? "fat_suppressed" : "not_suppressed";
+std::string name_of(ScanContrast contrast) {
+  return contrast == ScanContrast::fat_suppressed ? "fat_suppressed" : "not_suppressed";
 }
 
 }  // namespace mammotwin

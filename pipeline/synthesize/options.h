@@ -28,14 +28,14 @@ struct AnatomyOptions {
   double lesion_max_mm = 16;
 };
 
-enum class Contrast {
+enum class ScanContrast {
   fat_suppressed,  ///< T1, fat suppressed, after contrast agent
   not_suppressed   ///< T1, before contrast agent
 };
 
 /// How the patient is imaged. Each fault can be switched off by its zero.
 struct ScanOptions {
-  Contrast contrast = Contrast::fat_suppressed;
+  ScanContrast contrast = ScanContrast::fat_suppressed;
   double voxel_mm = 1.2;
   int samples = 3;
   double blur_voxels = 0.55;
@@ -64,6 +64,6 @@ struct PatientOptions {
 void check(const PatientOptions& options);
 
 std::string name_of(Side side);          ///< "left", "right"
-std::string name_of(Contrast contrast);  ///< "fat_suppressed", "not_suppressed"
+std::string name_of(ScanContrast contrast);  ///< "fat_suppressed", "not_suppressed"
 
 }  // namespace mammotwin

@@ -64,7 +64,7 @@ Volume<float> signal_of(const TissueMap& tissue, const ScanOptions& o, std::uint
   const auto level = intensities(o);
   const Texture texture(seed, o.texture);
   Volume<float> signal = tissue.mixtures.like<float>();
-  const bool patch = o.failed_suppression && o.contrast == Contrast::fat_suppressed;
+  const bool patch = o.failed_suppression && o.contrast == ScanContrast::fat_suppressed;
   for_voxels(signal.size, [&](int i, int j, int k) {
     const VoxelMixture& m = tissue.mixtures(i, j, k);
     if (m[Substance::air] == tissue.parts_per_voxel) return;
@@ -129,14 +129,16 @@ double shading_ratio(const Volume<float>& shading, const TissueMap& tissue) {
 
 std::array<double, num_substances> intensities(const ScanOptions& o) {
   //      air skin fat  gland lesion                muscle rib  lung  heart liver
-  if (o.contrast == Contrast::fat_suppressed)
+  if (o.contrast == ScanContrast::fat_suppressed)
     return {0, 2.0, 1.0, 1.8, 1.8 * o.lesion_to_gland, 1.55, 0.95, 0.25, 1.4, 1.3};
   if (o.contrast_agent)  // gland takes up a tenth, a lesion doubles, blood is bright
     return {0, 0.5, 1.0, 0.5, 0.5 * o.lesion_to_gland, 0.44, 0.8, 0.06, 0.8, 0.7};
   return {0, 0.45, 1.0, 0.45, 0.42, 0.40, 0.8, 0.06, 0.4, 0.5};
 }
 
-double coil_radius_mm(Contrast contrast) { return contrast == Contrast::fat_suppressed ? 85 : 70; }
+double coil_radius_mm(ScanContrast contrast) {
+  return contrast == ScanContrast::fat_suppressed ? 85 : 70;
+}
 
 Scan scan(const TissueMap& tissue, const Coil& coil, const ScanOptions& o, std::uint64_t seed,
           const Vector3d& failed_patch) {

@@ -14,7 +14,7 @@ namespace mammotwin {
 std::array<double, num_substances> intensities(const ScanOptions& options);
 
 /// Radius of the coil's loops [mm] that gave shading like that of real images (same study).
-double coil_radius_mm(Contrast contrast);
+double coil_radius_mm(ScanContrast contrast);
 
 struct Scan {
   Volume<std::int16_t> image;  ///< grey values; unshaded fat has `fat_grey`

@@ -20,7 +20,7 @@ TEST(EvaluateSegmentation, ScoresAnMriSimulatedFromARealMap) {
   ScanOptions scan;
   scan.voxel_mm = 1.6;  // the contrast is read from the skin, which coarser voxels lose
   scan.shading = 1.2;
-  const SegmentationCase c{"Exam_07-left", Contrast::fat_suppressed, [&] {
+  const SegmentationCase c{"Exam_07-left", ScanContrast::fat_suppressed, [&] {
                              const auto map = read_labels(maps / "Exam_07_labels.nii.gz");
                              return make_map_patient(body_of_map(map, label_map_values(), 1),
                                                      Side::left, scan, 1);

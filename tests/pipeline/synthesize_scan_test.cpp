@@ -12,7 +12,7 @@ double level(const ScanOptions& options, Substance s) {
 
 TEST(Scan, OnlyContrastAgentLiftsALesionOverGland) {
   ScanOptions before;
-  before.contrast = Contrast::not_suppressed;
+  before.contrast = ScanContrast::not_suppressed;
   before.lesion_to_gland = 1.78;
   ScanOptions after = before;
   after.contrast_agent = true;
