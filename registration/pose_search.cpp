@@ -1,8 +1,11 @@
 #include "registration/pose_search.h"
 
+#include "registration/huber.h"
+
 #include <tbb/parallel_for.h>
 
 #include <Eigen/Cholesky>
+#include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>
@@ -14,6 +17,9 @@ constexpr double kNudge = 0.05;     // of a standard deviation: well above the o
 constexpr double kFarthest = 2.5;   // a mechanical number's modes are not believed beyond
 constexpr int kMostIterations = 25;
 constexpr double kGain = 1e-3;      // of the cost: less is converged
+// Standard deviations beyond which a shift in depth costs its distance, not the square: real detectors'
+// edges stand centimetres behind the chest wall at times, where the model's plates cannot.
+constexpr double kShiftTail = 2;
 constexpr double kOwnObservations = 10;  // what the evidence's stated standard deviations count as
 
 /// All views' numbers in one vector, shared ones once.
@@ -46,6 +52,12 @@ class Joint {
         c(i, j) = a < 0 || b < 0 ? 0 : all(a, b);
       }
     return c;
+  }
+  Eigen::VectorXd prior_residuals(const Eigen::VectorXd& z) const {
+    Eigen::VectorXd r = z;
+    for (const auto& view : indices_)
+      r[view[kShiftDepth]] = huber(z[view[kShiftDepth]], kShiftTail);
+    return r;
   }
   void bound(Eigen::VectorXd& z) const {
     for (const auto& view : indices_)
@@ -91,13 +103,14 @@ class Search {
     const Eigen::VectorXd r = residuals(z, with_pattern);
     estimate.cost = 0.5 * r.squaredNorm();
     const Eigen::MatrixXd J = jacobian(z, with_pattern);
-    const Eigen::MatrixXd prior = Eigen::MatrixXd::Identity(z.size(), z.size());
-    const Eigen::MatrixXd evidence = J.transpose() * J - prior;  // the first rows are z itself
+    const auto prior_rows = J.topRows(z.size());
+    const Eigen::MatrixXd prior = prior_rows.transpose() * prior_rows;
+    const Eigen::MatrixXd evidence = J.transpose() * J - prior;
     const double found = (evidence + prior).ldlt().solve(evidence).trace();  // numbers
     estimate.evidence_variance =
         std::max(1.0, (kOwnObservations + r.tail(r.size() - z.size()).squaredNorm()) /
                           (kOwnObservations + std::max(0.0, observations(with_pattern) - found)));
-    const Eigen::MatrixXd left = (evidence / estimate.evidence_variance + prior).ldlt().solve(prior);
+    const Eigen::MatrixXd left = (evidence / estimate.evidence_variance + prior).inverse();
     for (std::size_t v = 0; v < views_.size(); ++v) {
       estimate.states.push_back(joint_.state(v, z));
       estimate.covariances.push_back(joint_.covariance(v, left));
@@ -118,7 +131,7 @@ class Search {
       size += parts[v].size();
     }
     Eigen::VectorXd all(size);
-    all.head(z.size()) = z;
+    all.head(z.size()) = joint_.prior_residuals(z);
     Eigen::Index at = z.size();
     for (const Eigen::VectorXd& part : parts) {
       all.segment(at, part.size()) = part;
@@ -181,7 +194,7 @@ PoseEstimate pose_at(const std::vector<const ViewMatch*>& views,
 
 Eigen::Matrix<double, kStates, kStates> prior_covariance() {
   Eigen::Matrix<double, kStates, kStates> c = Eigen::Matrix<double, kStates, kStates>::Identity();
-  for (const int i : {kTurn, kShiftDepth, kShiftLateral}) c(i, i) = 0;
+  for (const int i : {kTurn, kShiftLateral}) c(i, i) = 0;
   return c;
 }
 

@@ -19,7 +19,8 @@ struct PoseEstimate {
 };
 
 /// The states that are most probable given the mammograms: Levenberg-Marquardt on all residuals and
-/// z itself (the prior), two numbers shared by the views. First outline and nipple alone, which
+/// z itself (the prior; a shift in depth beyond two standard deviations by the square root of its
+/// distance), two numbers shared by the views. First outline and nipple alone, which
 /// lead from far away; then with the pattern of dense tissue. `start` holds a state for each view.
 PoseEstimate search_pose(const std::vector<const ViewMatch*>& views,
                          const std::vector<ViewState>& start, bool only_rigid = false);
@@ -28,8 +29,8 @@ PoseEstimate search_pose(const std::vector<const ViewMatch*>& views,
 PoseEstimate pose_at(const std::vector<const ViewMatch*>& views,
                      const std::vector<ViewState>& states);
 
-/// Before any mammogram: the prior, without turn and shifts, as only the breast's own frame is
-/// spoken of then.
+/// Before any mammogram: the prior, without turn and lateral shift, as sideways only the breast's own
+/// frame is spoken of then; depth is from the detector's edge, and nobody knows where that stands.
 Eigen::Matrix<double, kStates, kStates> prior_covariance();
 
 }  // namespace mammotwin

@@ -1,5 +1,6 @@
 #include "registration/view_match.h"
 
+#include "registration/huber.h"
 #include "registration/point_carrier.h"
 
 #include <algorithm>
@@ -17,11 +18,6 @@ constexpr double kMarker_mm = 3, kProfile_mm = 8;  // sd of a nipple found by ei
 constexpr double kPatternSd = 0.7;        // of normalised patterns of the same breast
 constexpr double kPatternPiece_mm = 15;
 constexpr double kHuber = 2;              // standard deviations beyond which outliers count less
-
-double huber(double r) {
-  const double size = std::abs(r);
-  return size <= kHuber ? r : std::copysign(std::sqrt(2 * kHuber * size - kHuber * kHuber), r);
-}
 
 /// Share of an independent piece of outline that lies between two rays.
 double piece(double radius_mm) {
@@ -102,13 +98,13 @@ Eigen::VectorXd ViewMatch::residuals(const ViewState& z, bool with_pattern) cons
   const RayDistances found = silhouette_.at(view_, z, detector_, centre_);
   for (int ray = 0; ray < kRays; ++ray) {
     if (!seen_[ray] || !found[ray]) continue;
-    r[ray] = std::sqrt(piece(*seen_[ray])) * huber((*found[ray] - *seen_[ray]) / kOutlineSd_mm);
+    r[ray] = std::sqrt(piece(*seen_[ray])) * huber((*found[ray] - *seen_[ray]) / kOutlineSd_mm, kHuber);
   }
   if (evidence_.nipple) {
     const Eigen::Vector2d miss =
         (detector_.project(nipple_.at(view_, z).col(0)) - *evidence_.nipple) / evidence_.nipple_sd_mm;
-    r[kRays] = huber(miss.x());
-    r[kRays + 1] = huber(miss.y());
+    r[kRays] = huber(miss.x(), kHuber);
+    r[kRays + 1] = huber(miss.y(), kHuber);
   }
   if (patterned) {
     const double share = evidence_.grid.cell_mm / kPatternPiece_mm;

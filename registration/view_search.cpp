@@ -36,7 +36,7 @@ ReducedView unsolved(const SearchInput& input) {
 ReducedView reduced_view(const SearchInput& input) {
   ReducedView view = !input.solver    ? unsolved(input)
                      : input.evidence ? reduce_view(*input.solver, prior_sd())
-                                      : linear_view(*input.solver, prior_sd());
+                                      : linear_view(*input.solver, unseen_sd());
   view.elements = input.file.mesh.elements();
   return view;
 }
