@@ -76,6 +76,12 @@ void set_ellipse(const SearchEllipse& ellipse, LesionRow& row) {
   row.ellipse_angle_deg = ellipse.angle_deg;
 }
 
+void set_picture_ellipse(const SearchEllipse& ellipse, LesionRow& row) {
+  row.picture_ellipse_major_mm = ellipse.major_mm;
+  row.picture_ellipse_minor_mm = ellipse.minor_mm;
+  row.picture_ellipse_angle_deg = ellipse.angle_deg;
+}
+
 class Registration {
  public:
   Registration(const Segmentation& segmentation, StageRun& stage)
@@ -101,8 +107,13 @@ class Registration {
                            view.view().name + ": that mammogram would not show it");
       rows_.push_back(view_row(stage_.patient.name(), view.view(), lesion, nipple));
       if (const auto covariance = registered.covariance(lesion.point)) {
-        const SearchEllipse ellipse = search_ellipse(*covariance, kEllipseProbability);
+        SearchEllipse ellipse = search_ellipse(*covariance, kEllipseProbability);
         set_ellipse(ellipse, rows_.back());
+        if (!stage_.patient.view(view.view().name).mammogram) {
+          ellipse = search_ellipse(registered.covariance_in_picture(lesion.point).value(),
+                                   kEllipseProbability);
+          set_picture_ellipse(ellipse, rows_.back());
+        }
         write_closed_curve(
             stage_.products.write("ellipse_" + view.view().name + "_" + std::to_string(++number) + ".mrk.json"),
             landmark.id + " in " + view.view().name,

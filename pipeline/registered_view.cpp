@@ -104,6 +104,12 @@ std::optional<Eigen::Matrix2d> RegisteredView::covariance(const MeshPoint& point
                              point);
 }
 
+std::optional<Eigen::Matrix2d> RegisteredView::covariance_in_picture(const MeshPoint& point) const {
+  if (!uncertainty) return std::nullopt;
+  return detector_covariance(without_placement(*uncertainty), compressed, projection.view(),
+                             projection.detector(), point);
+}
+
 nlohmann::json detector_json(const Detector& detector) {
   return {{"source_distance_mm", detector.source_distance_mm},
           {"support_gap_mm", detector.support_gap_mm}};

@@ -27,6 +27,9 @@ struct RegisteredView {
 
   /// Covariance of a material point on the detector [mm^2]; empty without an uncertainty.
   std::optional<Eigen::Matrix2d> covariance(const MeshPoint& point) const;
+
+  /// The same in the model's own picture (without_placement).
+  std::optional<Eigen::Matrix2d> covariance_in_picture(const MeshPoint& point) const;
 };
 
 /// Reads what compress wrote (cc.vtu), or register (cc_registered.vtu).

@@ -47,6 +47,14 @@ Eigen::Matrix2d detector_covariance(const ViewUncertainty& uncertainty,
          kModelSd_mm * kModelSd_mm * Eigen::Matrix2d::Identity();
 }
 
+ViewUncertainty without_placement(ViewUncertainty uncertainty) {
+  for (int i = kMechanical; i < kStates; ++i) {
+    uncertainty.covariance.row(i).setZero();
+    uncertainty.covariance.col(i).setZero();
+  }
+  return uncertainty;
+}
+
 SearchEllipse search_ellipse(const Eigen::Matrix2d& covariance, double probability) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(covariance);
   const double scale = std::sqrt(-2 * std::log(1 - probability));

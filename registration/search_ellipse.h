@@ -31,6 +31,10 @@ Eigen::Matrix2d detector_covariance(const ViewUncertainty& uncertainty,
                                     const HermiteMesh& compressed, const CompressedView& view,
                                     const Detector& detector, const MeshPoint& point);
 
+/// The same where turn and shifts on the detector are none: for the model's own picture of a view
+/// without a mammogram, in which the breast lies where it is drawn.
+ViewUncertainty without_placement(ViewUncertainty uncertainty);
+
 /// The normal distribution's ellipse of that probability (0.5, 0.9): semi-axes
 /// sqrt(-2 ln(1 - p)) standard deviations.
 SearchEllipse search_ellipse(const Eigen::Matrix2d& covariance, double probability);

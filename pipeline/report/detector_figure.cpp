@@ -81,14 +81,19 @@ Raster raster_of(const DetectorImage& image, const Section& section) {
   });
 }
 
-/// The lesion's 90 % ellipse of lesions.csv, as a closed line round its place.
+/// The lesion's 90 % ellipse of lesions.csv, as a closed line round its place; that in the model's
+/// own picture where there is one.
 void draw_ellipse(Panel& panel, const LesionRow& row) {
   if (!row.ellipse_major_mm || !row.detector_u_mm) return;
+  const bool own = row.picture_ellipse_major_mm.has_value();
+  const double major = own ? *row.picture_ellipse_major_mm : *row.ellipse_major_mm;
+  const double minor = own ? *row.picture_ellipse_minor_mm : *row.ellipse_minor_mm;
+  const double angle_deg = own ? *row.picture_ellipse_angle_deg : *row.ellipse_angle_deg;
   constexpr int corners = 48;
-  const double turn = *row.ellipse_angle_deg * std::numbers::pi / 180;
+  const double turn = angle_deg * std::numbers::pi / 180;
   const auto at = [&](int n) {
     const double t = 2 * std::numbers::pi * n / corners;
-    const double a = *row.ellipse_major_mm * std::cos(t), b = *row.ellipse_minor_mm * std::sin(t);
+    const double a = major * std::cos(t), b = minor * std::sin(t);
     return on_plane({*row.detector_u_mm + std::cos(turn) * a - std::sin(turn) * b,
                      *row.detector_v_mm + std::sin(turn) * a + std::cos(turn) * b});
   };

@@ -72,7 +72,8 @@ void add_lesions(const PatientResults& results, json& page) {
   page["frames"] = figure_data(frames_figure());
   page["ellipse_note"] =
       ellipses ? "The ellipse holds the lesion with 90 % probability as far as pose, thickness and stiffness "
-                 "are uncertain; how it was made: registration/README.md."
+                 "are uncertain, in a view without a mammogram in the simulated picture: where the real "
+                 "detector's edge stands is not known. How it was made: registration/README.md."
                : "No search ellipse is given yet: published methods of this kind err by 5 to 13 mm "
                  "on real patients, so look in a region and not at a point.";
 }

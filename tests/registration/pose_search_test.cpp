@@ -143,6 +143,14 @@ TEST(SearchEllipse, GrowsWithWhatIsNotKnown) {
   const double shadow = uncertainty.sd[kShiftLateral] * 660 / (660 - height);
   EXPECT_NEAR(at()(1, 1), kModelSd_mm * kModelSd_mm + shadow * shadow, 1e-9);
   EXPECT_NEAR(at()(0, 0), kModelSd_mm * kModelSd_mm, 1e-9);
+  uncertainty = without_placement(uncertainty);
+  EXPECT_NEAR(at().trace(), 2 * kModelSd_mm * kModelSd_mm, 1e-12);
+  uncertainty.covariance(kThickness, kThickness) = 1;
+  uncertainty.varied[kThickness] = combined(1.1, box.box.compressed.nodes(), 0, box.box.compressed.nodes());
+  const double thickness = at().trace();
+  EXPECT_GT(thickness, 2 * kModelSd_mm * kModelSd_mm + 0.1);
+  uncertainty = without_placement(uncertainty);
+  EXPECT_EQ(at().trace(), thickness);
 }
 
 }  // namespace
