@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <map>
 
 namespace mammotwin {
 namespace {
@@ -47,6 +49,52 @@ TEST(Markups, ACurveIsClosedAndNamed) {
   EXPECT_EQ(markup["name"], "L1 in cc");
   EXPECT_EQ(markup["coordinateSystem"], "LPS");
   EXPECT_EQ(read_markups(path).at(2).x_in_lps, Eigen::Vector3d(7, 8, 10));
+}
+
+/// Types of 3D Slicer's schema of markups (version 1.0.3), of what may stand in each object.
+using Types = std::map<std::string, std::string>;
+const Types kMarkup = {{"type", "Fiducial|Line|Angle|Curve|ClosedCurve|Plane|ROI"},
+                       {"name", "string"},         {"coordinateSystem", "LPS|RAS"},
+                       {"coordinateUnits", "mm|um"}, {"locked", "boolean"},
+                       {"labelFormat", "string"},  {"controlPoints", "objects"}};
+const Types kControlPoint = {{"id", "string"},          {"label", "string"},
+                             {"description", "string"}, {"associatedNodeID", "string"},
+                             {"position", "3"},         {"orientation", "9"},
+                             {"selected", "boolean"},   {"locked", "boolean"},
+                             {"visibility", "boolean"},
+                             {"positionStatus", "undefined|preview|defined"}};
+
+bool is(const nlohmann::json& value, const std::string& type) {
+  if (type == "string") return value.is_string();
+  if (type == "boolean") return value.is_boolean();
+  if (type == "objects") return value.is_array();
+  if (type == "3" || type == "9")
+    return value.is_array() && value.size() == std::stoul(type) &&
+           std::all_of(value.begin(), value.end(), [](const auto& v) { return v.is_number(); });
+  if (!value.is_string()) return false;
+  return ("|" + type + "|").find("|" + value.get<std::string>() + "|") != std::string::npos;
+}
+
+void expect_types(const nlohmann::json& object, const Types& types) {
+  for (const auto& [key, value] : object.items()) {
+    ASSERT_TRUE(types.count(key)) << key;
+    EXPECT_TRUE(is(value, types.at(key))) << key << " is " << value;
+  }
+}
+
+TEST(Markups, HaveTheTypesOfSlicersSchema) {
+  const auto points = scratch("points.mrk.json"), curve = scratch("curve.mrk.json");
+  write_markups(points, {{"1", {1, 2, 3}}, {"nipple", {0, -60, 0}}});
+  write_closed_curve(curve, "L1 in cc", {{1, 2, 3}, {4, 5, 6}, {7, 8, 10}});
+  for (const auto& path : {points, curve}) {
+    const auto file = nlohmann::json::parse(std::ifstream(path));
+    EXPECT_TRUE(file.at("@schema").is_string());
+    for (const auto& markup : file.at("markups")) {
+      EXPECT_TRUE(markup.contains("type"));
+      expect_types(markup, kMarkup);
+      for (const auto& point : markup.at("controlPoints")) expect_types(point, kControlPoint);
+    }
+  }
 }
 
 TEST(Markups, AreTurnedFromRasToLps) {
