@@ -30,7 +30,7 @@ class FitModel {
   using ElementMatrix = Eigen::MatrixXd;
 
   /// Quadratic model of one element's share around the nodes it was made for. The Hessian
-  /// leaves out what would make it indefinite..
+  /// leaves out what would make it indefinite.
   struct Quadratic {
     double cost = 0;
     ElementVector gradient = ElementVector::Zero();
