@@ -29,13 +29,15 @@ Mask cropped_to_region(const Mask& labels, const BreastRegion& region) {
   return cropped(labels, low, high);
 }
 
-/// The labels of `from` at the voxel centres of `grid`; air outside.
-Mask labels_on(const Mask& grid, const Mask& from) {
-  auto out = grid.like<std::uint8_t>(label::air);
+/// The values of `from` at the voxel centres of `grid`; zero (air) outside.
+template <class Value>
+Volume<Value> values_on(const Mask& grid, const Volume<Value>& from) {
+  auto out = grid.like<Value>();
   for (int k = 0; k < grid.size.z(); ++k)
     for (int j = 0; j < grid.size.y(); ++j)
       for (int i = 0; i < grid.size.x(); ++i) {
-        const Eigen::Vector3i v = from.index(grid.position(i, j, k)).array().round().cast<int>();
+        const Eigen::Vector3i v =
+            from.index(grid.position(i, j, k)).array().round().template cast<int>();
         if (from.contains(v.x(), v.y(), v.z())) out(i, j, k) = from(v.x(), v.y(), v.z());
       }
   return out;
@@ -79,6 +81,22 @@ Mask columns_with_muscle(const Mask& truth) {
 Mask both(Mask a, const Mask& b) {
   for (std::size_t v = 0; v < a.values.size(); ++v) a.values[v] = a.values[v] && b.values[v];
   return a;
+}
+
+/// Compares the fractions at the voxels that are set in `scored`.
+void score_fractions(const Segmentation& truth, const Segmentation& found, const Mask& scored,
+                     SegmentationScore& score) {
+  const Volume<Fractions> a = values_on(scored, truth.fractions);
+  const Volume<Fractions> b = values_on(scored, found.fractions);
+  double least = 0, true_sum = 0, found_sum = 0;
+  for (std::size_t v = 0; v < scored.values.size(); ++v) {
+    if (!scored.values[v]) continue;
+    least += std::min(a.values[v].fibroglandular, b.values[v].fibroglandular);
+    true_sum += a.values[v].fibroglandular, found_sum += b.values[v].fibroglandular;
+  }
+  if (true_sum == 0) return;
+  score.fibroglandular_fraction_dice = 2 * least / (true_sum + found_sum);
+  score.fibroglandular_volume_ratio = found_sum / true_sum;
 }
 
 void score_lesions(const Segmentation& truth, const Segmentation& found, const Mask& a,
@@ -125,7 +143,7 @@ std::optional<SurfaceDistance> surface_distance(const Mask& a, const Mask& b) {
 SegmentationScore score_segmentation(const Segmentation& truth, const Segmentation& found,
                                      double fibroglandular_off_muscle_mm) {
   const Mask a = cropped_to_region(truth.labels, truth.region);
-  const Mask b = labels_on(a, found.labels);
+  const Mask b = values_on(a, found.labels);
   const auto is = [](std::uint8_t wanted) {
     return [wanted](std::uint8_t value) { return value == wanted; };
   };
@@ -142,6 +160,7 @@ SegmentationScore score_segmentation(const Segmentation& truth, const Segmentati
     apart.values[v] &= off_muscle.values[v] >= fibroglandular_off_muscle_mm;
   score.fibroglandular_dice = dice(both(where(a, is(label::fibroglandular)), apart),
                                    both(where(b, is(label::fibroglandular)), apart));
+  score_fractions(truth, found, apart, score);
   constexpr double inset_mm = 5;
   const int inset = static_cast<int>(inset_mm / a.spacing.minCoeff());
   const auto apart_by = [&](std::uint8_t other) {

@@ -22,13 +22,16 @@ std::optional<SurfaceDistance> surface_distance(const Volume<std::uint8_t>& a,
 /// How near a segmentation comes to the truth, inside the true region. What either lacks is empty.
 struct SegmentationScore {
   std::optional<double> breast_dice, skin_dice, fibroglandular_dice;
+  /// 2 sum(min(a, b)) / sum(a + b) of the voxels' fibroglandular fractions.
+  std::optional<double> fibroglandular_fraction_dice;
+  std::optional<double> fibroglandular_volume_ratio;  ///< found over true, of fractions
   std::optional<SurfaceDistance> chest_wall, skin_surface;
   std::optional<double> lesion_dice, lesion_centroid_mm;  ///< the worst of the lesions
   double nipple_mm = 0;
 };
 
-/// `truth` carries labels (both sides or one), region, lesions in label order and nipple; its
-/// fractions are not looked at. The found labels are read at the truth's voxel centres. The
+/// `truth` carries labels (both sides or one), fractions on the same grid, region, lesions in label
+/// order and nipple. What was found is read at the truth's voxel centres. The
 /// chest wall is scored away from the region's edges by 5 mm, fibroglandular tissue this far and
 /// more off the true muscle. Columns in which the truth has no muscle are not scored: nothing says
 /// where the breast ends there.

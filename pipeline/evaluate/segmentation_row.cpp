@@ -45,6 +45,8 @@ void keep_files(const std::string& name, const std::filesystem::path& image,
   std::filesystem::copy_file(image, folder / (name + "_mri.nrrd"),
                              std::filesystem::copy_options::overwrite_existing);
   write_segmentation(folder / (name + "_true.nrrd"), truth);
+  write_fractions(folder / (name + "_true_fractions.nrrd"), truth.fractions);
+  write_fractions(folder / (name + "_found_fractions.nrrd"), found.segmentation.fractions);
   write_segmentation(folder / (name + "_found.nrrd"), found.segmentation);
   write_image(folder / (name + "_corrected.nrrd"), found.image);
 }
@@ -52,6 +54,8 @@ void keep_files(const std::string& name, const std::filesystem::path& image,
 void add_score(const SegmentationScore& score, json& row) {
   row["breast_dice"] = number(score.breast_dice);
   row["fibroglandular_dice"] = number(score.fibroglandular_dice);
+  row["fibroglandular_fraction_dice"] = number(score.fibroglandular_fraction_dice);
+  row["fibroglandular_volume_ratio"] = number(score.fibroglandular_volume_ratio);
   row["nipple_mm"] = number(score.nipple_mm);
   row["lesion_dice"] = number(score.lesion_dice);
   row["lesion_centroid_mm"] = number(score.lesion_centroid_mm);
@@ -88,7 +92,7 @@ json empty_row(const SegmentationCase& c) {
               {"contrast", name_of(c.contrast) + (c.make_pre ? pre_post : "")},
               {"reason", nullptr}};
   for (const char* key :
-       {"breast_dice", "fibroglandular_dice", "chest_wall_mean_mm", "skin_thickness_error_mm",
+       {"breast_dice", "fibroglandular_dice", "fibroglandular_fraction_dice", "chest_wall_mean_mm", "skin_thickness_error_mm",
         "skin_surface_mean_mm", "nipple_mm", "lesion_dice", "lesion_centroid_mm"})
     row[key] = nullptr;
   return row;
@@ -108,6 +112,7 @@ constexpr Aim aims[] = {{"breast_dice", "breast Dice", true, 0.98},
                         {"chest_wall_mean_mm", "wall mean", false, 2.5},
                         {"chest_wall_p95_mm", "wall p95", false, 5},
                         {"fibroglandular_dice", "gland Dice", true, 0.90},
+                        {"fibroglandular_fraction_dice", "gland, fractions", true, 0.90},
                         {"skin_thickness_error_mm", "skin thickness", false, 0.5},
                         {"lesion_dice", "lesion Dice", true, 0.8},
                         {"lesion_centroid_mm", "lesion centroid", false, 1},

@@ -14,6 +14,7 @@ Segmentation slab(int skin_shift, int wall_shift) {
     for (int i = 0; i < 30; ++i)
       for (int j = 5 + skin_shift; j < 30; ++j)
         s.labels(i, j, k) = j < 20 + wall_shift ? label::fat : label::muscle;
+  s.fractions = s.labels.like<Fractions>();
   s.labels(10, 12, 10) = s.labels(11, 12, 10) = label::lesion;
   s.lesions = {{"a", {21, 24, 20}, 0.016}};
   s.region = {Side::left, -1, 59, -1, 59};
@@ -44,6 +45,18 @@ TEST(Score, TakesTheWorstLesion) {
   const SegmentationScore score = score_segmentation(slab(0, 0), found);
   EXPECT_NEAR(*score.lesion_dice, 2.0 / 3, 1e-9);
   EXPECT_NEAR(*score.lesion_centroid_mm, 3, 1e-9);
+}
+
+TEST(Score, ComparesFractionsWithoutAThreshold) {
+  Segmentation truth = slab(0, 0), found = slab(0, 0);
+  truth.fractions(5, 12, 5) = {0.5F, 0.5F, 0};
+  truth.fractions(6, 12, 5) = {0, 1, 0};
+  found.fractions(5, 12, 5) = {0.75F, 0.25F, 0};
+  found.fractions(6, 12, 5) = {0, 1, 0};
+  found.fractions(7, 12, 5) = {0.25F, 0.75F, 0};
+  const SegmentationScore score = score_segmentation(truth, found);
+  EXPECT_NEAR(*score.fibroglandular_fraction_dice, 2 * 1.25 / (1.5 + 2), 1e-6);
+  EXPECT_NEAR(*score.fibroglandular_volume_ratio, 2 / 1.5, 1e-6);
 }
 
 }  // namespace
