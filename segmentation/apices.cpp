@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace mammotwin {
 namespace {
@@ -29,15 +30,6 @@ Second second_apex(const std::vector<double>& front, int first, int direction, d
   return best;
 }
 
-int middle_of_plateau(const std::vector<double>& front, int low, int high) {
-  const double floor = *std::min_element(front.begin() + low, front.begin() + high + 1);
-  double sum = 0;
-  int count = 0;
-  for (int i = low; i <= high; ++i)
-    if (front[i] <= floor + plateau_mm) sum += i, ++count;
-  return static_cast<int>(std::lround(sum / count));
-}
-
 }  // namespace
 
 std::optional<Apices> find_apices(const std::vector<double>& front, double step) {
@@ -54,11 +46,22 @@ std::optional<Apices> find_apices(const std::vector<double>& front, double step)
   Apices apices;
   apices.right = std::min(first, best.at);
   apices.left = std::max(first, best.at);
-  apices.valley = middle_of_plateau(front, apices.right, apices.left);
+  apices.valley = valley_between(front, apices.right, apices.left);
   const double along =
       static_cast<double>(apices.valley - begin) / static_cast<double>(end - begin);
   if (along < 1.0 / 3 || along > 2.0 / 3) return std::nullopt;  // a breast and an arm
   return apices;
+}
+
+int valley_between(const std::vector<double>& front, int low, int high) {
+  double floor = std::numeric_limits<double>::infinity();
+  for (int i = low; i <= high; ++i)
+    if (std::isfinite(front[i])) floor = std::min(floor, front[i]);
+  double sum = 0;
+  int count = 0;
+  for (int i = low; i <= high; ++i)
+    if (std::isfinite(front[i]) && front[i] <= floor + plateau_mm) sum += i, ++count;
+  return count > 0 ? static_cast<int>(std::lround(sum / count)) : low;
 }
 
 }  // namespace mammotwin

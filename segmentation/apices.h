@@ -17,4 +17,8 @@ struct Apices {
 /// mm), or the valley is not in the middle third of the skin's width (a breast and an arm).
 std::optional<Apices> find_apices(const std::vector<double>& front, double step);
 
+/// Middle of the columns between two, both included, that lie within 2 mm of the lowest of them.
+/// Columns without skin do not count; `low` if none has any.
+int valley_between(const std::vector<double>& front, int low, int high);
+
 }  // namespace mammotwin

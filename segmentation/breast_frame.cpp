@@ -34,6 +34,37 @@ Eigen::Vector3d most_anterior(const Volume<std::uint8_t>& body, const std::vecto
   return body.position(best.x(), std::min(best.y(), body.size.y() - 1), best.z());
 }
 
+/// How far forward the skin reaches in each column of x, over slices `low` to `high`.
+std::vector<double> front_profile(const Volume<std::uint8_t>& body, const std::vector<int>& rows,
+                                  int low, int high) {
+  std::vector<double> front(body.size.x(), -std::numeric_limits<double>::infinity());
+  for (int k = low; k <= high; ++k)
+    for (int i = 0; i < body.size.x(); ++i) {
+      const int j = rows[static_cast<std::size_t>(k) * body.size.x() + i];
+      if (j < body.size.y()) front[i] = std::max(front[i], -body.position(i, j, k).y());
+    }
+  return front;
+}
+
+/// The valley at the height of the apices: above and below, the chest lies further forward than
+/// there, and not in its middle.
+double valley_x(const Volume<std::uint8_t>& body, const std::vector<int>& rows,
+                const BreastFrame& frame) {
+  constexpr double reach_mm = 10;
+  const auto slice = [&](double z) {
+    return std::clamp(static_cast<int>(std::lround((z - body.origin.z()) / body.spacing.z())), 0,
+                      body.size.z() - 1);
+  };
+  const auto column = [&](const Eigen::Vector3d& x) {
+    return static_cast<int>(std::lround((x.x() - body.origin.x()) / body.spacing.x()));
+  };
+  const double height = (frame.left_apex.z() + frame.right_apex.z()) / 2;
+  const std::vector<double> front =
+      front_profile(body, rows, slice(height - reach_mm), slice(height + reach_mm));
+  const int valley = valley_between(front, column(frame.right_apex), column(frame.left_apex));
+  return body.position(valley, 0, 0).x();
+}
+
 /// Slices in which some column stands out enough, as an unbroken run around the apices.
 void find_slices(const Volume<std::uint8_t>& body, const std::vector<int>& rows,
                  BreastFrame& frame) {
@@ -61,12 +92,7 @@ void find_slices(const Volume<std::uint8_t>& body, const std::vector<int>& rows,
 
 BreastFrame find_breast_frame(const Volume<std::uint8_t>& body) {
   const std::vector<int> rows = front_rows(body);
-  std::vector<double> front(body.size.x(), -std::numeric_limits<double>::infinity());
-  for (int k = 0; k < body.size.z(); ++k)
-    for (int i = 0; i < body.size.x(); ++i) {
-      const int j = rows[static_cast<std::size_t>(k) * body.size.x() + i];
-      if (j < body.size.y()) front[i] = std::max(front[i], -body.position(i, j, k).y());
-    }
+  const std::vector<double> front = front_profile(body, rows, 0, body.size.z() - 1);
   const auto apices = find_apices(front, body.spacing.x());
   if (!apices)
     throw std::runtime_error(
@@ -74,10 +100,10 @@ BreastFrame find_breast_frame(const Volume<std::uint8_t>& body) {
         "expected a prone MRI of both breasts (is the patient supine, or the image a part of one "
         "breast?)");
   BreastFrame frame;
-  frame.midline_x = body.position(apices->valley, 0, 0).x();
   frame.sternal_y = -*std::min_element(front.begin() + apices->right, front.begin() + apices->left);
   frame.right_apex = most_anterior(body, rows, 0, apices->valley);
   frame.left_apex = most_anterior(body, rows, apices->valley, body.size.x() - 1);
+  frame.midline_x = valley_x(body, rows, frame);
   frame.front_y = std::min(frame.left_apex.y(), frame.right_apex.y());
   if (frame.sternal_y - frame.front_y < least_height_mm)
     throw std::runtime_error(
