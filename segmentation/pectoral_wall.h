@@ -20,6 +20,9 @@ struct PectoralWall {
   std::vector<float> cost;     ///< of the wall found there; below -0.5 the image supports it
   std::vector<float> behind;   ///< mean brightness 3 to 8 mm behind it, fat = 1
 
+  /// Point of a ray (index into `radius`) at some radius [mm, LPS].
+  Eigen::Vector3d position(std::size_t ray, double radius_mm) const;
+
   /// True if a point lies behind the front; beyond the last angle the last radius holds.
   bool is_behind(const Eigen::Vector3d& x_in_lps) const;
 
@@ -36,18 +39,16 @@ struct PectoralWall {
   std::vector<std::size_t> rays_before(Side side, double z_low, double z_high) const;
 };
 
-/// Brightness of what lies on both sides of the wall, with fat at 1.
+/// Brightness of what lies on both sides of the wall.
 struct WallContrast {
+  double fat = 1;
   double muscle = 1.55;
 };
 
 /// Finds the front of the pectoral muscle in a bias-corrected image with fat at 1.
 ///
-/// Cost of a radius: 0.5 times a region term (fat in the 6 mm outside, muscle in the 7 mm inside,
-/// by log-likelihood), minus 2 times the signed edge (outward: darker where muscle is brighter
-/// than fat; 1 to 3 mm to either side), plus dark tissue in front of it (per 10 mm), plus the dark
-/// share of the 7 mm inside (else the lung's sharper edge wins); not within 4 mm of the skin. The
-/// study of segmentation measured that the first three terms are needed.
+/// The radius over angle and height is found by a semi-global search over the cost of wall_cost.h;
+/// wall_refinement.h then moves it to the middle of the step that the image shows there.
 PectoralWall find_pectoral_wall(const Volume<float>& corrected, const Volume<std::uint8_t>& body,
                                 const BreastFrame& frame, const WallContrast& contrast,
                                 double stiffness);

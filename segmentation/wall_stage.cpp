@@ -65,8 +65,7 @@ WallStage find_wall(const BodyStage& body, double stiffness) {
   stage.contrast.muscle = muscle_over_fat(bias, std::log(fat), body.contrast.fat_suppressed);
   constexpr double ray_smoothing_mm = 0.8;  // about a voxel: noise falls, the edge stays
   stage.wall = find_pectoral_wall(gaussian_smoothed(corrected, ray_smoothing_mm),
-                                  with_closed_thorax(body),
-                                  body.frame, stage.contrast, stiffness);
+                                  with_closed_thorax(body), body.frame, stage.contrast, stiffness);
   return stage;
 }
 

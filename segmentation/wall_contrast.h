@@ -1,0 +1,19 @@
+#pragma once
+
+#include <vector>
+
+#include "segmentation/polar_rays.h"
+
+namespace mammotwin {
+
+/// Brightness of fat and muscle as measured on both sides of a first wall, of each ray: medians
+/// over 60 mm of height and 45 degrees, of the rays whose `cost` says that the image supports the
+/// wall there. Where fewer than a tenth do, `usual` stays.
+///
+/// One brightness for the whole image is too little: what is left of the bias goes on behind the
+/// wall, where the coil is far.
+std::vector<WallContrast> local_contrasts(const PolarRays& rays, const std::vector<double>& depth,
+                                          const std::vector<float>& cost,
+                                          const WallContrast& usual);
+
+}  // namespace mammotwin

@@ -1,0 +1,97 @@
+#include "segmentation/wall_cost.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace mammotwin {
+namespace {
+
+constexpr int inside_mm = 7, outside_mm = 6, edge_mm = 2, blur_mm = 1, below_skin_mm = 4;
+constexpr float forbidden = 10;
+
+/// Means over pieces of a ray in constant time.
+class RunningSum {
+ public:
+  explicit RunningSum(const std::vector<float>& values) : sum_(values.size() + 1, 0) {
+    for (std::size_t n = 0; n < values.size(); ++n) sum_[n + 1] = sum_[n] + values[n];
+  }
+  /// Sum over [low, high), clipped to the ray.
+  double sum(int low, int high) const {
+    const int n = static_cast<int>(sum_.size()) - 1;
+    low = std::clamp(low, 0, n), high = std::clamp(high, low, n);
+    return sum_[high] - sum_[low];
+  }
+  double mean(int low, int high) const {
+    const int n = static_cast<int>(sum_.size()) - 1;
+    low = std::clamp(low, 0, n), high = std::clamp(high, low, n);
+    return high > low ? (sum_[high] - sum_[low]) / (high - low) : 0;
+  }
+
+ private:
+  std::vector<double> sum_;
+};
+
+class WallCost {
+ public:
+  explicit WallCost(const WallContrast& contrast)
+      : log_fat_(std::log(contrast.fat)), log_muscle_(std::log(contrast.muscle)) {
+    dark_ = 0.5 * std::min(contrast.fat, contrast.muscle);
+  }
+
+  void fill(const float* ray, int exit, float* cost) const {
+    std::vector<float> log_intensity, likelihood, dark;
+    for (int d = 0; d < exit; ++d) {
+      log_intensity.push_back(std::log(ray[d]));
+      likelihood.push_back(muscle_over_fat(log_intensity.back()));
+      dark.push_back(ray[d] < dark_ ? 1.0F : 0.0F);
+    }
+    const RunningSum logs(log_intensity), muscle(likelihood), darks(dark);
+    const int last = exit - below_skin_mm;
+    for (int d = 0; d < PolarRays::depths; ++d) {
+      if (d < edge_mm + blur_mm || d > last) {
+        cost[d] = forbidden;
+        continue;
+      }
+      const double inside = muscle.mean(d - inside_mm, d);
+      const double outside = muscle.mean(d, std::min(d + outside_mm, exit - 2));
+      const double region = (outside - inside) / strongest_;
+      const double step = logs.mean(d + blur_mm, d + blur_mm + edge_mm) -
+                          logs.mean(d - blur_mm - edge_mm, d - blur_mm);
+      const double edge = std::clamp(-step / (log_muscle_ - log_fat_), -1.0, 1.0);
+      const double dark_mm = darks.sum(d + 1, exit - below_skin_mm);
+      const double dark_inside = darks.mean(d - inside_mm, d);
+      cost[d] = static_cast<float>(0.5 * region - 2 * edge + dark_mm / 10 + dark_inside);
+    }
+  }
+
+ private:
+  /// log p(muscle) - log p(fat), cut at +-3; both classes have the same spread. What is like
+  /// neither (lung, vessels) says nothing: a hundredth of the peak is there for it.
+  float muscle_over_fat(float log_intensity) const {
+    constexpr double spread = 0.2;  // of log intensity: noise, texture and what bias is left
+    constexpr double neither = 0.01;
+    const auto likelihood = [&](double mean) {
+      const double d = (log_intensity - mean) / spread;
+      return std::exp(-0.5 * d * d) + neither;
+    };
+    const double ratio = std::log(likelihood(log_muscle_) / likelihood(log_fat_));
+    return static_cast<float>(std::clamp(ratio, -strongest_, strongest_));
+  }
+
+  static constexpr double strongest_ = 3;
+  double log_fat_, log_muscle_, dark_;
+};
+
+}  // namespace
+
+std::vector<float> wall_costs(const PolarRays& rays, const std::vector<WallContrast>& contrast) {
+  std::vector<float> costs(rays.intensity.size());
+  tbb::parallel_for(std::size_t{0}, rays.exit.size(), [&](std::size_t n) {
+    WallCost(contrast[n]).fill(rays.ray(n), rays.exit[n], &costs[n * PolarRays::depths]);
+  });
+  return costs;
+}
+
+}  // namespace mammotwin
