@@ -149,19 +149,39 @@ Volume<std::uint8_t> cut_rim(const Volume<float>& image, const Volume<std::uint8
   return largest_component(out);
 }
 
-Volume<float> signed_depth(const Volume<std::uint8_t>& mask, double reach) {
-  constexpr double widths = 2.2, step_mm = 0.05;  // the Gaussian is cut at 3 widths
-  const double sigma = reach / widths;
-  std::vector<float> share;  // inside, at depth -reach, -reach + step, ...
+namespace {
+
+/// Share of a Gaussian around each voxel of a line that lies on the line.
+std::vector<float> share_on_line(int n, double sigma_voxels) {
+  const auto below = [&](double x) {
+    return 0.5 * std::erfc(-x / (std::sqrt(2.0) * sigma_voxels));
+  };
+  std::vector<float> share;
+  for (int q = 0; q < n; ++q)
+    share.push_back(static_cast<float>(below(q + 0.5) + below(n - q - 0.5) - 1));
+  return share;
+}
+
+}  // namespace
+
+Volume<float> signed_depth(Volume<float> share, double reach) {
+  constexpr double step_mm = 0.05, sharp_reach_mm = 4.4;  // the Gaussian is cut at 3 widths
+  const double sigma = reach / (reach > sharp_reach_mm ? 2.2 : 2.75);
+  std::vector<float> normal;  // inside, at depth -reach, -reach + step, ...
   for (double d = -reach; d <= reach; d += step_mm)
-    share.push_back(static_cast<float>(0.5 * std::erfc(-d / (std::sqrt(2.0) * sigma))));
-  auto depth = mask.like<float>(0);
-  for (std::size_t v = 0; v < mask.values.size(); ++v) depth.values[v] = mask.values[v];
-  depth = gaussian_smoothed(std::move(depth), sigma);
-  for (float& value : depth.values) {
-    const auto n = std::lower_bound(share.begin(), share.end(), value) - share.begin();
-    value = static_cast<float>(std::min(reach, -reach + static_cast<double>(n) * step_mm));
-  }
+    normal.push_back(static_cast<float>(0.5 * std::erfc(-d / (std::sqrt(2.0) * sigma))));
+  Volume<float> depth = gaussian_smoothed(std::move(share), sigma);
+  std::vector<float> on[3];
+  for (int a = 0; a < 3; ++a) on[a] = share_on_line(depth.size[a], sigma / depth.spacing[a]);
+  tbb::parallel_for(0, depth.size.z(), [&](int k) {
+    for (int j = 0; j < depth.size.y(); ++j)
+      for (int i = 0; i < depth.size.x(); ++i) {
+        const float value = depth(i, j, k) / (on[0][i] * on[1][j] * on[2][k]);
+        const auto n = std::lower_bound(normal.begin(), normal.end(), value) - normal.begin();
+        depth(i, j, k) =
+            static_cast<float>(std::min(reach, -reach + static_cast<double>(n) * step_mm));
+      }
+  });
   return depth;
 }
 

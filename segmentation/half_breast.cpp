@@ -11,6 +11,7 @@
 #include "segmentation/distance.h"
 #include "segmentation/half_body.h"
 #include "segmentation/n4.h"
+#include "segmentation/skin_stage.h"
 #include "segmentation/smoothing.h"
 
 namespace mammotwin {
@@ -125,8 +126,12 @@ HalfBreast cut_half(const BodyStage& body, const WallStage& wall, Side side) {
   half.image = denoised_part(body, wall, crop);
   if (!body.enhancement.values.empty())
     half.enhancement = cropped(body.enhancement, crop.low, crop.high);
-  half.body = cropped(body.body, crop.low, crop.high);
-  half.depth = cropped(body.depth, crop.low, crop.high);
+  SkinStage skin = find_skin(cropped(wall.corrected, crop.low, crop.high),
+                             cropped(body.body, crop.low, crop.high), body.frame);
+  half.body = std::move(skin.surface.body);
+  half.depth = depth_below_surface(half.body);
+  half.skin_depth = std::move(skin.surface.depth);
+  half.skin = skin.slab;
   half.inside = half.body;
   auto behind = half.body.like<std::uint8_t>(0);
   tbb::parallel_for(0, half.body.size.z(), [&](int k) {
@@ -138,8 +143,6 @@ HalfBreast cut_half(const BodyStage& body, const WallStage& wall, Side side) {
       }
   });
   half.above_wall = distance_to(behind);
-  constexpr double skin_reach_mm = 5.5;
-  half.skin_depth = signed_depth(half.body, skin_reach_mm);
   half.widely_corrected = corrected_widely(cropped(body.image, crop.low, crop.high),
                                            wall.wide_log_bias, pure_interior(half));
   return half;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "segmentation/slab_fit.h"
 #include "segmentation/wall_stage.h"
 
 namespace mammotwin {
@@ -15,6 +16,7 @@ struct HalfBreast {
   Volume<std::uint8_t> inside;  ///< body in front of the chest wall
   Volume<float> depth;          ///< below the skin [mm]
   Volume<float> skin_depth;     ///< the same between the voxels, right up to 5.5 mm
+  SlabFit skin;                 ///< its thickness
   Volume<float> above_wall;     ///< distance to what lies behind the chest wall [mm]
 };
 

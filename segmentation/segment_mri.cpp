@@ -175,7 +175,7 @@ SegmentResult segment_image(const Mri& mri, const SegmentInput& input,
   const Volume<std::uint8_t> lesions =
       find_lesions(half, seeds, body.contrast.fat_suppressed, options, result.quality);
   progress(0.88, "telling skin, fat and fibroglandular tissue apart");
-  label_tissue(half, body.frame, lesions, body.contrast.fat_suppressed, options, result);
+  label_tissue(half, lesions, body.contrast.fat_suppressed, options, result);
   result.segmentation.region.side = side;
   result.segmentation.lesions = named_lesions(result.segmentation.labels, seeds);
   return result;

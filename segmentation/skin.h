@@ -2,26 +2,24 @@
 
 #include <cstdint>
 
+#include "segmentation/slab_fit.h"
 #include "segmentation/volume.h"
 
 namespace mammotwin {
 
-/// Thickness of the skin and the range that it may have [mm].
-struct SkinThickness {
-  double thickness = 0, low = 0, high = 0;
-  double misfit = 0;  ///< root mean square of the fit over the brightness of fat
-};
+/// Median brightness along the depth below the skin, over the voxels of `where`, from 3 mm outside
+/// to `innermost_mm`.
+SkinProfile skin_profile(const Volume<float>& image, const Volume<float>& depth,
+                         const Volume<std::uint8_t>& where, double innermost_mm);
 
-/// Thickest slab tried [mm]: fat must show below it in the 5.5 mm that are looked at.
-inline constexpr double thickest_measured_skin_mm = 5;
+/// The noise of air, which the outermost values show, taken off as it adds to a magnitude: by
+/// squares.
+SkinProfile without_noise(SkinProfile profile);
 
-/// Fits a blurred slab (air, skin, fat) to the median profile along the depth below the skin.
-///
-/// The image's own blur is not known: a Gaussian of 0.55 voxels is assumed, and the range is what
-/// 1.3 and 0.75 times that blur would give (study of segmentation, section 5: at the resolution
-/// of a breast MRI skin under 2 mm is read by its blur). `where`: voxels near the breast's skin
-/// that may be used, to at least 5.5 mm deep and 3 mm outside.
-SkinThickness measure_skin(const Volume<float>& image, const Volume<std::uint8_t>& body,
-                           const Volume<std::uint8_t>& where);
+/// The skin's thickness from that profile to 5.5 mm deep. `depth` as of `signed_depth`, its surface
+/// found between the voxels (`find_skin_surface`): the voxels of a mask blur and shift it. `where`:
+/// voxels near the breast's skin that may be used.
+SlabFit measure_skin(const Volume<float>& image, const Volume<float>& depth,
+                     const Volume<std::uint8_t>& where);
 
 }  // namespace mammotwin

@@ -6,7 +6,6 @@
 
 #include "segmentation/distance.h"
 #include "segmentation/fibroglandular.h"
-#include "segmentation/skin.h"
 #include "segmentation/smoothing.h"
 
 namespace mammotwin {
@@ -18,28 +17,10 @@ constexpr double skin_blur_mm = 1;    // beyond the skin, its blur would pass fo
 constexpr double wall_blur_mm = 1.5;  // in front of the wall, muscle's
 constexpr double usual_skin_mm = 1.5;
 
-/// Voxels in and around the breast's skin, where it hangs free.
-Volume<std::uint8_t> skin_layer(const HalfBreast& half, const BreastFrame& frame) {
-  constexpr double outside_mm = 4, before_sternum_mm = 5;
-  const Volume<float> to_body = distance_to(half.body);
-  auto where = half.body.like<std::uint8_t>(0);
-  for (int k = 0; k < where.size.z(); ++k)
-    for (int j = 0; j < where.size.y(); ++j)
-      for (int i = 0; i < where.size.x(); ++i) {
-        const Eigen::Vector3d x = where.position(i, j, k);
-        where(i, j, k) = x.y() < frame.sternal_y - before_sternum_mm && x.z() > frame.z_low &&
-                         x.z() < frame.z_high && to_body(i, j, k) < outside_mm;
-      }
-  return where;
-}
-
-double find_skin(const HalfBreast& half, const BreastFrame& frame, const SegmentOptions& options,
-                 SegmentQuality& quality) {
+double judge_skin(const SlabFit& skin, const SegmentOptions& options, SegmentQuality& quality) {
   if (options.skin_thickness_mm) return quality.skin_thickness_mm = *options.skin_thickness_mm;
-  const SkinThickness skin = measure_skin(half.image, half.body, skin_layer(half, frame));
   constexpr double largest_misfit = 0.15, thick_mm = 4;
-  if (!(skin.thickness > 0) || skin.misfit > largest_misfit ||
-      skin.thickness >= thickest_measured_skin_mm) {
+  if (!(skin.thickness > 0) || skin.misfit > largest_misfit) {
     quality.doubt(SegmentStatus::look,
                   "the skin's thickness could not be measured: 1.5 mm was "
                   "taken; set segmentation.skin_thickness_mm where known");
@@ -49,8 +30,12 @@ double find_skin(const HalfBreast& half, const BreastFrame& frame, const Segment
     quality.doubt(SegmentStatus::look,
                   "the skin measures more than 4 mm; expected 1 to 3 mm (is it swollen, or does "
                   "gland lie right under it?)");
-  quality.skin_thickness_low_mm = skin.low;
-  quality.skin_thickness_high_mm = skin.high;
+  if (!skin.over_fat)
+    quality.doubt(SegmentStatus::look,
+                  "gland lies under nearly all of the skin and may pass for it: the skin's thickness "
+                  "is not known; set segmentation.skin_thickness_mm where it is");
+  quality.skin_thickness_low_mm = skin.over_fat ? skin.low : thinnest_measured_skin_mm;
+  quality.skin_thickness_high_mm = skin.over_fat ? skin.high : thickest_measured_skin_mm;
   return quality.skin_thickness_mm = skin.thickness;
 }
 
@@ -83,10 +68,9 @@ void judge_suppression(const Volume<float>& image, const Volume<std::uint8_t>& i
 
 }  // namespace
 
-void label_tissue(const HalfBreast& half, const BreastFrame& frame,
-                  const Volume<std::uint8_t>& lesions, bool fat_suppressed,
+void label_tissue(const HalfBreast& half, const Volume<std::uint8_t>& lesions, bool fat_suppressed,
                   const SegmentOptions& options, SegmentResult& result) {
-  const double skin = find_skin(half, frame, options, result.quality);
+  const double skin = judge_skin(half.skin, options, result.quality);
   const Volume<float> to_lesion = distance_to(lesions);
   auto interior = half.inside, statistics = half.inside;
   for (std::size_t v = 0; v < interior.values.size(); ++v) {
