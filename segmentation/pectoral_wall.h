@@ -43,6 +43,7 @@ struct PectoralWall {
 struct WallContrast {
   double fat = 1;
   double muscle = 1.55;
+  double roughness = 0;  ///< standard deviation along 5 mm of muscle; 0: not known
 };
 
 /// Finds the front of the pectoral muscle in a bias-corrected image with fat at 1.

@@ -10,7 +10,7 @@ namespace mammotwin {
 namespace {
 
 constexpr float supported = -0.5F;
-constexpr int inside_from_mm = 2, inside_to_mm = 6;
+constexpr int inside_from_mm = 2, inside_to_mm = 6, rough_to_mm = 7;
 constexpr int outside_from_mm = 2, outside_to_mm = 5;
 constexpr int half_window = 15;  // rays: 30 mm, 22.5 degrees
 constexpr int stride = 2;        // of the rays looked at
@@ -22,6 +22,15 @@ double mean(const float* ray, int low, int high) {
   low = std::clamp(low, 0, PolarRays::depths - 1);
   high = std::clamp(high, low + 1, PolarRays::depths);
   return std::accumulate(ray + low, ray + high, 0.0) / (high - low);
+}
+
+double deviation(const float* ray, int low, int high) {
+  low = std::clamp(low, 0, PolarRays::depths - 1);
+  high = std::clamp(high, low + 1, PolarRays::depths);
+  const double middle = mean(ray, low, high);
+  double sum = 0;
+  for (int d = low; d < high; ++d) sum += (ray[d] - middle) * (ray[d] - middle);
+  return std::sqrt(sum / (high - low));
 }
 
 double median(std::vector<double>& values) {
@@ -45,12 +54,13 @@ std::vector<WallContrast> local_contrasts(const PolarRays& rays, const std::vect
   for (std::size_t n = 0; n < depth.size(); ++n) {
     const int at = static_cast<int>(std::lround(depth[n]));
     seen[n].muscle = mean(rays.ray(n), at - inside_to_mm, at - inside_from_mm);
+    seen[n].roughness = deviation(rays.ray(n), at - rough_to_mm, at - inside_from_mm);
     seen[n].fat = mean(rays.ray(n), at + outside_from_mm, at + outside_to_mm);
   }
   std::vector<WallContrast> contrasts(depth.size(), usual);
   tbb::parallel_for(0, rays.rows, [&](int row) {
     for (int angle = 0; angle < rays.angles; ++angle) {
-      std::vector<double> fat, muscle;
+      std::vector<double> fat, muscle, roughness;
       for (int r = std::max(0, row - half_window); r <= std::min(rays.rows - 1, row + half_window);
            r += stride)
         for (int a = std::max(0, angle - half_window);
@@ -58,10 +68,11 @@ std::vector<WallContrast> local_contrasts(const PolarRays& rays, const std::vect
           const std::size_t n = static_cast<std::size_t>(r) * rays.angles + a;
           if (cost[n] > supported) continue;
           fat.push_back(seen[n].fat), muscle.push_back(seen[n].muscle);
+          roughness.push_back(seen[n].roughness);
         }
       if (fat.size() < least_rays) continue;
       contrasts[static_cast<std::size_t>(row) * rays.angles + angle] =
-          within_reason({median(fat), median(muscle)}, usual);
+          within_reason({median(fat), median(muscle), median(roughness)}, usual);
     }
   });
   return contrasts;

@@ -6,9 +6,9 @@
 
 namespace mammotwin {
 
-/// Brightness of fat and muscle as measured on both sides of a first wall, of each ray: medians
-/// over 60 mm of height and 45 degrees, of the rays whose `cost` says that the image supports the
-/// wall there. Where fewer than a tenth do, `usual` stays.
+/// Brightness of fat and muscle and roughness of muscle as measured on both sides of a first wall,
+/// of each ray: medians over 60 mm of height and 45 degrees, of the rays whose `cost` says that the
+/// image supports the wall there. Where fewer than a tenth do, `usual` stays.
 ///
 /// One brightness for the whole image is too little: what is left of the bias goes on behind the
 /// wall, where the coil is far.

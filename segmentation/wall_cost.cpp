@@ -9,6 +9,7 @@ namespace mammotwin {
 namespace {
 
 constexpr int inside_mm = 7, outside_mm = 6, edge_mm = 2, blur_mm = 1, below_skin_mm = 4;
+constexpr int rough_from_mm = 2, rough_to_mm = 7;  // inside: clear of the edge's blur
 constexpr float forbidden = 10;
 
 /// Means over pieces of a ray in constant time.
@@ -36,18 +37,22 @@ class RunningSum {
 class WallCost {
  public:
   explicit WallCost(const WallContrast& contrast)
-      : log_fat_(std::log(contrast.fat)), log_muscle_(std::log(contrast.muscle)) {
+      : log_fat_(std::log(contrast.fat)),
+        log_muscle_(std::log(contrast.muscle)),
+        roughness_(contrast.roughness) {
     dark_ = 0.5 * std::min(contrast.fat, contrast.muscle);
   }
 
   void fill(const float* ray, int exit, float* cost) const {
-    std::vector<float> log_intensity, likelihood, dark;
+    std::vector<float> log_intensity, likelihood, dark, value(ray, ray + exit), square;
     for (int d = 0; d < exit; ++d) {
       log_intensity.push_back(std::log(ray[d]));
       likelihood.push_back(muscle_over_fat(log_intensity.back()));
+      square.push_back(ray[d] * ray[d]);
       dark.push_back(ray[d] < dark_ ? 1.0F : 0.0F);
     }
-    const RunningSum logs(log_intensity), muscle(likelihood), darks(dark);
+    const RunningSum logs(log_intensity), muscle(likelihood), darks(dark), values(value),
+        squares(square);
     const int last = exit - below_skin_mm;
     for (int d = 0; d < PolarRays::depths; ++d) {
       if (d < edge_mm + blur_mm || d > last) {
@@ -62,11 +67,22 @@ class WallCost {
       const double edge = std::clamp(-step / (log_muscle_ - log_fat_), -1.0, 1.0);
       const double dark_mm = darks.sum(d + 1, exit - below_skin_mm);
       const double dark_inside = darks.mean(d - inside_mm, d);
-      cost[d] = static_cast<float>(0.5 * region - 2 * edge + dark_mm / 10 + dark_inside);
+      cost[d] = static_cast<float>(0.5 * region - 2 * edge + dark_mm / 10 + dark_inside +
+                                   2 * roughness(values, squares, d));
     }
   }
 
  private:
+  /// How much rougher than muscle the inside is: 0 up to 1.5 times, 1 from 3 times on.
+  double roughness(const RunningSum& values, const RunningSum& squares, int d) const {
+    if (roughness_ <= 0) return 0;
+    constexpr double harmless = 1.5, full = 3;
+    const double mean = values.mean(d - rough_to_mm, d - rough_from_mm);
+    const double variance = squares.mean(d - rough_to_mm, d - rough_from_mm) - mean * mean;
+    const double ratio = std::sqrt(std::max(0.0, variance)) / roughness_;
+    return std::clamp((ratio - harmless) / (full - harmless), 0.0, 1.0);
+  }
+
   /// log p(muscle) - log p(fat), cut at +-3; both classes have the same spread. What is like
   /// neither (lung, vessels) says nothing: a hundredth of the peak is there for it.
   float muscle_over_fat(float log_intensity) const {
@@ -81,7 +97,7 @@ class WallCost {
   }
 
   static constexpr double strongest_ = 3;
-  double log_fat_, log_muscle_, dark_;
+  double log_fat_, log_muscle_, roughness_, dark_;
 };
 
 }  // namespace
