@@ -123,14 +123,17 @@ bool PectoralWall::is_behind(const Eigen::Vector3d& x_in_lps) const {
   return dx * dx + dy * dy < here * here;
 }
 
-std::vector<std::size_t> PectoralWall::rays_before(Side side, double z_low, double z_high) const {
+std::vector<std::size_t> PectoralWall::rays_before(Side side, double z_low, double z_high,
+                                                   double from_degrees) const {
   constexpr double front_degrees = 50;
   std::vector<std::size_t> rays;
   for (int row = 0; row < rows; ++row)
     for (int a = 0; a < angles; ++a) {
       const double angle = first_angle + a * angle_step, z = first_z + row * z_step;
       const double outward = side == Side::left ? angle : -angle;
-      if (outward < 0 || outward > front_degrees * degree || z < z_low || z > z_high) continue;
+      if (outward < from_degrees * degree || outward > front_degrees * degree || z < z_low ||
+          z > z_high)
+        continue;
       rays.push_back(static_cast<std::size_t>(row) * angles + a);
     }
   return rays;
@@ -146,7 +149,8 @@ double PectoralWall::doubt(Side side, double z_low, double z_high) const {
 }
 
 double PectoralWall::fat_behind(Side side, double z_low, double z_high, double muscle) const {
-  const std::vector<std::size_t> rays = rays_before(side, z_low, z_high);
+  constexpr double breastbone_degrees = 12;
+  const std::vector<std::size_t> rays = rays_before(side, z_low, z_high, breastbone_degrees);
   if (rays.empty()) return 1;
   constexpr float least = 0.02F;  // noise can leave nothing of a value
   const double middle = std::log(muscle) / 2;

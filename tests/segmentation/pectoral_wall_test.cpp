@@ -30,6 +30,13 @@ TEST(PectoralWall, FatBehindItIsCountedOnItsOwnSideOnly) {
   EXPECT_EQ(wall.doubt(Side::left, 0, 18), 0) << "the edges are good";
 }
 
+TEST(PectoralWall, BoneBehindTheThinMuscleOfTheBreastboneIsNoFault) {
+  PectoralWall wall = even_wall();
+  for (int n = 0; n < 600; ++n)
+    if (n % 60 >= 30 && n % 60 < 34) wall.behind[n] = 1.0F;  // 1.5 to 10.5 degrees
+  EXPECT_EQ(wall.fat_behind(Side::left, 0, 18, 1.5), 0);
+}
+
 TEST(PectoralWall, FatIsBrighterThanMuscleWithoutSuppression) {
   PectoralWall wall = even_wall();
   wall.behind.assign(600, 0.5F);  // the middle by logarithm is sqrt(0.4) = 0.63
