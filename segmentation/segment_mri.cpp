@@ -8,6 +8,7 @@
 #include "segmentation/enhancement.h"
 #include "segmentation/half_body.h"
 #include "segmentation/half_breast.h"
+#include "segmentation/judge_wall.h"
 #include "segmentation/landmarks.h"
 #include "segmentation/lesion_seed.h"
 #include "segmentation/lesion_stage.h"
@@ -34,27 +35,6 @@ void judge_position(const std::string& position, SegmentQuality& quality) {
     quality.doubt(SegmentStatus::look,
                   "the header says that the patient lay " + position +
                       ", not prone (HFP, FFP); the image must show breasts that hang forwards");
-}
-
-void judge_wall(const BodyStage& body, const WallStage& wall, Side side, SegmentQuality& quality) {
-  constexpr double largest_doubt = 0.12;  // study: at most where the wall was within 1.3 mm
-  quality.chest_wall_doubt = wall.wall.doubt(side, body.frame.z_low, body.frame.z_high);
-  if (*quality.chest_wall_doubt > largest_doubt)
-    quality.doubt(SegmentStatus::look,
-                  "the image does not support " +
-                      std::to_string(std::lround(100 * *quality.chest_wall_doubt)) +
-                      " % of the chest wall found; expected at most 12 %");
-  // 0.02 at most over 34 images simulated from nine label maps, whose walls lie within 2.5 mm in
-  // the mean; 0.10 and 0.11 where bright tissue on the muscle drew it 4 to 5 mm forward (Exam_10).
-  constexpr double most_fat = 0.05;
-  quality.chest_wall_fat_behind = wall.wall.fat_behind(side, body.frame.z_low, body.frame.z_high,
-                                                       wall.contrast.muscle);
-  if (*quality.chest_wall_fat_behind > most_fat)
-    quality.doubt(SegmentStatus::look,
-                  "behind " +
-                      std::to_string(std::lround(100 * *quality.chest_wall_fat_behind)) +
-                      " % of the chest wall found there is fat rather than muscle; expected at "
-                      "most 5 %: it may stand on gland or a lesion in front of the muscle");
 }
 
 /// Height over the skin between the breasts in the first and last slice, over the apex's.
@@ -174,6 +154,7 @@ SegmentResult segment_image(const Mri& mri, const SegmentInput& input,
   progress(0.80, "finding the lesions");
   const Volume<std::uint8_t> lesions =
       find_lesions(half, seeds, body.contrast.fat_suppressed, options, result.quality);
+  judge_lesions_on_wall(half, lesions, result.quality);
   progress(0.88, "telling skin, fat and fibroglandular tissue apart");
   label_tissue(half, lesions, body.contrast.fat_suppressed, options, result);
   result.segmentation.region.side = side;
