@@ -17,12 +17,10 @@ void judge_wall(const BodyStage& body, const WallStage& wall, Side side, Segment
   // 0.02 at most over 34 images simulated from nine label maps, whose walls lie within 2.5 mm in
   // the mean; 0.10 and 0.11 where bright tissue on the muscle drew it 4 to 5 mm forward (Exam_10).
   constexpr double most_fat = 0.05;
-  quality.chest_wall_fat_behind = wall.wall.fat_behind(side, body.frame.z_low, body.frame.z_high,
-                                                       wall.contrast.muscle);
+  quality.chest_wall_fat_behind = wall.wall.fat_behind(side, body.frame.z_low, body.frame.z_high);
   if (*quality.chest_wall_fat_behind > most_fat)
     quality.doubt(SegmentStatus::look,
-                  "behind " +
-                      std::to_string(std::lround(100 * *quality.chest_wall_fat_behind)) +
+                  "behind " + std::to_string(std::lround(100 * *quality.chest_wall_fat_behind)) +
                       " % of the chest wall found there is fat rather than muscle; expected at "
                       "most 5 %: it may stand on gland or a lesion in front of the muscle");
 }
@@ -37,9 +35,9 @@ void judge_lesions_on_wall(const HalfBreast& half, const Volume<std::uint8_t>& l
     if (lesions.values[v] && half.above_wall.values[v] < 1.5 * voxel_mm)
       area += voxel_mm * voxel_mm / cm2;
   if (area > most_cm2)
-    quality.doubt(SegmentStatus::look,
-                  "a lesion lies on the chest wall over " + std::to_string(std::lround(area)) +
-                      " cm2; the muscle's front cannot be told from it there");
+    quality.doubt(SegmentStatus::look, "a lesion lies on the chest wall over " +
+                                           std::to_string(std::lround(area)) +
+                                           " cm2; the muscle's front cannot be told from it there");
 }
 
 }  // namespace mammotwin

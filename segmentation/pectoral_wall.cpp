@@ -95,6 +95,7 @@ PectoralWall find_pectoral_wall(const Volume<float>& corrected, const Volume<std
   contrasts = local_contrasts(rays, found.depth, found.cost, contrast);
   found = search(rays, contrasts, stiffness);
   wall.cost = found.cost;
+  wall.contrast = contrasts;
   for (const double d : refined_depths(rays, found.depth, contrasts))
     wall.radius.push_back(PolarRays::least_radius_mm + d);
   wall.behind = brightness_behind(wall, corrected);
@@ -148,16 +149,16 @@ double PectoralWall::doubt(Side side, double z_low, double z_high) const {
   return weak / static_cast<double>(rays.size());
 }
 
-double PectoralWall::fat_behind(Side side, double z_low, double z_high, double muscle) const {
+double PectoralWall::fat_behind(Side side, double z_low, double z_high) const {
   constexpr double breastbone_degrees = 12;
   const std::vector<std::size_t> rays = rays_before(side, z_low, z_high, breastbone_degrees);
   if (rays.empty()) return 1;
   constexpr float least = 0.02F;  // noise can leave nothing of a value
-  const double middle = std::log(muscle) / 2;
   double fat = 0;
   for (const std::size_t n : rays) {
     const double value = std::log(std::max(behind[n], least));
-    fat += muscle > 1 ? value < middle : value > middle;
+    const double middle = (std::log(contrast[n].fat) + std::log(contrast[n].muscle)) / 2;
+    fat += contrast[n].muscle > contrast[n].fat ? value < middle : value > middle;
   }
   return fat / static_cast<double>(rays.size());
 }

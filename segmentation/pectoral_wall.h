@@ -9,6 +9,13 @@
 
 namespace mammotwin {
 
+/// Brightness of what lies on both sides of the wall.
+struct WallContrast {
+  double fat = 1;
+  double muscle = 1.55;
+  double roughness = 0;  ///< standard deviation along 5 mm of muscle; 0: not known
+};
+
 /// The front of the chest wall as a radius over angle and height, round a vertical axis behind the
 /// breastbone. Angle 0 points forward, positive to the patient's left.
 struct PectoralWall {
@@ -19,6 +26,7 @@ struct PectoralWall {
   std::vector<double> radius;  ///< [mm], angles fastest
   std::vector<float> cost;     ///< of the wall found there; below -0.5 the image supports it
   std::vector<float> behind;   ///< mean brightness 3 to 8 mm behind it, fat = 1
+  std::vector<WallContrast> contrast;  ///< around each ray
 
   /// Point of a ray (index into `radius`) at some radius [mm, LPS].
   Eigen::Vector3d position(std::size_t ray, double radius_mm) const;
@@ -30,22 +38,15 @@ struct PectoralWall {
   /// image does not support.
   double doubt(Side side, double z_low, double z_high) const;
 
-  /// Share of that part, away from the breastbone, behind which it is rather as bright as fat (1)
-  /// than as `muscle`, by the logarithm. Sees a wall on a wrong edge, whose cost is good. Over the
+  /// Share of that part, away from the breastbone, behind which it is rather as bright as fat
+  /// than as muscle, by the logarithm. Sees a wall on a wrong edge, whose cost is good. Over the
   /// breastbone (12 degrees) there are but 4 mm of muscle, and bone is as bright as fat.
-  double fat_behind(Side side, double z_low, double z_high, double muscle) const;
+  double fat_behind(Side side, double z_low, double z_high) const;
 
  private:
   /// Rays in front of one side, as indices into `radius`, from some angle off the midline on.
   std::vector<std::size_t> rays_before(Side side, double z_low, double z_high,
                                        double from_degrees = 0) const;
-};
-
-/// Brightness of what lies on both sides of the wall.
-struct WallContrast {
-  double fat = 1;
-  double muscle = 1.55;
-  double roughness = 0;  ///< standard deviation along 5 mm of muscle; 0: not known
 };
 
 /// Finds the front of the pectoral muscle in a bias-corrected image with fat at 1.
