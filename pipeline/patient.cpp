@@ -44,6 +44,8 @@ void Patient::declare_inputs(Settings& s) {
   s.path("mri.pre", pre_, "the image before contrast agent, where it lies apart");
   s.private_text("mri.pre_series", pre_series_,
                  "its series number or UID (with phase, \"NUMBER:PHASE\")");
+  s.choice("mri.fat_suppressed", fat_suppressed_, {{"yes", true}, {"no", false}},
+           "is the fat dark? default: decided from the image");
   s.path("labels.path", labels_, "label map made elsewhere, taken as the whole segmentation");
   for (const ForeignTissue tissue : kTissues)
     s.label_values(
@@ -202,6 +204,7 @@ SegmentInput Patient::segment_input() const {
   input.series = series_;
   if (pre_) input.pre = resolve(*pre_);
   input.pre_series = pre_series_;
+  input.fat_suppressed = fat_suppressed_;
   input.label_values = label_values();
   input.side = side_;
   for (const LesionEntry& entry : lesions_) input.lesions.push_back(seed_of(entry));

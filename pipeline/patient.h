@@ -86,6 +86,7 @@ class Patient {
   ScanOptions scan_options_;
   std::optional<Eigen::Vector3d> scan_up_;
   std::optional<std::string> series_, pre_series_;
+  std::optional<bool> fat_suppressed_;
   std::map<ForeignTissue, std::vector<int>> label_values_;
   std::optional<Eigen::Vector3d> nipple_lps_mm_;
   std::deque<LesionEntry> lesions_;  // settings point into it while a list is read

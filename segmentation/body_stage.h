@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "segmentation/breast_frame.h"
 #include "segmentation/contrast.h"
@@ -22,6 +23,7 @@ struct BodyStage {
 
 /// Finds them. Throws std::runtime_error, without the file's name, if the image holds no breast or
 /// only a part of one; doubts go to `quality`.
-BodyStage find_body(const Volume<float>& image, SegmentQuality& quality);
+BodyStage find_body(const Volume<float>& image, std::optional<bool> fat_suppressed,
+                    SegmentQuality& quality);
 
 }  // namespace mammotwin

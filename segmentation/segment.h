@@ -33,6 +33,7 @@ struct SegmentInput {
   /// The image before contrast agent: a file or folder of its own, or a series of `mri`'s folder.
   std::optional<std::filesystem::path> pre;
   std::optional<std::string> pre_series;
+  std::optional<bool> fat_suppressed;  ///< decided from the image where not given
   std::optional<std::filesystem::path> label_map;
   /// Empty: by the names of its segments where it is a .seg.nrrd, else those of tissue.h.
   LabelValues label_values;

@@ -132,7 +132,7 @@ SegmentResult segment_image(const Mri& mri, const SegmentInput& input,
   judge_position(mri.patient_position, result.quality);
 
   progress(0.10, "finding the outline");
-  BodyStage body = find_body(mri.image, result.quality);
+  BodyStage body = find_body(mri.image, input.fat_suppressed, result.quality);
   add_enhancement(input, body, result);
   if (!mri.geometry_known)
     throw std::runtime_error(

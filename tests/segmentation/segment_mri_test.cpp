@@ -127,6 +127,34 @@ TEST(SegmentOfAnMri, IsTheSameTwiceAndTellsItsProgress) {
   EXPECT_EQ(fractions.back(), 1);
 }
 
+TEST(SegmentOfAnMri, ContrastCanBeGiven) {
+  const ScratchFolder folder("given_contrast");
+  const Phantom phantom;  // suppressed
+  SegmentInput input = input_for(write_phantom(folder.path, phantom), phantom);
+  input.fat_suppressed = false;
+  EXPECT_EQ(segment(input, {}).quality.contrast, "not fat-suppressed");
+}
+
+/// Blurred over a voxel, half a voxel of skin at 0.45 hardly shows beside fat.
+TEST(SegmentOfAnMri, ContrastIsDoubtedWhereSkinHardlyShows) {
+  const ScratchFolder folder("thin_skin");
+  Phantom phantom;
+  phantom.fat_suppressed = false;
+  phantom.skin_mm = 0.8;
+  SegmentInput input = input_for(write_phantom(folder.path, phantom), phantom);
+  const auto mentions = [](const SegmentResult& result) {
+    const auto& reasons = result.quality.reasons;
+    return std::any_of(reasons.begin(), reasons.end(), [](const std::string& reason) {
+      return reason.find("mri.fat_suppressed") != std::string::npos;
+    });
+  };
+  const SegmentResult doubted = segment(input, {});
+  EXPECT_TRUE(mentions(doubted));
+  EXPECT_EQ(doubted.quality.status, SegmentStatus::look);
+  input.fat_suppressed = false;
+  EXPECT_FALSE(mentions(segment(input, {})));
+}
+
 /// Not suppressed, after contrast agent: the lesion is as bright as fat, and is seen only against
 /// the image before.
 TEST(SegmentOfAnMri, ImageBeforeContrastAgentShowsTheLesion) {
