@@ -1,6 +1,7 @@
 #include "fitting/fit_breast.h"
 
 #include "fitting/fit_course.h"
+#include "fitting/fit_limits.h"
 #include "fitting/fit_quality.h"
 #include "fitting/mesh/jacobian_bound.h"
 #include "fitting/skin_to_fit.h"
@@ -18,7 +19,6 @@ namespace mammotwin {
 namespace {
 
 constexpr int smallest_breast_voxels = 20000;  // 20 ml at 1 mm
-constexpr double good_skin_rms_mm = 1;
 // Columns along x and z that are tried in turn for an accuracy.
 constexpr std::array<int, 7> column_counts = {4, 5, 6, 7, 8, 10, 12};
 // 20 breasts of up to 12.7 cm² a column are within 0.7 mm (95 %) with 7 x 7; one of 14.5 was not.
@@ -71,11 +71,11 @@ void judge(FitReport& r) {
   const auto look = [&](bool bad, const std::string& reason) {
     if (bad) r.reasons.push_back(reason);
   };
-  look(std::max(r.skin_rms_mesh_to_data_mm, r.skin_rms_data_to_mesh_mm) > good_skin_rms_mm,
+  look(std::max(r.skin_rms_mesh_to_data_mm, r.skin_rms_data_to_mesh_mm) > limits::skin_rms_mm,
        "The mesh's skin is more than 1 mm (RMS) off the labels'.");
-  look(r.covered_fraction < 0.97, "Less than 97 % of the breast's voxels lie in the mesh.");
-  look(r.covered_lesions < 0.99, "Part of a lesion lies outside the mesh.");
-  look(r.chest_wall_rms_mm > 2, "The mesh's chest wall is more than 2 mm (RMS) off the muscle.");
+  look(r.covered_fraction < limits::covered_breast, "Less than 97 % of the breast's voxels lie in the mesh.");
+  look(r.covered_lesions < limits::covered_lesions, "Part of a lesion lies outside the mesh.");
+  look(r.chest_wall_rms_mm > limits::chest_wall_rms_mm, "The mesh's chest wall is more than 2 mm (RMS) off the muscle.");
   r.status = r.reasons.empty() ? "ok" : "look";
 }
 
@@ -153,7 +153,7 @@ class BreastFit {
     if (!r.usable()) return std::numeric_limits<double>::infinity();
     return std::max(r.skin_rms_mesh_to_data_mm, r.skin_rms_data_to_mesh_mm);
   }
-  static bool good(const FitReport& r) { return error(r) < good_skin_rms_mm; }
+  static bool good(const FitReport& r) { return error(r) < limits::skin_rms_mm; }
 
   FitResult once(const Eigen::Vector3i& elements, const SkinToFit& skin) const {
     tell(0.1, "flattening the skin");

@@ -2,23 +2,19 @@
 
 #include <cmath>
 
+#include "segmentation/segment_limits.h"
+
 namespace mammotwin {
 
 void judge_wall(const BodyStage& body, const WallStage& wall, Side side, SegmentQuality& quality) {
-  // 0.112 to 0.155 on the three images simulated from label maps whose walls are 3 mm and more off
-  // in the mean (Exam_10), 0.096 at most on 36 others but one (Exam_02 left, 0.119, lesion on it).
-  constexpr double largest_doubt = 0.10;
   quality.chest_wall_doubt = wall.wall.doubt(side, body.frame.z_low, body.frame.z_high);
-  if (*quality.chest_wall_doubt > largest_doubt)
+  if (*quality.chest_wall_doubt > limits::chest_wall_doubt)
     quality.doubt(SegmentStatus::look,
                   "the image does not support " +
                       std::to_string(std::lround(100 * *quality.chest_wall_doubt)) +
                       " % of the chest wall found; expected at most 10 %");
-  // 0.02 at most over 34 images simulated from nine label maps, whose walls lie within 2.5 mm in
-  // the mean; 0.10 and 0.11 where bright tissue on the muscle drew it 4 to 5 mm forward (Exam_10).
-  constexpr double most_fat = 0.05;
   quality.chest_wall_fat_behind = wall.wall.fat_behind(side, body.frame.z_low, body.frame.z_high);
-  if (*quality.chest_wall_fat_behind > most_fat)
+  if (*quality.chest_wall_fat_behind > limits::chest_wall_fat_behind)
     quality.doubt(SegmentStatus::look,
                   "behind " + std::to_string(std::lround(100 * *quality.chest_wall_fat_behind)) +
                       " % of the chest wall found there is fat rather than muscle; expected at "

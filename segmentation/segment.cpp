@@ -11,6 +11,7 @@
 #include "segmentation/nipple.h"
 #include "segmentation/read_image.h"
 #include "segmentation/segment_labels.h"
+#include "segmentation/segment_limits.h"
 #include "segmentation/segment_mri.h"
 
 namespace mammotwin {
@@ -120,8 +121,8 @@ void hand_on_mri(const SegmentInput& input, SegmentResult& result) {
 }
 
 void judge_volumes(SegmentQuality& q) {
-  constexpr double least_ml = 30, most_ml = 4000;  // beyond what breasts measure
-  if (q.breast_volume_ml < least_ml || q.breast_volume_ml > most_ml)
+  if (q.breast_volume_ml < limits::least_breast_ml ||
+      q.breast_volume_ml > limits::most_breast_ml)
     q.doubt(SegmentStatus::look, "the breast's volume is " +
                                      std::to_string(static_cast<int>(q.breast_volume_ml)) +
                                      " ml; expected 30 to 4000 ml (are the units mm?)");

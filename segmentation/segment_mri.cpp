@@ -13,6 +13,7 @@
 #include "segmentation/lesion_seed.h"
 #include "segmentation/lesion_stage.h"
 #include "segmentation/read_image.h"
+#include "segmentation/segment_limits.h"
 #include "segmentation/tissue_stage.h"
 
 namespace mammotwin {
@@ -58,8 +59,7 @@ void judge_end_slices(const BodyStage& body, Side side, SegmentQuality& quality)
 }
 
 void judge_noise(SegmentQuality& quality) {
-  constexpr double least = 8;  // noise of an eighth of fat: classes overlap
-  if (*quality.signal_to_noise < least)
+  if (*quality.signal_to_noise < limits::signal_to_noise)
     quality.doubt(SegmentStatus::look, "the image is noisy: fat is only " +
                                            std::to_string(std::lround(*quality.signal_to_noise)) +
                                            " times as bright as the noise; expected at least 8");
@@ -67,7 +67,6 @@ void judge_noise(SegmentQuality& quality) {
 
 /// Tissue in front of the wall and of the skin between the breasts, smaller over larger side.
 void judge_symmetry(const BodyStage& body, const WallStage& wall, SegmentQuality& quality) {
-  constexpr double least_ratio = 0.4;
   double left = 0, right = 0;
   for (int k = 0; k < body.body.size.z(); ++k)
     for (int j = 0; j < body.body.size.y(); ++j)
@@ -78,7 +77,7 @@ void judge_symmetry(const BodyStage& body, const WallStage& wall, SegmentQuality
         (x.x() > body.frame.midline_x ? left : right) += 1;
       }
   quality.volume_ratio = std::min(left, right) / std::max({left, right, 1.0});
-  if (*quality.volume_ratio < least_ratio)
+  if (*quality.volume_ratio < limits::volume_ratio)
     quality.doubt(SegmentStatus::look, "the two breasts differ in volume by more than 2.5 times");
 }
 

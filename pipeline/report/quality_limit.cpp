@@ -1,7 +1,9 @@
 #include "pipeline/report/quality_limit.h"
 
+#include "fitting/fit_limits.h"
 #include "pipeline/quality_limits.h"
 #include "pipeline/report/word.h"
+#include "segmentation/segment_limits.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,18 +19,17 @@ struct Limit {
   const char* unit;
 };
 
-// Those of segment and fit repeat segmentation/segment_mri.cpp, segment.cpp and fitting/fit_breast.cpp.
 constexpr Limit kLimits[] = {
-    {"segmentation.seg.nrrd", "breast_volume_ml", 30, 4000, " ml"},
-    {"segmentation.seg.nrrd", "chest_wall_doubt", -kNone, 0.12, ""},
-    {"segmentation.seg.nrrd", "chest_wall_fat_behind", -kNone, 0.05, ""},
-    {"segmentation.seg.nrrd", "signal_to_noise", 8, kNone, ""},
-    {"segmentation.seg.nrrd", "volume_ratio", 0.4, kNone, ""},
-    {"prone.vtu", "skin_rms_mesh_to_data_mm", -kNone, 1, " mm"},
-    {"prone.vtu", "skin_rms_data_to_mesh_mm", -kNone, 1, " mm"},
-    {"prone.vtu", "chest_wall_rms_mm", -kNone, 2, " mm"},
-    {"prone.vtu", "covered_fraction", 0.97, kNone, ""},
-    {"prone.vtu", "covered_lesions", 0.99, kNone, ""},
+    {"segmentation.seg.nrrd", "breast_volume_ml", limits::least_breast_ml, limits::most_breast_ml, " ml"},
+    {"segmentation.seg.nrrd", "chest_wall_doubt", -kNone, limits::chest_wall_doubt, ""},
+    {"segmentation.seg.nrrd", "chest_wall_fat_behind", -kNone, limits::chest_wall_fat_behind, ""},
+    {"segmentation.seg.nrrd", "signal_to_noise", limits::signal_to_noise, kNone, ""},
+    {"segmentation.seg.nrrd", "volume_ratio", limits::volume_ratio, kNone, ""},
+    {"prone.vtu", "skin_rms_mesh_to_data_mm", -kNone, limits::skin_rms_mm, " mm"},
+    {"prone.vtu", "skin_rms_data_to_mesh_mm", -kNone, limits::skin_rms_mm, " mm"},
+    {"prone.vtu", "chest_wall_rms_mm", -kNone, limits::chest_wall_rms_mm, " mm"},
+    {"prone.vtu", "covered_fraction", limits::covered_breast, kNone, ""},
+    {"prone.vtu", "covered_lesions", limits::covered_lesions, kNone, ""},
     {"prone.vtu", "min_jacobian_bound", 0, kNone, ""},
     {"unloaded.vtu", "stretch_p95", -kNone, limits::stretch_p95, ""},
 };
