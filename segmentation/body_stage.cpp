@@ -100,8 +100,8 @@ double clipped_in_front(const Volume<std::uint8_t>& body) {
 Contrast decided_contrast(const BodyStage& stage, std::optional<bool> given,
                           SegmentQuality& quality) {
   // Thin skin reads near 1: skin of 1 mm in voxels of 1.2 mm 0.90 without suppression and 0.95
-  // after contrast agent, which is wrong.
-  constexpr double clearly_darker = 0.86, clearly_brighter = 1.0;
+  // after contrast agent.
+  constexpr double clearly_darker = 0.86, clearly_brighter = 1.05;
   Contrast contrast = find_contrast(stage.image, stage.depth, stage.frame);
   if (given) {
     contrast.fat_suppressed = *given;
