@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "segmentation/smoothing.h"
 
@@ -16,6 +17,12 @@ bool holds(const Volume<std::uint8_t>& body, const Eigen::Vector3d& x) {
 }
 
 }  // namespace
+
+double mean_along(const float* ray, int low, int high) {
+  low = std::clamp(low, 0, PolarRays::depths - 1);
+  high = std::clamp(high, low + 1, PolarRays::depths);
+  return std::accumulate(ray + low, ray + high, 0.0) / (high - low);
+}
 
 PolarRays cast_rays(const Volume<float>& image, const Volume<std::uint8_t>& body,
                     const PectoralWall& grid) {

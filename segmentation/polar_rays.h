@@ -22,6 +22,9 @@ struct PolarRays {
   const float* ray(std::size_t n) const { return &intensity[n * depths]; }
 };
 
+/// Mean of the samples low to high - 1 of a ray; of the nearest one where there are none.
+double mean_along(const float* ray, int low, int high);
+
 PolarRays cast_rays(const Volume<float>& image, const Volume<std::uint8_t>& body,
                     const PectoralWall& grid);
 

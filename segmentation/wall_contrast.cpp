@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace mammotwin {
 namespace {
@@ -18,16 +17,10 @@ constexpr std::size_t least_rays = 25;
 // Muscle over fat, as far as the study saw it (1.4 to 2.0, 0.4) and a little more.
 constexpr double least_bright = 1.2, most_bright = 2.2, least_dark = 0.2, most_dark = 0.7;
 
-double mean(const float* ray, int low, int high) {
-  low = std::clamp(low, 0, PolarRays::depths - 1);
-  high = std::clamp(high, low + 1, PolarRays::depths);
-  return std::accumulate(ray + low, ray + high, 0.0) / (high - low);
-}
-
 double deviation(const float* ray, int low, int high) {
   low = std::clamp(low, 0, PolarRays::depths - 1);
   high = std::clamp(high, low + 1, PolarRays::depths);
-  const double middle = mean(ray, low, high);
+  const double middle = mean_along(ray, low, high);
   double sum = 0;
   for (int d = low; d < high; ++d) sum += (ray[d] - middle) * (ray[d] - middle);
   return std::sqrt(sum / (high - low));
@@ -53,9 +46,9 @@ std::vector<WallContrast> local_contrasts(const PolarRays& rays, const std::vect
   std::vector<WallContrast> seen(depth.size());
   for (std::size_t n = 0; n < depth.size(); ++n) {
     const int at = static_cast<int>(std::lround(depth[n]));
-    seen[n].muscle = mean(rays.ray(n), at - inside_to_mm, at - inside_from_mm);
+    seen[n].muscle = mean_along(rays.ray(n), at - inside_to_mm, at - inside_from_mm);
     seen[n].roughness = deviation(rays.ray(n), at - rough_to_mm, at - inside_from_mm);
-    seen[n].fat = mean(rays.ray(n), at + outside_from_mm, at + outside_to_mm);
+    seen[n].fat = mean_along(rays.ray(n), at + outside_from_mm, at + outside_to_mm);
   }
   std::vector<WallContrast> contrasts(depth.size(), usual);
   tbb::parallel_for(0, rays.rows, [&](int row) {

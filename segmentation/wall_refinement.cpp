@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 namespace mammotwin {
 namespace {
@@ -16,18 +15,12 @@ constexpr double least_step = 0.3;  // of that from fat to muscle
 constexpr int half_window = 2;      // rays
 constexpr double least_share = 0.25;
 
-double mean(const float* ray, int low, int high) {
-  low = std::clamp(low, 0, PolarRays::depths - 1),
-  high = std::clamp(high, low + 1, PolarRays::depths);
-  return std::accumulate(ray + low, ray + high, 0.0) / (high - low);
-}
-
 /// From the wall to the nearest crossing of the middle; NaN where there is none to be trusted.
 double shift_of(const float* ray, int exit, double depth, const WallContrast& contrast) {
   const int at = static_cast<int>(std::lround(depth));
   const double step = contrast.muscle - contrast.fat;
-  const double inside = mean(ray, at - inside_to_mm, at - inside_from_mm);
-  const double outside = mean(ray, at + outside_from_mm, at + outside_to_mm);
+  const double inside = mean_along(ray, at - inside_to_mm, at - inside_from_mm);
+  const double outside = mean_along(ray, at + outside_from_mm, at + outside_to_mm);
   if ((inside - outside) / step < least_step) return none;
   const double middle = (inside + outside) / 2;
   double best = none;
