@@ -102,8 +102,11 @@ void continue_flanks(Mask& body, const WallFront& front, int last) {
       if (!body(i, j, k)) continue;
       for (++j; j < body.size.y(); ++j) body(i, j, k) = code(Substance::fat);
     }
-  auto air = body.like<std::uint8_t>(0);
-  for (std::size_t v = 0; v < air.values.size(); ++v) air.values[v] = body.values[v] == 0;
+  auto air = body.like<std::uint8_t>(0);  // what lies behind the front is yet to be filled
+  for (int k = 0; k < body.size.z(); ++k)
+    for (int j = 0; j < body.size.y(); ++j)
+      for (int i = 0; i < body.size.x(); ++i)
+        air(i, j, k) = body(i, j, k) == 0 && j < front.at(i, k);
   const Volume<float> depth = distance_to(air);
   for (int k = 0; k < body.size.z(); ++k)
     for (int j = last + 1; j < body.size.y(); ++j)

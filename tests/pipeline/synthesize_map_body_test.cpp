@@ -1,6 +1,6 @@
-#include "pipeline/synthesize/map_body.h"
-
 #include <gtest/gtest.h>
+
+#include "pipeline/synthesize/map_body.h"
 
 namespace mammotwin {
 namespace {
@@ -42,6 +42,7 @@ TEST(MapBody, ContinuesTheFlankWithFatAndSkin) {
   const MapBody body = body_of_map(slab(), values, 7);
   EXPECT_EQ(body.substance(45, 50, 20), code(Substance::fat));
   EXPECT_EQ(body.substance(49, 50, 20), code(Substance::fat)) << "the image's edge is no skin";
+  EXPECT_EQ(body.substance(40, 50, 20), code(Substance::fat)) << "nor is what meets the thorax";
   EXPECT_EQ(body.last_y, 48);
   EXPECT_EQ(body.substance.origin.x(), -49) << "the tissue's middle is x = 0";
 }
