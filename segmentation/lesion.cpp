@@ -16,9 +16,12 @@ namespace {
 using Mask = Volume<std::uint8_t>;
 
 constexpr double find_within_mm = 6;  // of the point: it may be that far off
-constexpr double smoothing_mm = 0.7;
+constexpr double smoothing_mm = 0.4;
 constexpr double opening_share = 0.5;  // of the inscribed radius
+constexpr double most_opening_mm = 3;  // vessels are thinner, the lobes of a large lesion are not
+constexpr double rim_share = 0.4;
 constexpr double shell_from_mm = 2, shell_to_mm = 6;
+constexpr double usual_reach_mm = 30, most_cut_mm2 = 100;
 constexpr int most_rounds = 12;
 constexpr double least_ml = 0.03;
 constexpr double fallback_mm = 5;
@@ -97,7 +100,7 @@ class HalfMaximum {
       region = next;
       measure(region, lesion);
     }
-    return region;
+    return with_rim(region, lesion);
   }
 
  private:
@@ -110,14 +113,14 @@ class HalfMaximum {
     // The inscribed ball nearest to the core: a large neighbour must not draw the lesion away.
     const Volume<float> depth = inner_distance(above);
     lesion.inscribed_mm = deepest_near_core(depth);
-    const Mask inner = where(above, [&](const auto&, std::size_t v) {
-      return depth.values[v] > opening_share * lesion.inscribed_mm;
-    });
+    const double opening_mm = opening_of(lesion);
+    const Mask inner =
+        where(above, [&](const auto&, std::size_t v) { return depth.values[v] > opening_mm; });
     const Mask kept = component_at(inner, core_);
     if (count(kept) == 0) return kept;
     const Volume<float> to_kept = distance_to(kept);
     return where(above, [&](const auto&, std::size_t v) {
-      return above.values[v] && to_kept.values[v] <= opening_share * lesion.inscribed_mm;
+      return above.values[v] && to_kept.values[v] <= opening_mm;
     });
   }
 
@@ -136,10 +139,27 @@ class HalfMaximum {
     return depth.values[core_];
   }
 
+  /// With the voxels beside it that hold a good part of it: blur takes them under half of the
+  /// maximum where the lesion is small or its surface rough.
+  Mask with_rim(const Mask& region, const FoundLesion& lesion) const {
+    const Volume<float> away = distance_to(region);
+    const double threshold =
+        lesion.background + rim_share * (lesion.brightness - lesion.background);
+    const double beside_mm = 1.01 * region.spacing.maxCoeff();
+    return where(region, [&](const auto&, std::size_t v) {
+      return region.values[v] ||
+             (allowed_.values[v] && away.values[v] <= beside_mm && image_.values[v] > threshold);
+    });
+  }
+
+  static double opening_of(const FoundLesion& lesion) {
+    return std::min(opening_share * lesion.inscribed_mm, most_opening_mm);
+  }
+
   void measure(const Mask& region, FoundLesion& lesion) const {
     const Volume<float> depth = inner_distance(region), away = distance_to(region);
     lesion.brightness = median_where(image_, where(region, [&](const auto&, std::size_t v) {
-                                       return depth.values[v] > opening_share * lesion.inscribed_mm;
+                                       return depth.values[v] > opening_of(lesion);
                                      }));
     const Mask shell = where(region, [&](const auto&, std::size_t v) {
       return allowed_.values[v] && away.values[v] > shell_from_mm && away.values[v] < shell_to_mm;
@@ -185,9 +205,16 @@ double compactness(const FoundLesion& lesion, double ml) {
   return 4.0 / 3 * std::numbers::pi * r * r * r / 1000 / ml;
 }
 
-}  // namespace
+/// Does the lesion end at the search's ball rather than at an edge?
+bool is_cut_by(double reach, const Eigen::Vector3d& point, const Mask& lesion) {
+  const double voxel = std::cbrt(lesion.voxel_volume());
+  const Mask last = where(lesion, [&](const Eigen::Vector3d& x, std::size_t v) {
+    return lesion.values[v] && (x - point).norm() > reach - voxel;
+  });
+  return count(last) * voxel * voxel > most_cut_mm2;
+}
 
-FoundLesion find_lesion(const Volume<float>& image, const Volume<std::uint8_t>& allowed,
+FoundLesion find_within(const Volume<float>& image, const Volume<std::uint8_t>& allowed,
                         const Eigen::Vector3d& point_in_lps, const LesionSearch& search) {
   FoundLesion lesion;
   const double margin = search.reach_mm + shell_to_mm + 4;
@@ -212,6 +239,7 @@ FoundLesion find_lesion(const Volume<float>& image, const Volume<std::uint8_t>& 
       return may.values[v] && (x - point_in_lps).norm() <= fallback_mm;
     });
   } else {
+    lesion.is_cut = is_cut_by(search.reach_mm, point_in_lps, lesion.mask);
     const Mask walked = walk(part, may, lesion.mask, lesion);
     lesion.agreement = dice(lesion.mask, walked);
     if (search.random_walker && count(walked) > 0) lesion.mask = walked;
@@ -220,6 +248,18 @@ FoundLesion find_lesion(const Volume<float>& image, const Volume<std::uint8_t>& 
     lesion.brightness = top - lesion.brightness;
     lesion.background = top - lesion.background;
   }
+  return lesion;
+}
+
+}  // namespace
+
+FoundLesion find_lesion(const Volume<float>& image, const Volume<std::uint8_t>& allowed,
+                        const Eigen::Vector3d& point_in_lps, const LesionSearch& search) {
+  LesionSearch usual = search;
+  usual.reach_mm = std::min(search.reach_mm, usual_reach_mm);
+  FoundLesion lesion = find_within(image, allowed, point_in_lps, usual);
+  if (lesion.is_cut && search.reach_mm > usual.reach_mm)
+    lesion = find_within(image, allowed, point_in_lps, search);
   return lesion;
 }
 

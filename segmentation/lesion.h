@@ -17,20 +17,22 @@ struct FoundLesion {
   double inscribed_mm = 0;                        ///< radius of the largest ball inside
   double agreement = 0;                           ///< Dice of half maximum and random walker
   bool is_sphere = false;                         ///< nothing stood out: a ball of 5 mm was taken
+  bool is_cut = false;                            ///< it goes on where the search ends
 
   double contrast() const { return background > 0 ? brightness / background : 0; }
 };
 
 struct LesionSearch {
-  double reach_mm = 30;        ///< from the point
+  double reach_mm = 50;        ///< from the point; looked for within 30 mm first
   bool brighter = true;        ///< than what surrounds it
   bool random_walker = false;  ///< take the walker's answer instead of half maximum's
 };
 
 /// Stops at the lesion's edge. Half maximum, iterated: threshold midway between the inner part and
 /// the surroundings, the part that holds the brightest place within 6 mm of the point, opened by
-/// half of its inscribed radius so that vessels and ducts fall off. A random walker from the same
-/// core is the second opinion (random_walker.h).
+/// half of its inscribed radius, 3 mm at most, so that vessels and ducts fall off; last the voxels
+/// beside it above two fifths. A random walker from the same core is the second opinion
+/// (random_walker.h).
 FoundLesion find_lesion(const Volume<float>& image, const Volume<std::uint8_t>& allowed,
                         const Eigen::Vector3d& point_in_lps, const LesionSearch& search);
 

@@ -50,6 +50,16 @@ std::size_t paint_given(const PlacedSeed& seed, std::uint8_t value, const HalfBr
   return painted;
 }
 
+/// What contrast agent adds, bias corrected. A voxel's part of it is the lesion's part in the
+/// voxel, which is not so of the ratio to the image before: fat is twice as bright there as a
+/// lesion.
+Volume<float> subtraction(const HalfBreast& half) {
+  Volume<float> added = half.image;
+  for (std::size_t v = 0; v < added.values.size(); ++v)
+    added.values[v] *= half.enhancement.values[v] / (1 + half.enhancement.values[v]);
+  return added;
+}
+
 void judge(const FoundLesion& found, const PlacedSeed& seed, bool brighter,
            SegmentQuality& quality) {
   quality.lesion_agreement.push_back(found.agreement);
@@ -70,6 +80,10 @@ void judge(const FoundLesion& found, const PlacedSeed& seed, bool brighter,
     quality.doubt(SegmentStatus::look, "lesion " + seed.id +
                                            " is less than 1.3 times as bright as "
                                            "its surroundings: its edge is uncertain");
+  if (found.is_cut)
+    quality.doubt(SegmentStatus::look, "lesion " + seed.id +
+                                           " goes on where the search for it ends: raise "
+                                           "segment.lesion_reach_mm, or give a label map");
   if (found.agreement < least_agreement)
     quality.doubt(SegmentStatus::look,
                   "two methods disagree on the extent of lesion " + seed.id + " (Dice under 0.5)");
@@ -88,6 +102,7 @@ Volume<std::uint8_t> find_lesions(const HalfBreast& half, const std::vector<Plac
                                   SegmentQuality& quality) {
   const bool by_enhancement = !half.enhancement.values.empty();
   const bool brighter = fat_suppressed || by_enhancement;
+  const Volume<float> uptake = by_enhancement ? subtraction(half) : Volume<float>();
   auto lesions = half.body.like<std::uint8_t>(0);
   constexpr double below_skin_mm = 2.5;  // skin is as bright as a lesion
   auto allowed = half.inside;
@@ -108,8 +123,8 @@ Volume<std::uint8_t> find_lesions(const HalfBreast& half, const std::vector<Plac
     search.reach_mm = options.lesion_reach_mm;
     search.brighter = brighter;
     search.random_walker = options.lesion_method == LesionMethod::random_walker;
-    const FoundLesion found = find_lesion(by_enhancement ? half.enhancement : half.image, allowed,
-                                          seed.point_in_lps, search);
+    const FoundLesion found =
+        find_lesion(by_enhancement ? uptake : half.image, allowed, seed.point_in_lps, search);
     judge(found, seed, brighter, quality);
     for (int k = 0; k < found.mask.size.z(); ++k)
       for (int j = 0; j < found.mask.size.y(); ++j)

@@ -53,7 +53,7 @@ struct SegmentOptions {
   std::optional<double> skin_thickness_mm;
   LesionMethod lesion_method = LesionMethod::mix;
   /// A lesion reaches at most this far from its point [mm], 5 to 60.
-  double lesion_reach_mm = 30;
+  double lesion_reach_mm = 50;
   /// Stiffness of the chest wall's search, 0.01 to 1: cost of a jump between rays [per mm^2].
   double wall_stiffness = 0.08;
 };

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <random>
 
 #include "segmentation/random_walker.h"
@@ -72,6 +74,57 @@ TEST(Lesion, DarkOneInFatIsFound) {
   const FoundLesion found = find_lesion(scene.image, scene.allowed, scene.centre, search);
   EXPECT_GT(scene.dice(found), 0.9);
   EXPECT_NEAR(found.brightness, 0.42, 0.05);
+}
+
+/// A lesion of 3.2 in fat, where `holds` a point [mm].
+template <class Holds>
+Volume<float> lesion_in_fat(const Holds& holds, Volume<std::uint8_t>& truth) {
+  Volume<float> image({110, 80, 80}, Eigen::Vector3d::Ones(), {-40, -40, -40}, 1);
+  truth = image.like<std::uint8_t>(0);
+  for (int k = 0; k < 80; ++k)
+    for (int j = 0; j < 80; ++j)
+      for (int i = 0; i < 110; ++i)
+        if (holds(image.position(i, j, k))) truth(i, j, k) = 1, image(i, j, k) = 3.2F;
+  return image;
+}
+
+double volume_ratio(const FoundLesion& found, const Volume<std::uint8_t>& truth) {
+  const auto count = [](const Volume<std::uint8_t>& mask) {
+    return static_cast<double>(std::count(mask.values.begin(), mask.values.end(), 1));
+  };
+  return count(found.mask) / count(truth);
+}
+
+TEST(Lesion, LobesOfALargeOneStay) {
+  // A ball of 14 mm, whose half would open lobes away, with a lobe of 5 mm radius.
+  Volume<std::uint8_t> truth;
+  const Volume<float> image = lesion_in_fat(
+      [](const Eigen::Vector3d& x) {
+        return x.norm() < 14 || (x.x() > 0 && x.x() < 28 && std::hypot(x.y(), x.z()) < 5);
+      },
+      truth);
+  const FoundLesion found = find_lesion(image, image.like<std::uint8_t>(1), {1, 2, -1}, {});
+  EXPECT_NEAR(volume_ratio(found, truth), 1, 0.05);
+}
+
+TEST(Lesion, LongerThanTheUsualSearchIsFollowed) {
+  // From the point it goes on for 42 mm.
+  Volume<std::uint8_t> truth;
+  const Volume<float> image = lesion_in_fat(
+      [](const Eigen::Vector3d& x) {
+        return (x - Eigen::Vector3d(20, 0, 0)).cwiseQuotient(Eigen::Vector3d(32, 12, 12)).norm() <
+               1;
+      },
+      truth);
+  const auto allowed = image.like<std::uint8_t>(1);
+  LesionSearch search;
+  const FoundLesion whole = find_lesion(image, allowed, {10, 0, 0}, search);
+  EXPECT_FALSE(whole.is_cut);
+  EXPECT_NEAR(volume_ratio(whole, truth), 1, 0.05);
+  search.reach_mm = 25;
+  const FoundLesion part = find_lesion(image, allowed, {10, 0, 0}, search);
+  EXPECT_TRUE(part.is_cut);
+  EXPECT_LT(volume_ratio(part, truth), 0.9);
 }
 
 TEST(Lesion, WhereNothingStandsOutABallIsTaken) {
