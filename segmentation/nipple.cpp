@@ -7,6 +7,7 @@
 #include "segmentation/components.h"
 #include "segmentation/distance.h"
 #include "segmentation/half_body.h"
+#include "segmentation/label_values.h"
 #include "segmentation/landmarks.h"
 
 namespace mammotwin {
@@ -16,8 +17,8 @@ using Eigen::Vector3d;
 using Eigen::Vector3i;
 using Mask = Volume<std::uint8_t>;
 
-constexpr double ball_mm = 9;       // a papilla is 10 to 14 mm wide
-constexpr double least_mm = 2;      // over the ball: less is the outline's own unevenness
+constexpr double ball_mm = 9;   // a papilla is 10 to 14 mm wide
+constexpr double least_mm = 2;  // over the ball: less is the outline's own unevenness
 constexpr double least_ml = 0.08, most_ml = 3;
 constexpr double nearness_mm = 30;  // to the most anterior point
 constexpr double reach_mm = 50;     // what lies farther off is not looked at
@@ -75,9 +76,13 @@ Nipple find_nipple(const Mask& labels, const BreastRegion& region) {
   auto standing = body;
   for (std::size_t v = 0; v < standing.values.size(); ++v)
     standing.values[v] = body.values[v] && !smooth.values[v];
-  Nipple best{front, 0};
+  Nipple best{front, 0, {}};
   double best_score = 0;
-  for (const Bump& bump : measure(connected_components(standing), distance_to(smooth))) {
+  int best_id = 0;
+  const Components parts = connected_components(standing);
+  const std::vector<Bump> bumps = measure(parts, distance_to(smooth));
+  for (int id = 1; id < static_cast<int>(bumps.size()); ++id) {
+    const Bump& bump = bumps[id];
     const double ml = static_cast<double>(bump.voxels) * body.voxel_volume() / 1000;
     const double away = (bump.tip - front).norm();
     if (bump.height < least_mm || ml < least_ml || ml > most_ml || away > reach_mm) continue;
@@ -85,9 +90,29 @@ Nipple find_nipple(const Mask& labels, const BreastRegion& region) {
     const double score = bump.height * std::exp(-0.5 * near * near);
     if (score <= best_score) continue;
     best_score = score;
-    best = {bump.tip, bump.height};
+    best_id = id;
+    best.tip_in_lps = bump.tip;
+    best.stands_out_mm = bump.height;
   }
+  if (best_id == 0) return best;
+  best.papilla = body.like<std::uint8_t>(0);
+  for (std::size_t v = 0; v < body.values.size(); ++v)
+    best.papilla.values[v] = parts.ids.values[v] == best_id;
   return best;
+}
+
+void label_papilla(const Nipple& nipple, Segmentation& s) {
+  const Mask& papilla = nipple.papilla;
+  for (int k = 0; k < papilla.size.z(); ++k)
+    for (int j = 0; j < papilla.size.y(); ++j)
+      for (int i = 0; i < papilla.size.x(); ++i) {
+        if (!papilla(i, j, k)) continue;
+        const Vector3i v = s.labels.index(papilla.position(i, j, k)).array().round().cast<int>();
+        std::uint8_t& value = s.labels(v.x(), v.y(), v.z());
+        if (value != label::fibroglandular) continue;
+        value = label::skin;
+        s.fractions(v.x(), v.y(), v.z()) = pure_fractions(label::skin);
+      }
 }
 
 }  // namespace mammotwin

@@ -54,6 +54,7 @@ void place_nipple(const SegmentInput& input, Segmentation& s, SegmentQuality& qu
   } else {
     const Nipple nipple = find_nipple(s.labels, s.region);
     s.nipple_in_lps = nipple.tip_in_lps;
+    if (!input.label_map) label_papilla(nipple, s);
     note_nipple(nipple, quality);
     return;
   }
@@ -121,8 +122,7 @@ void hand_on_mri(const SegmentInput& input, SegmentResult& result) {
 }
 
 void judge_volumes(SegmentQuality& q) {
-  if (q.breast_volume_ml < limits::least_breast_ml ||
-      q.breast_volume_ml > limits::most_breast_ml)
+  if (q.breast_volume_ml < limits::least_breast_ml || q.breast_volume_ml > limits::most_breast_ml)
     q.doubt(SegmentStatus::look, "the breast's volume is " +
                                      std::to_string(static_cast<int>(q.breast_volume_ml)) +
                                      " ml; expected 30 to 4000 ml (are the units mm?)");

@@ -4,6 +4,9 @@
 
 #include <cmath>
 #include <numbers>
+#include <utility>
+
+#include "segmentation/label_values.h"
 
 namespace mammotwin {
 namespace {
@@ -41,6 +44,24 @@ TEST(Nipple, IsTheMostAnteriorPointWhereNothingStandsOut) {
   const Nipple nipple = find_nipple(dome(-Eigen::Vector3d::UnitY(), 0), region);
   EXPECT_EQ(nipple.stands_out_mm, 0);
   EXPECT_LT((nipple.tip_in_lps - Eigen::Vector3d(0, 10, 0)).norm(), 1.5);
+}
+
+TEST(Nipple, PapillaIsSkinAndNotGland) {
+  const Eigen::Vector3d direction = -Eigen::Vector3d::UnitY();
+  Segmentation s;
+  s.labels = dome(direction, 8);
+  for (std::uint8_t& value : s.labels.values)
+    if (value == label::fat) value = label::fibroglandular;
+  s.fractions = s.labels.like<Fractions>(pure_fractions(label::fibroglandular));
+  label_papilla(find_nipple(s.labels, region), s);
+  const auto at = [&](double along) {
+    const Eigen::Vector3i v =
+        s.labels.index(middle + along * direction).array().round().cast<int>();
+    return std::pair(s.labels(v.x(), v.y(), v.z()),
+                     s.fractions(v.x(), v.y(), v.z()).fibroglandular);
+  };
+  EXPECT_EQ(at(dome_mm + 5), std::pair(label::skin, 0.0F));
+  EXPECT_EQ(at(dome_mm - 5), std::pair(label::fibroglandular, 1.0F)) << "below the papilla";
 }
 
 }  // namespace
