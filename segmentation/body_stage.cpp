@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "segmentation/body_mask.h"
+#include "segmentation/denoise.h"
 #include "segmentation/half_body.h"
 
 namespace mammotwin {
@@ -50,8 +51,8 @@ void check_extent(const Volume<float>& image) {
 }
 
 /// Cuts away the air in front and what lies far behind, where the frame says so.
-BodyStage crop_to_frame(const Volume<float>& image, const Volume<std::uint8_t>& body,
-                        const BreastFrame& frame) {
+BodyStage crop_to_frame(const Volume<float>& image, const Volume<float>& clean,
+                        const Volume<std::uint8_t>& body, const BreastFrame& frame) {
   const auto row = [&](double y) {
     return std::clamp(static_cast<int>(std::lround((y - image.origin.y()) / image.spacing.y())), 0,
                       image.size.y() - 1);
@@ -61,6 +62,7 @@ BodyStage crop_to_frame(const Volume<float>& image, const Volume<std::uint8_t>& 
                              image.size.z() - 1);
   BodyStage stage;
   stage.image = cropped(image, low, high);
+  stage.clean = cropped(clean, low, high);
   stage.body = cropped(body, low, high);
   stage.frame = frame;
   return stage;
@@ -110,11 +112,12 @@ Contrast decided_contrast(const BodyStage& stage, std::optional<bool> given,
   if (contrast.skin_over_fat > clearly_darker && contrast.skin_over_fat < clearly_brighter) {
     std::ostringstream reason;
     reason.precision(2);
-    reason << "the skin is " << contrast.skin_over_fat
-           << " times as bright as the fat under it, so whether fat is suppressed is unsure; it was "
-              "taken as "
-           << (contrast.fat_suppressed ? "suppressed" : "not suppressed")
-           << ": set mri.fat_suppressed";
+    reason
+        << "the skin is " << contrast.skin_over_fat
+        << " times as bright as the fat under it, so whether fat is suppressed is unsure; it was "
+           "taken as "
+        << (contrast.fat_suppressed ? "suppressed" : "not suppressed")
+        << ": set mri.fat_suppressed";
     quality.doubt(SegmentStatus::look, reason.str());
   }
   return contrast;
@@ -125,28 +128,29 @@ Contrast decided_contrast(const BodyStage& stage, std::optional<bool> given,
 BodyStage find_body(const Volume<float>& image, std::optional<bool> fat_suppressed,
                     SegmentQuality& quality) {
   check_extent(image);
-  const double noise = estimate_noise(image);
-  const Volume<std::uint8_t> body = coarse_body(image, noise);
+  const double in_air = estimate_noise(image);
+  const double noise = noise_of_detail(image, coarse_body(image, in_air));
+  const Volume<float> clean = denoised(image, noise);
+  const Volume<std::uint8_t> body = coarse_body(clean, in_air);
   const BreastFrame frame = checked_frame(body);
   constexpr double largest_clip_cm2 = 4;  // a nipple's worth: the breast's tip is missing
   if (const double clip = clipped_in_front(body); clip > largest_clip_cm2)
     throw std::runtime_error("the breast is cut by the field of view in front over " +
                              std::to_string(static_cast<int>(clip)) +
                              " cm2; expected air in front of it");
-  BodyStage stage = crop_to_frame(image, body, frame);
+  BodyStage stage = crop_to_frame(image, clean, body, frame);
   stage.noise = noise;
   stage.depth = depth_below_surface(stage.body);
   stage.contrast = decided_contrast(stage, fat_suppressed, quality);
-  if (stage.contrast.fat_suppressed)
-    stage.body = cut_ghosts(stage.image, stage.body, ghost_share);
-  stage.body = cut_rim(stage.image, stage.body,
+  if (stage.contrast.fat_suppressed) stage.body = cut_ghosts(stage.image, stage.body, ghost_share);
+  stage.body = cut_rim(stage.clean, stage.body,
                        stage.contrast.fat_suppressed ? cut_fat_suppressed : cut_other);
   stage.frame = find_breast_frame(stage.body);
   stage.depth = depth_below_surface(stage.body);
   quality.contrast = stage.contrast.fat_suppressed ? "fat-suppressed" : "not fat-suppressed";
   quality.signal_to_noise =
       subcutaneous_fat(stage.image, stage.depth, stage.frame, stage.contrast.fat_suppressed) /
-      std::max(noise, 1e-6);
+      std::max(stage.noise, 1e-6);
   return stage;
 }
 

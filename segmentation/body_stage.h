@@ -13,10 +13,11 @@ namespace mammotwin {
 /// The outline of the patient and what it tells, on the part of the image around the breasts.
 struct BodyStage {
   Volume<float> image;  ///< cropped in front of the breasts and far behind the chest
+  Volume<float> clean;  ///< the same, denoised
   Volume<std::uint8_t> body;
   Volume<float> depth;  ///< below the skin [mm]
   Volume<float> enhancement;  ///< relative_enhancement on the same grid; empty without a pre image
-  double noise = 0;     ///< standard deviation [image units]
+  double noise = 0;     ///< standard deviation in the body [image units]
   BreastFrame frame;
   Contrast contrast;
 };

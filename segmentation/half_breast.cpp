@@ -4,11 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include "segmentation/body_mask.h"
-#include "segmentation/denoise.h"
 #include "segmentation/distance.h"
+#include "segmentation/flank_shading.h"
 #include "segmentation/half_body.h"
 #include "segmentation/n4.h"
 #include "segmentation/skin_stage.h"
@@ -17,7 +18,7 @@
 namespace mammotwin {
 namespace {
 
-constexpr double behind_sternum_mm = 70;
+constexpr double behind_sternum_mm = 100;
 constexpr double skin_mm = 4, wall_mm = 2;  // left out of the bias: study, section 4
 constexpr double n4_block_mm = 4;
 
@@ -40,8 +41,9 @@ Crop side_box(const Volume<float>& image, const BreastFrame& frame, Side side) {
   return crop;
 }
 
-/// Divides by the field that N4 finds in `where`, and leaves the median there as it was.
-void correct_by_n4(Volume<float>& image, const Volume<std::uint8_t>& where) {
+/// The logarithm of the bias that N4 finds in `where`, 0 in the mean there, on blocks of 4 mm.
+std::optional<Volume<float>> bias_by_n4(const Volume<float>& image,
+                                        const Volume<std::uint8_t>& where) {
   const Eigen::Vector3i factor =
       (n4_block_mm / image.spacing.array()).round().max(1).cast<int>().matrix();
   Volume<float> share;
@@ -59,7 +61,7 @@ void correct_by_n4(Volume<float>& image, const Volume<std::uint8_t>& where) {
     in += mask.back();
   }
   constexpr std::size_t least_blocks = 200;
-  if (in < least_blocks) return;
+  if (in < least_blocks) return std::nullopt;
   Volume<float> field = coarse.like<float>(0);
   field.values = n4_log_bias(raw, mask);
   double mean = 0;
@@ -74,11 +76,7 @@ void correct_by_n4(Volume<float>& image, const Volume<std::uint8_t>& where) {
     if (!mask[v]) field.values[v] = spread.values[v] != 0 ? spread.values[v] : mean;
     field.values[v] -= static_cast<float>(mean);
   }
-  tbb::parallel_for(0, image.size.z(), [&](int k) {
-    for (int j = 0; j < image.size.y(); ++j)
-      for (int i = 0; i < image.size.x(); ++i)
-        image(i, j, k) *= std::exp(-interpolated(field, image.position(i, j, k)));
-  });
+  return field;
 }
 
 /// The breast away from skin and wall.
@@ -106,15 +104,20 @@ Volume<float> corrected_widely(Volume<float> image, const Volume<float>& log_bia
   return image;
 }
 
-/// The corrected image of one side, denoised: the wall was found in the scan as it is, where the
-/// filter blurs the faint edge of muscle far from the coil.
-Volume<float> denoised_part(const BodyStage& body, const WallStage& wall, const Crop& crop) {
-  Volume<float> image = cropped(wall.corrected, crop.low, crop.high);
+/// Fills the images of one side. The wall was found in the scan as it is, where the filter blurs
+/// the faint edge of muscle far from the coil.
+void cut_images(const BodyStage& body, const WallStage& wall, const Crop& crop, HalfBreast& half) {
+  half.scan = cropped(wall.corrected, crop.low, crop.high);
+  half.image = half.scan;
+  half.noise = half.scan.like<float>(0);
   const Volume<float> scan = cropped(body.image, crop.low, crop.high);
-  const Volume<float> clean = denoised(scan, body.noise);
-  for (std::size_t v = 0; v < image.values.size(); ++v)
-    if (scan.values[v] > 0) image.values[v] *= clean.values[v] / scan.values[v];
-  return image;
+  const Volume<float> clean = cropped(body.clean, crop.low, crop.high);
+  for (std::size_t v = 0; v < scan.values.size(); ++v) {
+    if (!(scan.values[v] > 0)) continue;
+    const float gain = half.scan.values[v] / scan.values[v];
+    half.image.values[v] = clean.values[v] * gain;
+    half.noise.values[v] = static_cast<float>(body.noise) * gain;
+  }
 }
 
 }  // namespace
@@ -123,11 +126,10 @@ HalfBreast cut_half(const BodyStage& body, const WallStage& wall, Side side) {
   const Crop crop = side_box(body.image, body.frame, side);
   HalfBreast half;
   half.side = side;
-  half.image = denoised_part(body, wall, crop);
+  cut_images(body, wall, crop, half);
   if (!body.enhancement.values.empty())
     half.enhancement = cropped(body.enhancement, crop.low, crop.high);
-  SkinStage skin = find_skin(cropped(wall.corrected, crop.low, crop.high),
-                             cropped(body.body, crop.low, crop.high), body.frame);
+  SkinStage skin = find_skin(half.scan, cropped(body.body, crop.low, crop.high), body.frame);
   half.body = std::move(skin.surface.body);
   half.depth = depth_below_surface(half.body);
   half.skin_depth = std::move(skin.surface.depth);
@@ -148,6 +150,21 @@ HalfBreast cut_half(const BodyStage& body, const WallStage& wall, Side side) {
   return half;
 }
 
-void correct_shading(HalfBreast& half) { correct_by_n4(half.image, pure_interior(half)); }
+void correct_shading(const BreastFrame& frame, HalfBreast& half) {
+  const Volume<float> flank = flank_shading(half.image, half.depth, frame);
+  for (std::size_t v = 0; v < flank.values.size(); ++v)
+    for (Volume<float>* image : {&half.image, &half.scan, &half.noise})
+      image->values[v] /= flank.values[v];
+  const auto field = bias_by_n4(half.image, pure_interior(half));
+  if (!field) return;
+  tbb::parallel_for(0, half.image.size.z(), [&](int k) {
+    for (int j = 0; j < half.image.size.y(); ++j)
+      for (int i = 0; i < half.image.size.x(); ++i) {
+        const float gain = std::exp(-interpolated(*field, half.image.position(i, j, k)));
+        for (Volume<float>* image : {&half.image, &half.scan, &half.noise})
+          (*image)(i, j, k) *= gain;
+      }
+  });
+}
 
 }  // namespace mammotwin

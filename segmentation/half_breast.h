@@ -5,11 +5,13 @@
 
 namespace mammotwin {
 
-/// One side's part of the image: from the midline out, from the air in front to a plane 70 mm
+/// One side's part of the image: from the midline out, from the air in front to a plane 100 mm
 /// behind the skin between the breasts.
 struct HalfBreast {
   Side side = Side::left;
-  Volume<float> image;             ///< bias corrected, fat at 1
+  Volume<float> image;             ///< bias corrected, denoised, fat at 1
+  Volume<float> scan;              ///< the same, not denoised
+  Volume<float> noise;             ///< standard deviation in `scan`; 0 where it is not known
   Volume<float> widely_corrected;  ///< by the 60 mm part of the bias only, its median fat at 1
   Volume<float> enhancement;       ///< relative; empty without an image before contrast agent
   Volume<std::uint8_t> body;
@@ -23,7 +25,7 @@ struct HalfBreast {
 /// Cuts out one side.
 HalfBreast cut_half(const BodyStage& body, const WallStage& wall, Side side);
 
-/// Refines the bias by N4 in the breast, away from skin and wall.
-void correct_shading(HalfBreast& half);
+/// Refines the bias: of the flank by its fat, then by N4 in the breast, away from skin and wall.
+void correct_shading(const BreastFrame& frame, HalfBreast& half);
 
 }  // namespace mammotwin

@@ -15,7 +15,7 @@ namespace mammotwin {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180;
-constexpr double widest_degrees = 75, step_degrees = 1.5;
+constexpr double widest_degrees = 90, step_degrees = 1.5;
 constexpr double row_mm = 2, axis_behind_mm = 110, beyond_slices_mm = 25;
 constexpr int max_jump_mm = 4;
 

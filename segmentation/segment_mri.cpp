@@ -105,7 +105,7 @@ void add_enhancement(const SegmentInput& input, BodyStage& body, SegmentResult& 
   const Mri pre = read_mri(input.pre ? *input.pre : *input.mri, input.pre_series);
   result.files.insert(result.files.end(), pre.files.begin(), pre.files.end());
   body.enhancement =
-      relative_enhancement(denoised(body.image, body.noise), denoised(pre.image, body.noise), body.noise);
+      relative_enhancement(body.clean, denoised(pre.image, body.noise), body.noise);
   result.quality.notes.push_back(
       "lesions were outlined in the enhancement over the image before contrast agent");
 }
@@ -149,7 +149,7 @@ SegmentResult segment_image(const Mri& mri, const SegmentInput& input,
   HalfBreast half = cut_half(body, wall, side);
   check_seeds(half, seeds);
   offer_candidates(half, result.quality);
-  correct_shading(half);
+  correct_shading(body.frame, half);
   progress(0.80, "finding the lesions");
   const Volume<std::uint8_t> lesions =
       find_lesions(half, seeds, body.contrast.fat_suppressed, options, result.quality);

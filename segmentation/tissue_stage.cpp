@@ -6,15 +6,17 @@
 
 #include "segmentation/distance.h"
 #include "segmentation/fibroglandular.h"
+#include "segmentation/half_body.h"
 #include "segmentation/smoothing.h"
+#include "segmentation/total_variation.h"
 
 namespace mammotwin {
 namespace {
 
 constexpr double skin_left_out_mm = 4, wall_left_out_mm = 2, lesion_left_out_mm = 2.5;
 constexpr float vessel_enhancement = 1;  // vessels and lesions would lift gland's brightness
-constexpr double skin_blur_mm = 1;    // beyond the skin, its blur would pass for gland
-constexpr double wall_blur_mm = 1.5;  // in front of the wall, muscle's
+constexpr double skin_blur_mm = 1;       // beyond the skin, its blur would pass for gland
+constexpr double wall_blur_mm = 1.5;     // in front of the wall, muscle's
 constexpr double usual_skin_mm = 1.5;
 
 double judge_skin(const SlabFit& skin, const SegmentOptions& options, SegmentQuality& quality) {
@@ -31,9 +33,10 @@ double judge_skin(const SlabFit& skin, const SegmentOptions& options, SegmentQua
                   "the skin measures more than 4 mm; expected 1 to 3 mm (is it swollen, or does "
                   "gland lie right under it?)");
   if (!skin.over_fat)
-    quality.doubt(SegmentStatus::look,
-                  "gland lies under nearly all of the skin and may pass for it: the skin's thickness "
-                  "is not known; set segmentation.skin_thickness_mm where it is");
+    quality.doubt(
+        SegmentStatus::look,
+        "gland lies under nearly all of the skin and may pass for it: the skin's thickness "
+        "is not known; set segmentation.skin_thickness_mm where it is");
   quality.skin_thickness_low_mm = skin.over_fat ? skin.low : thinnest_measured_skin_mm;
   quality.skin_thickness_high_mm = skin.over_fat ? skin.high : thickest_measured_skin_mm;
   return quality.skin_thickness_mm = skin.thickness;
@@ -66,6 +69,23 @@ void judge_suppression(const Volume<float>& image, const Volume<std::uint8_t>& i
   quality.doubt(SegmentStatus::look, reason.str());
 }
 
+/// The image, within `interior` without the noise that grows where the coil sees little.
+Volume<float> without_local_noise(const HalfBreast& half, const Volume<std::uint8_t>& interior) {
+  constexpr double strength = 0.5;
+  Volume<float> image = half.image, noise = half.noise;
+  for (std::size_t v = 0; v < interior.values.size(); ++v)
+    if (!interior.values[v]) noise.values[v] = 0;
+  const auto [low, high] = labelled_box(interior, 0);
+  if ((low.array() > high.array()).any()) return image;
+  const Volume<float> clean =
+      total_variation_denoised(cropped(half.scan, low, high), cropped(noise, low, high), strength);
+  for (int k = low.z(); k <= high.z(); ++k)
+    for (int j = low.y(); j <= high.y(); ++j)
+      for (int i = low.x(); i <= high.x(); ++i)
+        if (interior(i, j, k)) image(i, j, k) = clean(i - low.x(), j - low.y(), k - low.z());
+  return image;
+}
+
 }  // namespace
 
 void label_tissue(const HalfBreast& half, const Volume<std::uint8_t>& lesions, bool fat_suppressed,
@@ -77,12 +97,13 @@ void label_tissue(const HalfBreast& half, const Volume<std::uint8_t>& lesions, b
     const float depth = half.depth.values[v], above = half.above_wall.values[v];
     interior.values[v] &=
         depth > skin + skin_blur_mm && above > wall_blur_mm && lesions.values[v] == 0;
-    statistics.values[v] &= depth > skin_left_out_mm && above > wall_left_out_mm &&
-                            to_lesion.values[v] > lesion_left_out_mm &&
-                            (half.enhancement.values.empty() ||
-                             half.enhancement.values[v] < vessel_enhancement);
+    statistics.values[v] &=
+        depth > skin_left_out_mm && above > wall_left_out_mm &&
+        to_lesion.values[v] > lesion_left_out_mm &&
+        (half.enhancement.values.empty() || half.enhancement.values[v] < vessel_enhancement);
   }
-  TissueSplit split = split_tissue(half.image, interior, statistics, fat_suppressed);
+  const Volume<float> clean = without_local_noise(half, interior);
+  const TissueSplit split = split_tissue(clean, interior, statistics, fat_suppressed);
   if (fat_suppressed) judge_suppression(half.widely_corrected, statistics, result.quality);
 
   Segmentation& s = result.segmentation;
@@ -104,7 +125,9 @@ void label_tissue(const HalfBreast& half, const Volume<std::uint8_t>& lesions, b
       s.fractions.values[v] = {1 - gland, gland, 0};
     }
   }
-  result.image = std::move(split.corrected);
+  result.image = half.image;
+  for (std::size_t v = 0; v < clean.values.size(); ++v)
+    if (clean.values[v] > 0) result.image.values[v] *= split.corrected.values[v] / clean.values[v];
 }
 
 }  // namespace mammotwin
