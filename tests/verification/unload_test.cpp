@@ -55,7 +55,10 @@ TEST(Unload, ColumnThatHangsStraightWasThisLong) {
   options.solid = {PressureSpace::trilinear, 1e6, 0};
   const UnloadResult result = unload(problem, options);
   ASSERT_TRUE(result.report.usable()) << result.report.reason;
-  EXPECT_LT(result.report.round_trip_max_mm, 1e-6);
+  // Newton ends within 1e-7 of the forces: of 2 mm of sag 2e-7 mm, times how much softer the column
+  // bends than it stretches, (L / d)^2 of about 44 (2.1e-6 mm on one make of processor, under
+  // 1e-6 on another).
+  EXPECT_LT(result.report.round_trip_max_mm, 1e-5);
   double length = 0;
   constexpr int points = 400;
   for (int k = 0; k < points; ++k)
