@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "segmentation/body_mask.h"
+#include "segmentation/contrast.h"
 #include "segmentation/denoise.h"
 #include "segmentation/half_body.h"
 
@@ -51,8 +52,8 @@ void check_extent(const Volume<float>& image) {
 }
 
 /// Cuts away the air in front and what lies far behind, where the frame says so.
-BodyStage crop_to_frame(const Volume<float>& image, const Volume<float>& clean,
-                        const Volume<std::uint8_t>& body, const BreastFrame& frame) {
+BodyStage crop_to_frame(const Volume<float>& image, const Volume<std::uint8_t>& body,
+                        const BreastFrame& frame) {
   const auto row = [&](double y) {
     return std::clamp(static_cast<int>(std::lround((y - image.origin.y()) / image.spacing.y())), 0,
                       image.size.y() - 1);
@@ -62,7 +63,6 @@ BodyStage crop_to_frame(const Volume<float>& image, const Volume<float>& clean,
                              image.size.z() - 1);
   BodyStage stage;
   stage.image = cropped(image, low, high);
-  stage.clean = cropped(clean, low, high);
   stage.body = cropped(body, low, high);
   stage.frame = frame;
   return stage;
@@ -98,7 +98,8 @@ double clipped_in_front(const Volume<std::uint8_t>& body) {
   return clipped * body.spacing.x() * body.spacing.z() / 100;  // cm^2
 }
 
-/// What is given stands; what is read off the image is doubted where skin hardly differs from fat.
+/// What is given stands. Where skin hardly differs from fat, what is not fat decides, and doubt
+/// stays if the skin says otherwise.
 Contrast decided_contrast(const BodyStage& stage, std::optional<bool> given,
                           SegmentQuality& quality) {
   // Thin skin reads near 1: skin of 1 mm in voxels of 1.2 mm 0.90 without suppression and 0.95
@@ -109,18 +110,29 @@ Contrast decided_contrast(const BodyStage& stage, std::optional<bool> given,
     contrast.fat_suppressed = *given;
     return contrast;
   }
-  if (contrast.skin_over_fat > clearly_darker && contrast.skin_over_fat < clearly_brighter) {
-    std::ostringstream reason;
-    reason.precision(2);
-    reason
-        << "the skin is " << contrast.skin_over_fat
-        << " times as bright as the fat under it, so whether fat is suppressed is unsure; it was "
-           "taken as "
-        << (contrast.fat_suppressed ? "suppressed" : "not suppressed")
-        << ": set mri.fat_suppressed";
-    quality.doubt(SegmentStatus::look, reason.str());
-  }
+  if (contrast.skin_over_fat < clearly_darker || contrast.skin_over_fat > clearly_brighter)
+    return contrast;
+  const bool outshone = is_fat_outshone(stage.image, stage.body, stage.depth, stage.frame);
+  if (outshone == contrast.fat_suppressed) return contrast;
+  contrast.fat_suppressed = outshone;
+  std::ostringstream reason;
+  reason.precision(2);
+  reason << "the skin is " << contrast.skin_over_fat
+         << " times as bright as the fat under it, but most else "
+         << (outshone ? "brighter" : "darker")
+         << " than fat, so whether fat is suppressed is unsure; it was taken as "
+         << (outshone ? "suppressed" : "not suppressed") << ": set mri.fat_suppressed";
+  quality.doubt(SegmentStatus::look, reason.str());
   return contrast;
+}
+
+/// Adds what noise hides of dark skin, of nipples above all, and denoising shows. In front only:
+/// behind, what is dim would pass for body.
+void add_dark_skin(double noise_in_air, BodyStage& stage) {
+  const Volume<std::uint8_t> shown = coarse_body(stage.clean, noise_in_air);
+  for (int k = 0; k < shown.size.z(); ++k)
+    for (int j = 0; j < shown.size.y() && shown.position(0, j, 0).y() < stage.frame.sternal_y; ++j)
+      for (int i = 0; i < shown.size.x(); ++i) stage.body(i, j, k) |= shown(i, j, k);
 }
 
 }  // namespace
@@ -128,22 +140,22 @@ Contrast decided_contrast(const BodyStage& stage, std::optional<bool> given,
 BodyStage find_body(const Volume<float>& image, std::optional<bool> fat_suppressed,
                     SegmentQuality& quality) {
   check_extent(image);
-  const double in_air = estimate_noise(image);
-  const double noise = noise_of_detail(image, coarse_body(image, in_air));
-  const Volume<float> clean = denoised(image, noise);
-  const Volume<std::uint8_t> body = coarse_body(clean, in_air);
+  const double noise_in_air = estimate_noise(image);
+  const Volume<std::uint8_t> body = coarse_body(image, noise_in_air);
   const BreastFrame frame = checked_frame(body);
   constexpr double largest_clip_cm2 = 4;  // a nipple's worth: the breast's tip is missing
   if (const double clip = clipped_in_front(body); clip > largest_clip_cm2)
     throw std::runtime_error("the breast is cut by the field of view in front over " +
                              std::to_string(static_cast<int>(clip)) +
                              " cm2; expected air in front of it");
-  BodyStage stage = crop_to_frame(image, clean, body, frame);
-  stage.noise = noise;
+  BodyStage stage = crop_to_frame(image, body, frame);
+  stage.noise = noise_of_detail(stage.image, stage.body);
+  stage.clean = denoised(stage.image, stage.noise);
   stage.depth = depth_below_surface(stage.body);
   stage.contrast = decided_contrast(stage, fat_suppressed, quality);
+  add_dark_skin(noise_in_air, stage);
   if (stage.contrast.fat_suppressed) stage.body = cut_ghosts(stage.image, stage.body, ghost_share);
-  stage.body = cut_rim(stage.clean, stage.body,
+  stage.body = cut_rim(stage.image, stage.body,
                        stage.contrast.fat_suppressed ? cut_fat_suppressed : cut_other);
   stage.frame = find_breast_frame(stage.body);
   stage.depth = depth_below_surface(stage.body);

@@ -25,7 +25,7 @@ double judge_skin(const SlabFit& skin, const SegmentOptions& options, SegmentQua
   if (!(skin.thickness > 0) || skin.misfit > largest_misfit) {
     quality.doubt(SegmentStatus::look,
                   "the skin's thickness could not be measured: 1.5 mm was "
-                  "taken; set segmentation.skin_thickness_mm where known");
+                  "taken; set segment.skin_thickness_mm where known");
     return quality.skin_thickness_mm = usual_skin_mm;
   }
   if (skin.thickness > thick_mm)
@@ -36,7 +36,7 @@ double judge_skin(const SlabFit& skin, const SegmentOptions& options, SegmentQua
     quality.doubt(
         SegmentStatus::look,
         "gland lies under nearly all of the skin and may pass for it: the skin's thickness "
-        "is not known; set segmentation.skin_thickness_mm where it is");
+        "is not known; set segment.skin_thickness_mm where it is");
   quality.skin_thickness_low_mm = skin.over_fat ? skin.low : thinnest_measured_skin_mm;
   quality.skin_thickness_high_mm = skin.over_fat ? skin.high : thickest_measured_skin_mm;
   return quality.skin_thickness_mm = skin.thickness;
