@@ -18,7 +18,7 @@ void judge_wall(const BodyStage& body, const WallStage& wall, Side side, Segment
     quality.doubt(SegmentStatus::look,
                   "behind " + std::to_string(std::lround(100 * *quality.chest_wall_fat_behind)) +
                       " % of the chest wall found there is fat rather than muscle; expected at "
-                      "most 5 %: it may stand on gland or a lesion in front of the muscle");
+                      "most 8 %: it may stand on gland or a lesion in front of the muscle");
 }
 
 void judge_lesions_on_wall(const HalfBreast& half, const Volume<std::uint8_t>& lesions,

@@ -25,7 +25,7 @@ struct PectoralWall {
   int angles = 0, rows = 0;
   std::vector<double> radius;  ///< [mm], angles fastest
   std::vector<float> cost;     ///< of the wall found there; below -0.5 the image supports it
-  std::vector<float> behind;   ///< mean brightness 3 to 8 mm behind it, fat = 1
+  std::vector<float> behind;   ///< mean brightness 2 to 5 mm behind it, fat = 1
   std::vector<WallContrast> contrast;  ///< around each ray
 
   /// Point of a ray (index into `radius`) at some radius [mm, LPS].
