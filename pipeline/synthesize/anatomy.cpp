@@ -76,7 +76,8 @@ void Anatomy::add_sample(VoxelMixture& mixture, const Vector3d& x, double outsid
     ++mixture[behind];
     return;
   }
-  if (outside > -options_.skin_mm || chest_.nipple(x) < 0) {
+  const bool in_nipple = chest_.nipple(x) < 0;
+  if (outside > -options_.skin_mm || (in_nipple && chest_.without_nipples(x) > -options_.skin_mm)) {
     ++mixture[Substance::skin];
     return;
   }
@@ -86,7 +87,7 @@ void Anatomy::add_sample(VoxelMixture& mixture, const Vector3d& x, double outsid
       mixture.lesion = static_cast<std::uint8_t>(n);
       return;
     }
-  const bool gland = glands_[0](x) < 0 || glands_[1](x) < 0;
+  const bool gland = in_nipple || glands_[0](x) < 0 || glands_[1](x) < 0;
   ++mixture[gland ? Substance::fibroglandular : Substance::fat];
 }
 

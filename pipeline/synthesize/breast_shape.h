@@ -25,7 +25,8 @@ struct BreastShape {
   Eigen::Vector3d axis(double depth_fraction) const;
 };
 
-/// The papilla: a rounded peg on the outline near the tip.
+/// A rounded peg through the outline near the tip: the papilla, which is skin, and under the skin
+/// the ducts that meet there.
 struct Nipple {
   Eigen::Vector3d root = Eigen::Vector3d::Zero();  ///< on the outline
   Eigen::Vector3d direction = -Eigen::Vector3d::UnitY();

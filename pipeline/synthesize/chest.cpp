@@ -76,13 +76,13 @@ Nipple Chest::place_nipple(const BreastShape& breast, std::uint64_t seed) const 
   double inside = 0, outside = 3 * breast.length;
   for (int i = 0; i < 50; ++i) {
     const double middle = (inside + outside) / 2;
-    (smooth_outside(start + middle * n.direction) < 0 ? inside : outside) = middle;
+    (without_nipples(start + middle * n.direction) < 0 ? inside : outside) = middle;
   }
   n.root = start + inside * n.direction;
   return n;
 }
 
-double Chest::smooth_outside(const Vector3d& x) const {
+double Chest::without_nipples(const Vector3d& x) const {
   double d = torso_.skin(x);
   for (const auto& b : breasts_) d = smooth_union(d, b.distance(x), fillet_mm);
   if (std::abs(d) > lumpy_mm) return d;
@@ -94,7 +94,7 @@ double Chest::nipple(const Vector3d& x) const {
 }
 
 double Chest::outside(const Vector3d& x) const {
-  return smooth_union(smooth_outside(x), nipple(x), 4);
+  return smooth_union(without_nipples(x), nipple(x), 4);
 }
 
 double Chest::front_y() const { return std::min(nipples_[0].tip().y(), nipples_[1].tip().y()); }

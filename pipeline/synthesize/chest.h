@@ -21,6 +21,7 @@ class Chest {
   double outside(const Eigen::Vector3d& x) const;
   double chest_wall(const Eigen::Vector3d& x) const { return torso_.chest_wall(x); }
   double nipple(const Eigen::Vector3d& x) const;  ///< to the nearer of both pegs
+  double without_nipples(const Eigen::Vector3d& x) const;  ///< `outside`, were there none
 
   const Torso& torso() const { return torso_; }
   const BreastShape& breast(Side side) const { return breasts_[static_cast<int>(side)]; }
@@ -34,7 +35,6 @@ class Chest {
   void shape_breasts(const AnatomyOptions& options, double scale);
   BreastShape shape_breast(const AnatomyOptions& options, Side side, double scale) const;
   Nipple place_nipple(const BreastShape& breast, std::uint64_t seed) const;
-  double smooth_outside(const Eigen::Vector3d& x) const;  ///< without nipples
 
   Torso torso_;
   LatticeNoise broad_, fine_;
