@@ -157,7 +157,8 @@ SegmentationScore score_segmentation(const Segmentation& truth, const Segmentati
   const Volume<float> off_muscle = distance_to(where(a, is(label::muscle)));
   auto apart = scored;
   for (std::size_t v = 0; v < apart.values.size(); ++v)
-    apart.values[v] &= off_muscle.values[v] >= fibroglandular_off_muscle_mm;
+    apart.values[v] &=
+        off_muscle.values[v] >= fibroglandular_off_muscle_mm && a.values[v] < label::lesion;
   score.fibroglandular_dice = dice(both(where(a, is(label::fibroglandular)), apart),
                                    both(where(b, is(label::fibroglandular)), apart));
   score_fractions(truth, found, apart, score);

@@ -33,8 +33,8 @@ struct SegmentationScore {
 /// `truth` carries labels (both sides or one), fractions on the same grid, region, lesions in label
 /// order and nipple. What was found is read at the truth's voxel centres. The
 /// chest wall is scored away from the region's edges by 5 mm, fibroglandular tissue this far and
-/// more off the true muscle. Columns in which the truth has no muscle are not scored: nothing says
-/// where the breast ends there.
+/// more off the true muscle and outside true lesions, which have a score of their own. Columns in
+/// which the truth has no muscle are not scored: nothing says where the breast ends there.
 SegmentationScore score_segmentation(const Segmentation& truth, const Segmentation& found,
                                      double fibroglandular_off_muscle_mm = 0);
 

@@ -59,5 +59,15 @@ TEST(Score, ComparesFractionsWithoutAThreshold) {
   EXPECT_NEAR(*score.fibroglandular_volume_ratio, 2 / 1.5, 1e-6);
 }
 
+TEST(Score, LeavesTrueLesionsOutOfFibroglandularTissue) {
+  Segmentation truth = slab(0, 0);
+  truth.labels(5, 12, 5) = label::fibroglandular;
+  Segmentation found = truth;
+  found.labels(10, 12, 10) = label::fibroglandular;
+  EXPECT_EQ(score_segmentation(truth, found).fibroglandular_dice, 1);
+  found.labels(20, 12, 20) = label::fibroglandular;
+  EXPECT_NEAR(*score_segmentation(truth, found).fibroglandular_dice, 2.0 / 3, 1e-9);
+}
+
 }  // namespace
 }  // namespace mammotwin
