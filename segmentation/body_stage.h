@@ -16,7 +16,8 @@ struct BodyStage {
   Volume<float> clean;  ///< the same, denoised
   Volume<std::uint8_t> body;
   Volume<float> depth;  ///< below the skin [mm]
-  Volume<float> enhancement;  ///< relative_enhancement on the same grid; empty without a pre image
+  Volume<float> pre;          ///< before contrast agent, on the same grid; may be empty
+  Volume<float> enhancement;  ///< relative_enhancement; empty without `pre`
   double noise = 0;     ///< standard deviation in the body [image units]
   BreastFrame frame;
   Contrast contrast;

@@ -34,19 +34,25 @@ void check_cover(const Volume<float>& post, const Volume<float>& pre) {
 
 }  // namespace
 
-Volume<float> relative_enhancement(const Volume<float>& post, const Volume<float>& pre,
-                                   double noise) {
+Volume<float> on_grid_of(const Volume<float>& post, const Volume<float>& pre) {
   check_cover(post, pre);
-  const auto floor = static_cast<float>(std::max(3 * noise, 1e-6));
   auto out = post.like<float>(0);
   tbb::parallel_for(0, post.size.z(), [&](int k) {
     for (int j = 0; j < post.size.y(); ++j)
-      for (int i = 0; i < post.size.x(); ++i) {
-        const float before = interpolated(pre, post.position(i, j, k));
-        out(i, j, k) =
-            std::clamp((post(i, j, k) - before) / std::max(before, floor), 0.0F, most);
-      }
+      for (int i = 0; i < post.size.x(); ++i)
+        out(i, j, k) = interpolated(pre, post.position(i, j, k));
   });
+  return out;
+}
+
+Volume<float> relative_enhancement(const Volume<float>& post, const Volume<float>& pre,
+                                   double noise) {
+  const auto floor = static_cast<float>(std::max(3 * noise, 1e-6));
+  auto out = post.like<float>(0);
+  for (std::size_t v = 0; v < out.values.size(); ++v) {
+    const float before = pre.values[v];
+    out.values[v] = std::clamp((post.values[v] - before) / std::max(before, floor), 0.0F, most);
+  }
   return out;
 }
 

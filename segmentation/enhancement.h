@@ -8,9 +8,11 @@
 
 namespace mammotwin {
 
-/// (post - pre) / pre of a dynamic study, 0 to 5, on the grid of `post`; the coil's shading drops
-/// out. Where `pre` is within three times the noise that takes its place. No motion between the
-/// two is corrected. Throws std::runtime_error where `pre` covers less than 90 % of `post`.
+/// `pre` at the voxels of `post`. Throws std::runtime_error where it covers less than 90 % of them.
+Volume<float> on_grid_of(const Volume<float>& post, const Volume<float>& pre);
+
+/// (post - pre) / pre of a dynamic study, 0 to 5; the coil's shading drops out. Where `pre` is
+/// within three times the noise that takes its place. No motion between the two is corrected.
 Volume<float> relative_enhancement(const Volume<float>& post, const Volume<float>& pre,
                                    double noise);
 

@@ -112,9 +112,11 @@ void cut_images(const BodyStage& body, const WallStage& wall, const Crop& crop, 
   half.noise = half.scan.like<float>(0);
   const Volume<float> scan = cropped(body.image, crop.low, crop.high);
   const Volume<float> clean = cropped(body.clean, crop.low, crop.high);
+  if (!body.pre.values.empty()) half.pre = cropped(body.pre, crop.low, crop.high);
   for (std::size_t v = 0; v < scan.values.size(); ++v) {
     if (!(scan.values[v] > 0)) continue;
     const float gain = half.scan.values[v] / scan.values[v];
+    if (!half.pre.values.empty()) half.pre.values[v] *= gain;
     half.image.values[v] = clean.values[v] * gain;
     half.noise.values[v] = static_cast<float>(body.noise) * gain;
   }
@@ -151,18 +153,18 @@ HalfBreast cut_half(const BodyStage& body, const WallStage& wall, Side side) {
 }
 
 void correct_shading(const BreastFrame& frame, HalfBreast& half) {
+  std::vector<Volume<float>*> images = {&half.image, &half.scan, &half.noise};
+  if (!half.pre.values.empty()) images.push_back(&half.pre);
   const Volume<float> flank = flank_shading(half.image, half.depth, frame);
   for (std::size_t v = 0; v < flank.values.size(); ++v)
-    for (Volume<float>* image : {&half.image, &half.scan, &half.noise})
-      image->values[v] /= flank.values[v];
+    for (Volume<float>* image : images) image->values[v] /= flank.values[v];
   const auto field = bias_by_n4(half.image, pure_interior(half));
   if (!field) return;
   tbb::parallel_for(0, half.image.size.z(), [&](int k) {
     for (int j = 0; j < half.image.size.y(); ++j)
       for (int i = 0; i < half.image.size.x(); ++i) {
         const float gain = std::exp(-interpolated(*field, half.image.position(i, j, k)));
-        for (Volume<float>* image : {&half.image, &half.scan, &half.noise})
-          (*image)(i, j, k) *= gain;
+        for (Volume<float>* image : images) (*image)(i, j, k) *= gain;
       }
   });
 }

@@ -11,9 +11,10 @@ struct HalfBreast {
   Side side = Side::left;
   Volume<float> image;             ///< bias corrected, denoised, fat at 1
   Volume<float> scan;              ///< the same, not denoised
-  Volume<float> noise;             ///< standard deviation in `scan`; 0 where it is not known
+  Volume<float> pre;               ///< like `scan`, before contrast agent; may be empty
+  Volume<float> noise;             ///< standard deviation in either; 0 where it is not known
   Volume<float> widely_corrected;  ///< by the 60 mm part of the bias only, its median fat at 1
-  Volume<float> enhancement;       ///< relative; empty without an image before contrast agent
+  Volume<float> enhancement;       ///< relative; empty without `pre`
   Volume<std::uint8_t> body;
   Volume<std::uint8_t> inside;  ///< body in front of the chest wall
   Volume<float> depth;          ///< below the skin [mm]

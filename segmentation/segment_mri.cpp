@@ -104,8 +104,9 @@ void add_enhancement(const SegmentInput& input, BodyStage& body, SegmentResult& 
   if (!input.pre && !input.pre_series) return;
   const Mri pre = read_mri(input.pre ? *input.pre : *input.mri, input.pre_series);
   result.files.insert(result.files.end(), pre.files.begin(), pre.files.end());
+  body.pre = on_grid_of(body.image, pre.image);
   body.enhancement =
-      relative_enhancement(body.clean, denoised(pre.image, body.noise), body.noise);
+      relative_enhancement(body.clean, denoised(body.pre, body.noise), body.noise);
   result.quality.notes.push_back(
       "lesions were outlined in the enhancement over the image before contrast agent");
 }

@@ -69,6 +69,7 @@ json to_json(const SegmentQuality& q) {
           {"chest_wall_doubt", optional_number(q.chest_wall_doubt)},
           {"chest_wall_fat_behind", optional_number(q.chest_wall_fat_behind)},
           {"failed_suppression_ml", optional_number(q.failed_suppression_ml)},
+          {"pre_shift_mm", optional_number(q.pre_shift_mm)},
           {"signal_to_noise", optional_number(q.signal_to_noise)},
           {"clipped_share", optional_number(q.clipped_share)},
           {"volume_ratio", optional_number(q.volume_ratio)},

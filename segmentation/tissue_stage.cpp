@@ -7,6 +7,7 @@
 #include "segmentation/distance.h"
 #include "segmentation/fibroglandular.h"
 #include "segmentation/half_body.h"
+#include "segmentation/pre_match.h"
 #include "segmentation/smoothing.h"
 #include "segmentation/total_variation.h"
 
@@ -69,16 +70,48 @@ void judge_suppression(const Volume<float>& image, const Volume<std::uint8_t>& i
   quality.doubt(SegmentStatus::look, reason.str());
 }
 
-/// The image, within `interior` without the noise that grows where the coil sees little.
-Volume<float> without_local_noise(const HalfBreast& half, const Volume<std::uint8_t>& interior) {
-  constexpr double strength = 0.5;
-  Volume<float> image = half.image, noise = half.noise;
-  for (std::size_t v = 0; v < interior.values.size(); ++v)
-    if (!interior.values[v]) noise.values[v] = 0;
+/// What the scanner saw, with its noise.
+struct Scan {
+  Volume<float> image, noise;
+};
+
+/// Fat and gland hardly change with contrast agent: the image before it, where it lies on the one
+/// after, halves the noise's square.
+Scan scan_of(const HalfBreast& half, SegmentQuality& quality) {
+  Scan scan{half.scan, half.noise};
+  if (half.pre.values.empty()) return scan;
+  constexpr double most_shift_mm = 1;
+  const PreMatch match = match_pre(half.scan, half.pre, half.noise, half.inside);
+  quality.pre_shift_mm = match.shift_mm;
+  if (match.shift_mm.value_or(0) > most_shift_mm) {
+    std::ostringstream reason;
+    reason.setf(std::ios::fixed);
+    reason.precision(1);
+    reason << "the image before contrast agent lies " << *match.shift_mm
+           << " mm off the one after it; expected 1.0 mm at most (did the patient move?): lesions "
+              "outlined in their difference may be wrong";
+    quality.doubt(SegmentStatus::look, reason.str());
+    return scan;
+  }
+  const auto scale = static_cast<float>(match.scale);
+  for (std::size_t v = 0; v < scan.image.values.size(); ++v) {
+    scan.image.values[v] = (half.scan.values[v] + scale * half.pre.values[v]) / 2;
+    scan.noise.values[v] *= std::sqrt(1 + scale * scale) / 2;
+  }
+  return scan;
+}
+
+/// The image, within `interior` without the noise that grows where the coil sees little and
+/// without the blur of a voxel's width that scanning leaves.
+Volume<float> restored(const HalfBreast& half, const Volume<std::uint8_t>& interior,
+                       SegmentQuality& quality) {
+  constexpr double strength = 0.3, blur_voxels = 0.55;
+  Volume<float> image = half.image;
   const auto [low, high] = labelled_box(interior, 0);
   if ((low.array() > high.array()).any()) return image;
-  const Volume<float> clean =
-      total_variation_denoised(cropped(half.scan, low, high), cropped(noise, low, high), strength);
+  const Scan scan = scan_of(half, quality);
+  const Volume<float> clean = total_variation_restored(
+      cropped(scan.image, low, high), cropped(scan.noise, low, high), strength, blur_voxels);
   for (int k = low.z(); k <= high.z(); ++k)
     for (int j = low.y(); j <= high.y(); ++j)
       for (int i = low.x(); i <= high.x(); ++i)
@@ -102,7 +135,7 @@ void label_tissue(const HalfBreast& half, const Volume<std::uint8_t>& lesions, b
         to_lesion.values[v] > lesion_left_out_mm &&
         (half.enhancement.values.empty() || half.enhancement.values[v] < vessel_enhancement);
   }
-  const Volume<float> clean = without_local_noise(half, interior);
+  const Volume<float> clean = restored(half, interior, result.quality);
   const TissueSplit split = split_tissue(clean, interior, statistics, fat_suppressed);
   if (fat_suppressed) judge_suppression(half.widely_corrected, statistics, result.quality);
 
