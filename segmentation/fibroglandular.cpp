@@ -138,7 +138,8 @@ class Split {
     Mask mask =
         eroded_class(corrected_, statistics_, 1 + at * (gland_ - 1), gland_above_ == (pure == 1));
     for (std::size_t v = 0; v < mask.values.size(); ++v)
-      if (mask.values[v]) mask.values[v] = std::abs(fraction(v) - static_cast<float>(pure)) < within;
+      if (mask.values[v])
+        mask.values[v] = std::abs(fraction(v) - static_cast<float>(pure)) < within;
     return mask;
   }
 

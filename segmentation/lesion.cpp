@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "segmentation/components.h"
 #include "segmentation/distance.h"
@@ -19,7 +20,6 @@ constexpr double find_within_mm = 6;  // of the point: it may be that far off
 constexpr double smoothing_mm = 0.4;
 constexpr double opening_share = 0.5;  // of the inscribed radius
 constexpr double most_opening_mm = 3;  // vessels are thinner, the lobes of a large lesion are not
-constexpr double rim_share = 0.4;
 constexpr double shell_from_mm = 2, shell_to_mm = 6;
 constexpr double usual_reach_mm = 30, most_cut_mm2 = 100;
 constexpr int most_rounds = 12;
@@ -75,6 +75,33 @@ Volume<float> inner_distance(const Mask& mask) {
   return distance_to(outside);
 }
 
+double opening_of(const FoundLesion& lesion) {
+  return std::min(opening_share * lesion.inscribed_mm, most_opening_mm);
+}
+
+/// A lesion's voxels and what lies around them.
+struct Region {
+  const Mask &mask, &allowed;
+  Volume<float> depth, away;  ///< of voxels inside and outside [mm]
+
+  Region(const Mask& lesion, const Mask& may)
+      : mask(lesion), allowed(may), depth(inner_distance(lesion)), away(distance_to(lesion)) {}
+
+  double brightness(const Volume<float>& image, double opening_mm) const {
+    return median_where(image, where(mask, [&](const auto&, std::size_t v) {
+                          return depth.values[v] > opening_mm;
+                        }));
+  }
+  /// Of the shell around it; empty if none of it is allowed.
+  std::optional<double> background(const Volume<float>& image) const {
+    const Mask shell = where(mask, [&](const auto&, std::size_t v) {
+      return allowed.values[v] && away.values[v] > shell_from_mm && away.values[v] < shell_to_mm;
+    });
+    if (count(shell) == 0) return std::nullopt;
+    return median_where(image, shell);
+  }
+};
+
 /// Half maximum, iterated, in one crop of the image.
 class HalfMaximum {
  public:
@@ -100,7 +127,7 @@ class HalfMaximum {
       region = next;
       measure(region, lesion);
     }
-    return with_rim(region, lesion);
+    return region;
   }
 
  private:
@@ -139,32 +166,10 @@ class HalfMaximum {
     return depth.values[core_];
   }
 
-  /// With the voxels beside it that hold a good part of it: blur takes them under half of the
-  /// maximum where the lesion is small or its surface rough.
-  Mask with_rim(const Mask& region, const FoundLesion& lesion) const {
-    const Volume<float> away = distance_to(region);
-    const double threshold =
-        lesion.background + rim_share * (lesion.brightness - lesion.background);
-    const double beside_mm = 1.01 * region.spacing.maxCoeff();
-    return where(region, [&](const auto&, std::size_t v) {
-      return region.values[v] ||
-             (allowed_.values[v] && away.values[v] <= beside_mm && image_.values[v] > threshold);
-    });
-  }
-
-  static double opening_of(const FoundLesion& lesion) {
-    return std::min(opening_share * lesion.inscribed_mm, most_opening_mm);
-  }
-
-  void measure(const Mask& region, FoundLesion& lesion) const {
-    const Volume<float> depth = inner_distance(region), away = distance_to(region);
-    lesion.brightness = median_where(image_, where(region, [&](const auto&, std::size_t v) {
-                                       return depth.values[v] > opening_of(lesion);
-                                     }));
-    const Mask shell = where(region, [&](const auto&, std::size_t v) {
-      return allowed_.values[v] && away.values[v] > shell_from_mm && away.values[v] < shell_to_mm;
-    });
-    if (count(shell) > 0) lesion.background = median_where(image_, shell);
+  void measure(const Mask& mask, FoundLesion& lesion) const {
+    const Region region(mask, allowed_);
+    lesion.brightness = region.brightness(image_, opening_of(lesion));
+    lesion.background = region.background(image_).value_or(lesion.background);
   }
 
   Eigen::Vector3d position(std::size_t v) const {
@@ -179,6 +184,27 @@ class HalfMaximum {
   double reach_;
   std::size_t core_ = 0;
 };
+
+/// The voxels on either side of the lesion's surface judged again in the sharp image.
+void sharpen_edge(const SharpImage& sharp, const Mask& may, bool brighter, FoundLesion& lesion) {
+  const int margin = static_cast<int>(std::ceil(shell_to_mm / may.spacing.minCoeff())) + 1;
+  const auto [low, high] = labelled_box(lesion.mask, margin);
+  Volume<float> image = sharp(lesion.low + low, lesion.low + high);
+  if (!brighter)
+    for (float& value : image.values) value = -value;
+  const Mask mask = cropped(lesion.mask, low, high), allowed = cropped(may, low, high);
+  const Region region(mask, allowed);
+  const double inside = region.brightness(image, opening_of(lesion));
+  const double outside = region.background(image).value_or(inside);
+  const double beside_mm = 1.01 * mask.spacing.maxCoeff();
+  for (int k = 0; k < mask.size.z(); ++k)
+    for (int j = 0; j < mask.size.y(); ++j)
+      for (int i = 0; i < mask.size.x(); ++i) {
+        if (region.depth(i, j, k) > beside_mm || region.away(i, j, k) > beside_mm) continue;
+        lesion.mask(low.x() + i, low.y() + j, low.z() + k) =
+            allowed(i, j, k) && image(i, j, k) > (inside + outside) / 2;
+      }
+}
 
 double dice(const Mask& a, const Mask& b) {
   double both = 0, sum = 0;
@@ -214,8 +240,9 @@ bool is_cut_by(double reach, const Eigen::Vector3d& point, const Mask& lesion) {
   return count(last) * voxel * voxel > most_cut_mm2;
 }
 
-FoundLesion find_within(const Volume<float>& image, const Volume<std::uint8_t>& allowed,
-                        const Eigen::Vector3d& point_in_lps, const LesionSearch& search) {
+FoundLesion find_within(const Volume<float>& image, const SharpImage& sharp,
+                        const Volume<std::uint8_t>& allowed, const Eigen::Vector3d& point_in_lps,
+                        const LesionSearch& search) {
   FoundLesion lesion;
   const double margin = search.reach_mm + shell_to_mm + 4;
   const Eigen::Array3d index = image.index(point_in_lps).array();
@@ -239,6 +266,7 @@ FoundLesion find_within(const Volume<float>& image, const Volume<std::uint8_t>& 
       return may.values[v] && (x - point_in_lps).norm() <= fallback_mm;
     });
   } else {
+    sharpen_edge(sharp, may, search.brighter, lesion);
     lesion.is_cut = is_cut_by(search.reach_mm, point_in_lps, lesion.mask);
     const Mask walked = walk(part, may, lesion.mask, lesion);
     lesion.agreement = dice(lesion.mask, walked);
@@ -253,13 +281,14 @@ FoundLesion find_within(const Volume<float>& image, const Volume<std::uint8_t>& 
 
 }  // namespace
 
-FoundLesion find_lesion(const Volume<float>& image, const Volume<std::uint8_t>& allowed,
-                        const Eigen::Vector3d& point_in_lps, const LesionSearch& search) {
+FoundLesion find_lesion(const Volume<float>& image, const SharpImage& sharp,
+                        const Volume<std::uint8_t>& allowed, const Eigen::Vector3d& point_in_lps,
+                        const LesionSearch& search) {
   LesionSearch usual = search;
   usual.reach_mm = std::min(search.reach_mm, usual_reach_mm);
-  FoundLesion lesion = find_within(image, allowed, point_in_lps, usual);
+  FoundLesion lesion = find_within(image, sharp, allowed, point_in_lps, usual);
   if (lesion.is_cut && search.reach_mm > usual.reach_mm)
-    lesion = find_within(image, allowed, point_in_lps, search);
+    lesion = find_within(image, sharp, allowed, point_in_lps, search);
   return lesion;
 }
 

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "segmentation/volume.h"
@@ -28,12 +29,18 @@ struct LesionSearch {
   bool random_walker = false;  ///< take the walker's answer instead of half maximum's
 };
 
+/// The voxels `low` to `high` of the image, without blur.
+using SharpImage =
+    std::function<Volume<float>(const Eigen::Vector3i& low, const Eigen::Vector3i& high)>;
+
 /// Stops at the lesion's edge. Half maximum, iterated: threshold midway between the inner part and
 /// the surroundings, the part that holds the brightest place within 6 mm of the point, opened by
-/// half of its inscribed radius, 3 mm at most, so that vessels and ducts fall off; last the voxels
-/// beside it above two fifths. A random walker from the same core is the second opinion
-/// (random_walker.h).
-FoundLesion find_lesion(const Volume<float>& image, const Volume<std::uint8_t>& allowed,
-                        const Eigen::Vector3d& point_in_lps, const LesionSearch& search);
+/// half of its inscribed radius, 3 mm at most, so that vessels and ducts fall off. Last, the voxels
+/// on either side of that part's surface are judged again by half maximum in the sharp image: what
+/// is uneven inside would fall to pieces there, but blur hides the edge of what is small or rough.
+/// A random walker from the same core is the second opinion (random_walker.h).
+FoundLesion find_lesion(const Volume<float>& image, const SharpImage& sharp,
+                        const Volume<std::uint8_t>& allowed, const Eigen::Vector3d& point_in_lps,
+                        const LesionSearch& search);
 
 }  // namespace mammotwin

@@ -1,11 +1,14 @@
 #include "segmentation/lesion_stage.h"
 
 #include <cmath>
+#include <numbers>
 #include <sstream>
 #include <stdexcept>
 
 #include "segmentation/distance.h"
+#include "segmentation/half_body.h"
 #include "segmentation/lesion.h"
+#include "segmentation/restored_scan.h"
 
 namespace mammotwin {
 namespace {
@@ -60,6 +63,23 @@ Volume<float> subtraction(const HalfBreast& half) {
   return added;
 }
 
+/// What lesions stand out in, restored: the scan, or what contrast agent added to it.
+SharpImage sharp_scan(const HalfBreast& half) {
+  if (half.pre.values.empty())
+    return [&half](const auto& low, const auto& high) {
+      return restored_scan(cropped(half.scan, low, high), cropped(half.noise, low, high));
+    };
+  return [&half](const auto& low, const auto& high) {
+    Volume<float> added = cropped(half.scan, low, high), noise = cropped(half.noise, low, high);
+    const Volume<float> before = cropped(half.pre, low, high);
+    for (std::size_t v = 0; v < added.values.size(); ++v) {
+      added.values[v] -= before.values[v];
+      noise.values[v] *= std::numbers::sqrt2_v<float>;
+    }
+    return restored_scan(added, noise);
+  };
+}
+
 void judge(const FoundLesion& found, const PlacedSeed& seed, bool brighter,
            SegmentQuality& quality) {
   quality.lesion_agreement.push_back(found.agreement);
@@ -103,6 +123,7 @@ Volume<std::uint8_t> find_lesions(const HalfBreast& half, const std::vector<Plac
   const bool by_enhancement = !half.enhancement.values.empty();
   const bool brighter = fat_suppressed || by_enhancement;
   const Volume<float> uptake = by_enhancement ? subtraction(half) : Volume<float>();
+  const SharpImage sharp = sharp_scan(half);
   auto lesions = half.body.like<std::uint8_t>(0);
   constexpr double below_skin_mm = 2.5;  // skin is as bright as a lesion
   auto allowed = half.inside;
@@ -123,8 +144,8 @@ Volume<std::uint8_t> find_lesions(const HalfBreast& half, const std::vector<Plac
     search.reach_mm = options.lesion_reach_mm;
     search.brighter = brighter;
     search.random_walker = options.lesion_method == LesionMethod::random_walker;
-    const FoundLesion found =
-        find_lesion(by_enhancement ? uptake : half.image, allowed, seed.point_in_lps, search);
+    const FoundLesion found = find_lesion(by_enhancement ? uptake : half.image, sharp, allowed,
+                                          seed.point_in_lps, search);
     judge(found, seed, brighter, quality);
     for (int k = 0; k < found.mask.size.z(); ++k)
       for (int j = 0; j < found.mask.size.y(); ++j)

@@ -61,7 +61,8 @@ PreMatch match_pre(const Volume<float>& post, const Volume<float>& pre, const Vo
   const Volume<float> after = gaussian_smoothed(post, smoothing_mm);
   const Volume<float> before = gaussian_smoothed(pre, smoothing_mm);
   const Eigen::Vector3i in_part = (part_mm / post.spacing.array()).ceil().cast<int>();
-  const Eigen::Vector3i parts = (post.size + in_part - Eigen::Vector3i::Ones()).cwiseQuotient(in_part);
+  const Eigen::Vector3i parts =
+      (post.size + in_part - Eigen::Vector3i::Ones()).cwiseQuotient(in_part);
   std::vector<Part> all(static_cast<std::size_t>(parts.prod()));
   for (int k = border; k + border < post.size.z(); ++k)
     for (int j = border; j + border < post.size.y(); ++j)

@@ -10,15 +10,15 @@ namespace mammotwin {
 /// How an image before contrast agent lies on the one after it.
 struct PreMatch {
   double scale = 1;  ///< median of post / pre
-  /// Displacement [mm] that nine in ten parts of 24 mm stay below, of those in which the images show
-  /// it to a quarter of a millimetre; empty if there are none.
+  /// Displacement [mm] that nine in ten parts of 24 mm stay below, of those in which the images
+  /// show it to a quarter of a millimetre; empty if there are none.
   std::optional<double> shift_mm;
 };
 
 /// Compares them in `where`, part by part: post - scale pre = grad . displacement + change pre by
-/// least squares, on images smoothed by a voxel (Lucas and Kanade, IJCAI 1981, 674-679). Beyond 2 mm
-/// or so the displacement is told too small. `noise`: standard deviation of each voxel of either, 0
-/// where not known.
+/// least squares, on images smoothed by a voxel (Lucas and Kanade, IJCAI 1981, 674-679). Beyond 2
+/// mm or so the displacement is told too small. `noise`: standard deviation of each voxel of
+/// either, 0 where not known.
 PreMatch match_pre(const Volume<float>& post, const Volume<float>& pre, const Volume<float>& noise,
                    const Volume<std::uint8_t>& where);
 

@@ -8,8 +8,8 @@
 #include "segmentation/fibroglandular.h"
 #include "segmentation/half_body.h"
 #include "segmentation/pre_match.h"
+#include "segmentation/restored_scan.h"
 #include "segmentation/smoothing.h"
-#include "segmentation/total_variation.h"
 
 namespace mammotwin {
 namespace {
@@ -101,17 +101,15 @@ Scan scan_of(const HalfBreast& half, SegmentQuality& quality) {
   return scan;
 }
 
-/// The image, within `interior` without the noise that grows where the coil sees little and
-/// without the blur of a voxel's width that scanning leaves.
+/// The image, restored within `interior`.
 Volume<float> restored(const HalfBreast& half, const Volume<std::uint8_t>& interior,
                        SegmentQuality& quality) {
-  constexpr double strength = 0.3, blur_voxels = 0.55;
   Volume<float> image = half.image;
   const auto [low, high] = labelled_box(interior, 0);
   if ((low.array() > high.array()).any()) return image;
   const Scan scan = scan_of(half, quality);
-  const Volume<float> clean = total_variation_restored(
-      cropped(scan.image, low, high), cropped(scan.noise, low, high), strength, blur_voxels);
+  const Volume<float> clean =
+      restored_scan(cropped(scan.image, low, high), cropped(scan.noise, low, high));
   for (int k = low.z(); k <= high.z(); ++k)
     for (int j = low.y(); j <= high.y(); ++j)
       for (int i = low.x(); i <= high.x(); ++i)

@@ -14,7 +14,8 @@ namespace mammotwin {
 ///
 /// `noise`: standard deviation [image units] of each voxel. Where it is 0, nothing is known of the
 /// image and u is what the voxels around it suggest. Differences are those of voxels, however long.
-/// `blur_voxels`: standard deviation of the blur G [voxels], at most 0.7; three taps along each axis.
+/// `blur_voxels`: standard deviation of the blur G [voxels], at most 0.7; three taps along each
+/// axis.
 Volume<float> total_variation_restored(const Volume<float>& image, const Volume<float>& noise,
                                        double strength, double blur_voxels);
 

@@ -6,7 +6,9 @@
 #include <cmath>
 #include <random>
 
+#include "segmentation/half_body.h"
 #include "segmentation/random_walker.h"
+#include "segmentation/smoothing.h"
 
 namespace mammotwin {
 namespace {
@@ -50,10 +52,14 @@ struct Scene {
   }
 };
 
+SharpImage as_it_is(const Volume<float>& image) {
+  return [&image](const auto& low, const auto& high) { return cropped(image, low, high); };
+}
+
 TEST(Lesion, StopsAtItsEdgeAndDropsTheVessel) {
   const Scene scene;
-  const FoundLesion found =
-      find_lesion(scene.image, scene.allowed, scene.centre + Eigen::Vector3d(3, -2, 1.5), {});
+  const FoundLesion found = find_lesion(scene.image, as_it_is(scene.image), scene.allowed,
+                                        scene.centre + Eigen::Vector3d(3, -2, 1.5), {});
   EXPECT_GT(scene.dice(found), 0.9);
   EXPECT_GT(found.agreement, 0.8);
   EXPECT_NEAR(found.brightness, 3.2, 0.05);
@@ -64,14 +70,17 @@ TEST(Lesion, RandomWalkerAgrees) {
   const Scene scene;
   LesionSearch search;
   search.random_walker = true;
-  EXPECT_GT(scene.dice(find_lesion(scene.image, scene.allowed, scene.centre, search)), 0.85);
+  EXPECT_GT(scene.dice(find_lesion(scene.image, as_it_is(scene.image), scene.allowed, scene.centre,
+                                   search)),
+            0.85);
 }
 
 TEST(Lesion, DarkOneInFatIsFound) {
   const Scene scene(false);
   LesionSearch search;
   search.brighter = false;
-  const FoundLesion found = find_lesion(scene.image, scene.allowed, scene.centre, search);
+  const FoundLesion found =
+      find_lesion(scene.image, as_it_is(scene.image), scene.allowed, scene.centre, search);
   EXPECT_GT(scene.dice(found), 0.9);
   EXPECT_NEAR(found.brightness, 0.42, 0.05);
 }
@@ -103,7 +112,8 @@ TEST(Lesion, LobesOfALargeOneStay) {
         return x.norm() < 14 || (x.x() > 0 && x.x() < 28 && std::hypot(x.y(), x.z()) < 5);
       },
       truth);
-  const FoundLesion found = find_lesion(image, image.like<std::uint8_t>(1), {1, 2, -1}, {});
+  const FoundLesion found =
+      find_lesion(image, as_it_is(image), image.like<std::uint8_t>(1), {1, 2, -1}, {});
   EXPECT_NEAR(volume_ratio(found, truth), 1, 0.05);
 }
 
@@ -118,11 +128,11 @@ TEST(Lesion, LongerThanTheUsualSearchIsFollowed) {
       truth);
   const auto allowed = image.like<std::uint8_t>(1);
   LesionSearch search;
-  const FoundLesion whole = find_lesion(image, allowed, {10, 0, 0}, search);
+  const FoundLesion whole = find_lesion(image, as_it_is(image), allowed, {10, 0, 0}, search);
   EXPECT_FALSE(whole.is_cut);
   EXPECT_NEAR(volume_ratio(whole, truth), 1, 0.05);
   search.reach_mm = 25;
-  const FoundLesion part = find_lesion(image, allowed, {10, 0, 0}, search);
+  const FoundLesion part = find_lesion(image, as_it_is(image), allowed, {10, 0, 0}, search);
   EXPECT_TRUE(part.is_cut);
   EXPECT_LT(volume_ratio(part, truth), 0.9);
 }
@@ -130,7 +140,8 @@ TEST(Lesion, LongerThanTheUsualSearchIsFollowed) {
 TEST(Lesion, WhereNothingStandsOutABallIsTaken) {
   Scene scene;
   for (float& value : scene.image.values) value = 1;
-  const FoundLesion found = find_lesion(scene.image, scene.allowed, {10, 10, 10}, {});
+  const FoundLesion found =
+      find_lesion(scene.image, as_it_is(scene.image), scene.allowed, {10, 10, 10}, {});
   EXPECT_TRUE(found.is_sphere);
 }
 
@@ -146,6 +157,23 @@ TEST(RandomWalker, SplitsAStepAtTheStep) {
   const auto inside = random_walk(image, image.like<std::uint8_t>(1), seeds, 1);
   EXPECT_TRUE(inside(7, 2, 2));
   EXPECT_FALSE(inside(8, 2, 2));
+}
+
+TEST(Lesion, ItsSurfaceIsJudgedInTheSharpImage) {
+  Volume<float> sharp({60, 60, 60}, Eigen::Vector3d::Ones(), {-30, -30, -30}, 1);
+  double voxels = 0;
+  for (int k = 0; k < 60; ++k)
+    for (int j = 0; j < 60; ++j)
+      for (int i = 0; i < 60; ++i)
+        if (sharp.position(i, j, k).norm() < 2.3) sharp(i, j, k) = 3, ++voxels;
+  const Volume<float> blurred = gaussian_smoothed(sharp, 1.6);
+  const auto allowed = sharp.like<std::uint8_t>(1);
+  const auto found_voxels = [&](const Volume<float>& seen) {
+    const FoundLesion found = find_lesion(blurred, as_it_is(seen), allowed, {1, 1, 0}, {});
+    return static_cast<double>(std::count(found.mask.values.begin(), found.mask.values.end(), 1));
+  };
+  EXPECT_EQ(found_voxels(sharp), voxels);
+  EXPECT_NE(found_voxels(blurred), voxels);
 }
 
 }  // namespace

@@ -19,7 +19,8 @@ Volume<float> lumps(const Eigen::Vector3d& moved, unsigned seed) {
     for (int j = 0; j < 60; ++j)
       for (int i = 0; i < 60; ++i) {
         const Eigen::Vector3d x = image.position(i, j, k) - moved;
-        const double wave = std::sin(0.33 * x.x()) * std::sin(0.29 * x.y()) * std::sin(0.31 * x.z());
+        const double wave =
+            std::sin(0.33 * x.x()) * std::sin(0.29 * x.y()) * std::sin(0.31 * x.z());
         image(i, j, k) =
             static_cast<float>(1 + 0.8 / (1 + std::exp(-12 * (wave - 0.3)))) + gauss(random);
       }
