@@ -15,6 +15,7 @@ using Mask = Volume<std::uint8_t>;
 
 constexpr double refit_mm = 10;
 constexpr std::size_t least_voxels = 200;  // fewer give no median worth the name
+constexpr float brightest_gland = 2.5;     // of fat; vessels and lesions are brighter
 
 double median_where(const Volume<float>& image, const Mask& mask) {
   std::vector<float> values;
@@ -153,12 +154,18 @@ class Split {
   /// settle it. Where the breast holds too little to be measured, the usual brightness is taken.
   void measure_gland(double middle) {
     for (int round = 0; round < 3; ++round) {
-      const double median =
-          median_where(corrected_, eroded_class(corrected_, statistics_, middle, gland_above_));
+      const double median = median_where(corrected_, pure_gland(middle));
       gland_is_measured_ = gland_above_ ? median > 1.15 : median > 0 && median < 0.85;
       gland_ = gland_is_measured_ ? median : usual_gland_;
       middle = (1 + gland_) / 2;
     }
+  }
+
+  Mask pure_gland(double threshold) const {
+    Mask mask = eroded_class(corrected_, statistics_, threshold, gland_above_);
+    for (std::size_t v = 0; v < mask.values.size(); ++v)
+      mask.values[v] &= corrected_.values[v] < brightest_gland;
+    return mask;
   }
 
   const Mask& statistics_;

@@ -16,7 +16,8 @@ struct TissueSplit {
 /// Starts from Otsu's threshold, erodes both classes by a voxel so that partial volume leaves
 /// their statistics, and takes the medians of eroded fat and eroded gland as pure tissue (study of
 /// segmentation, section 4: Dice 0.88 and 0.94, where mixture models stay at 0.84 and 0.91). The
-/// bias is refitted on what is within a fifth of either (10 mm). `statistics` is the part of the
+/// bias is refitted on what is within a fifth of either (10 mm). What is over 2.5 times as bright
+/// as fat is a vessel or a lesion and does not count for gland. `statistics` is the part of the
 /// interior that may enter them: away from skin, wall and lesions.
 TissueSplit split_tissue(const Volume<float>& image, const Volume<std::uint8_t>& interior,
                          const Volume<std::uint8_t>& statistics, bool fat_suppressed);

@@ -47,6 +47,27 @@ TEST(Fibroglandular, IsToldFromFatOnBothContrasts) {
   }
 }
 
+TEST(Fibroglandular, VesselsDoNotPassForIt) {
+  Tissue tissue(1);  // fat alone, and bias
+  const auto gland_at = [](int i, int j, int k) {
+    return Eigen::Vector3d(i % 30 - 10, j % 30 - 10, k % 30 - 15).norm() < 4;
+  };
+  for (int k = 0; k < 60; ++k)
+    for (int j = 0; j < 60; ++j)
+      for (int i = 0; i < 60; ++i) {
+        if (gland_at(i, j, k)) tissue.image(i, j, k) *= 1.8F;
+        if (std::hypot(i - 25, j - 25) < 5) tissue.image(i, j, k) *= 6;  // more than all gland
+      }
+  const TissueSplit split = split_tissue(tissue.image, tissue.all, tissue.all, true);
+  EXPECT_NEAR(split.gland, 1.8, 0.1);
+  double found = 0, gland = 0;
+  for (int k = 0; k < 60; ++k)
+    for (int j = 0; j < 60; ++j)
+      for (int i = 0; i < 60; ++i)
+        if (gland_at(i, j, k)) found += split.gland_fraction(i, j, k) > 0.5F, ++gland;
+  EXPECT_GT(found, 0.98 * gland);
+}
+
 TEST(Fibroglandular, ABreastOfFatHasNone) {
   Tissue tissue(1);
   const TissueSplit split = split_tissue(tissue.image, tissue.all, tissue.all, true);
