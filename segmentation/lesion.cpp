@@ -258,6 +258,7 @@ FoundLesion find_within(const Volume<float>& image, const SharpImage& sharp,
   part = gaussian_smoothed(std::move(part), smoothing_mm);
 
   lesion.mask = HalfMaximum(part, may, point_in_lps, search.reach_mm).run(lesion);
+  if (count(lesion.mask) > 0) sharpen_edge(sharp, may, search.brighter, lesion);
   const double ml = count(lesion.mask) * image.voxel_volume() / 1000;
   if (ml < least_ml || lesion.brightness - lesion.background < least_contrast ||
       (!search.brighter && compactness(lesion, ml) < least_compact)) {
@@ -266,7 +267,6 @@ FoundLesion find_within(const Volume<float>& image, const SharpImage& sharp,
       return may.values[v] && (x - point_in_lps).norm() <= fallback_mm;
     });
   } else {
-    sharpen_edge(sharp, may, search.brighter, lesion);
     lesion.is_cut = is_cut_by(search.reach_mm, point_in_lps, lesion.mask);
     const Mask walked = walk(part, may, lesion.mask, lesion);
     lesion.agreement = dice(lesion.mask, walked);

@@ -9,6 +9,7 @@
 #include "segmentation/half_body.h"
 #include "segmentation/pre_match.h"
 #include "segmentation/restored_scan.h"
+#include "segmentation/segment_limits.h"
 #include "segmentation/smoothing.h"
 
 namespace mammotwin {
@@ -80,10 +81,9 @@ struct Scan {
 Scan scan_of(const HalfBreast& half, SegmentQuality& quality) {
   Scan scan{half.scan, half.noise};
   if (half.pre.values.empty()) return scan;
-  constexpr double most_shift_mm = 1;
   const PreMatch match = match_pre(half.scan, half.pre, half.noise, half.inside);
   quality.pre_shift_mm = match.shift_mm;
-  if (match.shift_mm.value_or(0) > most_shift_mm) {
+  if (match.shift_mm.value_or(0) > limits::pre_shift_mm) {
     std::ostringstream reason;
     reason.setf(std::ios::fixed);
     reason.precision(1);

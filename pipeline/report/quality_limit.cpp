@@ -23,6 +23,7 @@ constexpr Limit kLimits[] = {
     {"segmentation.seg.nrrd", "breast_volume_ml", limits::least_breast_ml, limits::most_breast_ml, " ml"},
     {"segmentation.seg.nrrd", "chest_wall_doubt", -kNone, limits::chest_wall_doubt, ""},
     {"segmentation.seg.nrrd", "chest_wall_fat_behind", -kNone, limits::chest_wall_fat_behind, ""},
+    {"segmentation.seg.nrrd", "pre_shift_mm", -kNone, limits::pre_shift_mm, " mm"},
     {"segmentation.seg.nrrd", "signal_to_noise", limits::signal_to_noise, kNone, ""},
     {"segmentation.seg.nrrd", "volume_ratio", limits::volume_ratio, kNone, ""},
     {"prone.vtu", "skin_rms_mesh_to_data_mm", -kNone, limits::skin_rms_mm, " mm"},
