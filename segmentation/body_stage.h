@@ -15,10 +15,11 @@ struct BodyStage {
   Volume<float> image;  ///< cropped in front of the breasts and far behind the chest
   Volume<float> clean;  ///< the same, denoised
   Volume<std::uint8_t> body;
-  Volume<float> depth;  ///< below the skin [mm]
+  Volume<float> depth;        ///< below the skin [mm]
   Volume<float> pre;          ///< before contrast agent, on the same grid; may be empty
   Volume<float> enhancement;  ///< relative_enhancement; empty without `pre`
-  double noise = 0;     ///< standard deviation in the body [image units]
+  double noise = 0;           ///< standard deviation between voxels beside each other [image units]
+  double noise_at_distance = 0;  ///< between voxels whose noise is not correlated; no less
   BreastFrame frame;
   Contrast contrast;
 };

@@ -52,27 +52,6 @@ class Likeness {
 
 }  // namespace
 
-double noise_of_detail(const Volume<float>& image, const Volume<std::uint8_t>& where) {
-  constexpr double median_of_normal = 0.6745;  // of its absolute value
-  std::vector<double> details;
-  for (int k = 0; k + 1 < image.size.z(); k += 2)
-    for (int j = 0; j + 1 < image.size.y(); j += 2)
-      for (int i = 0; i + 1 < image.size.x(); i += 2) {
-        double detail = 0;
-        bool in = true;
-        for (int c = 0; c < 8 && in; ++c) {
-          const int a = c & 1, b = (c >> 1) & 1, d = c >> 2;
-          in = where(i + a, j + b, k + d);
-          detail += ((a + b + d) % 2 ? -1 : 1) * static_cast<double>(image(i + a, j + b, k + d));
-        }
-        if (in) details.push_back(std::abs(detail) / std::sqrt(8.0));
-      }
-  if (details.empty()) return 0;
-  const auto middle = details.begin() + static_cast<std::ptrdiff_t>(details.size() / 2);
-  std::nth_element(details.begin(), middle, details.end());
-  return *middle / median_of_normal;
-}
-
 Volume<float> denoised(const Volume<float>& image, double noise) {
   if (!(noise > 0)) return image;
   const std::vector<Neighbour> around = neighbours();

@@ -110,6 +110,7 @@ void cut_images(const BodyStage& body, const WallStage& wall, const Crop& crop, 
   half.scan = cropped(wall.corrected, crop.low, crop.high);
   half.image = half.scan;
   half.noise = half.scan.like<float>(0);
+  if (body.noise > 0) half.noise_spread = body.noise_at_distance / body.noise;
   const Volume<float> scan = cropped(body.image, crop.low, crop.high);
   const Volume<float> clean = cropped(body.clean, crop.low, crop.high);
   if (!body.pre.values.empty()) half.pre = cropped(body.pre, crop.low, crop.high);

@@ -32,7 +32,7 @@ struct SegmentQuality {
   std::optional<double> chest_wall_fat_behind;  ///< share of the wall with fat behind it
   std::optional<double> failed_suppression_ml;  ///< breast brighter than twice fat
   std::optional<double> pre_shift_mm;           ///< PreMatch, of an image before contrast agent
-  std::optional<double> signal_to_noise;        ///< median breast over the noise of air
+  std::optional<double> signal_to_noise;        ///< fat over the noise between neighbours
   std::optional<double> clipped_share;          ///< of the skin's outline at the image's border
   std::optional<double> volume_ratio;           ///< of the two breasts, smaller over larger
   /// What takes up contrast agent, where an image before it is given; offered, not segmented.

@@ -108,7 +108,8 @@ Volume<float> restored(const HalfBreast& half, const Volume<std::uint8_t>& inter
   Volume<float> image = half.image;
   const auto [low, high] = labelled_box(interior, 0);
   if ((low.array() > high.array()).any()) return image;
-  const Scan scan = scan_of(half, quality);
+  Scan scan = scan_of(half, quality);
+  for (float& noise : scan.noise.values) noise *= static_cast<float>(half.noise_spread);
   const Volume<float> clean =
       restored_scan(cropped(scan.image, low, high), cropped(scan.noise, low, high));
   for (int k = low.z(); k <= high.z(); ++k)

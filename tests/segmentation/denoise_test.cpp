@@ -44,12 +44,5 @@ TEST(Denoise, LeavesAnImageWithoutNoiseAlone) {
     EXPECT_NEAR(out.values[v], image.values[v], 0.1);
 }
 
-TEST(NoiseOfDetail, IsThatOfTheImageBesideAnEdge) {
-  const Volume<float> image = noisy_step();
-  // 8 x 8 x 10 cubes: the median of 640 has a standard deviation of 5 %.
-  EXPECT_NEAR(noise_of_detail(image, image.like<std::uint8_t>(1)), noise, 3 * 0.05 * noise);
-  EXPECT_EQ(noise_of_detail(image, image.like<std::uint8_t>(0)), 0);
-}
-
 }  // namespace
 }  // namespace mammotwin

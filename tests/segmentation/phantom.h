@@ -5,6 +5,7 @@
 #include <random>
 
 #include "segmentation/volume.h"
+#include "tests/segmentation/filtered.h"
 
 namespace mammotwin {
 
@@ -15,8 +16,9 @@ struct Phantom {
   double voxel_mm = 2;
   double skin_mm = 2.5;
   bool fat_suppressed = true;
-  double noise = 0.02;   ///< over fat
-  double shading = 0.0;  ///< log of the change over the image's depth
+  double noise = 0.02;       ///< over fat
+  bool is_filtered = false;  ///< the image with its noise, before its magnitude is taken
+  double shading = 0.0;      ///< log of the change over the image's depth
   double fat_grey = 200;
   bool contrast_agent = false;  ///< not suppressed: lesion 0.95 for 0.42, gland 0.55 for 0.45
 
@@ -56,12 +58,13 @@ struct Phantom {
     return 1;
   }
 
-  /// The image, each voxel the mean of 2 x 2 x 2 points, with shading and Gaussian noise.
+  /// The image, each voxel the mean of 2 x 2 x 2 points, with shading and Rician noise.
   Volume<float> image() const {
     const Eigen::Vector3d extent(320, 170, 180), low(-160, -50, -90);
     const Eigen::Vector3i size = (extent / voxel_mm).array().round().cast<int>().matrix();
     Volume<float> out(size, Eigen::Vector3d::Constant(voxel_mm),
                       low + Eigen::Vector3d::Constant(voxel_mm / 2), 0);
+    Volume<float> imaginary = out;
     std::mt19937 random(3);
     std::normal_distribution<double> gauss(0, noise);
     for (int k = 0; k < size.z(); ++k)
@@ -74,9 +77,12 @@ struct Phantom {
             sum += brightness(x + (step.array() - 0.5).matrix() * voxel_mm / 2) / 8;
           }
           const double coil = std::exp(-shading * (x.y() - low.y()) / extent.y());
-          const double real = sum * coil + gauss(random), imaginary = gauss(random);
-          out(i, j, k) = static_cast<float>(fat_grey * std::hypot(real, imaginary));
+          out(i, j, k) = static_cast<float>(fat_grey * (sum * coil + gauss(random)));
+          imaginary(i, j, k) = static_cast<float>(fat_grey * gauss(random));
         }
+    if (is_filtered) out = filtered(out), imaginary = filtered(imaginary);
+    for (std::size_t v = 0; v < out.values.size(); ++v)
+      out.values[v] = std::hypot(out.values[v], imaginary.values[v]);
     return out;
   }
 };
