@@ -19,8 +19,8 @@ constexpr double widest_degrees = 90, step_degrees = 1.5;
 constexpr double row_mm = 2, axis_behind_mm = 110, beyond_slices_mm = 25;
 constexpr int max_jump_mm = 4;
 
-/// Mean brightness 2 to 5 mm behind the wall, of each ray: clear of the edge's blur, and still in the
-/// thin muscle below the breast.
+/// Mean brightness 2 to 5 mm behind the wall, of each ray: clear of the edge's blur, and still in
+/// the thin muscle below the breast.
 std::vector<float> brightness_behind(const PectoralWall& wall, const Volume<float>& image) {
   constexpr int from_mm = 2, to_mm = 5;
   std::vector<float> behind;
@@ -93,8 +93,11 @@ PectoralWall find_pectoral_wall(const Volume<float>& corrected, const Volume<std
   const PolarRays rays = cast_rays(corrected, body, wall);
   std::vector<WallContrast> contrasts(rays.exit.size(), contrast);
   FoundDepths found = search(rays, contrasts, stiffness);
-  contrasts = local_contrasts(rays, found.depth, found.cost, contrast);
-  found = search(rays, contrasts, stiffness);
+  constexpr int rounds = 2;  // a wall that stood on gland is on muscle in the first
+  for (int round = 0; round < rounds; ++round) {
+    contrasts = local_contrasts(rays, found.depth, found.cost, contrast);
+    found = search(rays, contrasts, stiffness);
+  }
   wall.cost = found.cost;
   wall.contrast = contrasts;
   for (const double d : refined_depths(rays, found.depth, contrasts))

@@ -14,6 +14,8 @@ struct WallContrast {
   double fat = 1;
   double muscle = 1.55;
   double roughness = 0;  ///< standard deviation along 5 mm of muscle; 0: not known
+  double gland = 0;      ///< in front of the wall; 0: not known, or not to be told from muscle
+  double spread = 0.2;   ///< of the logarithm in each: noise, texture and what bias is left
 };
 
 /// The front of the chest wall as a radius over angle and height, round a vertical axis behind the
@@ -51,7 +53,8 @@ struct PectoralWall {
 
 /// Finds the front of the pectoral muscle in a bias-corrected image with fat at 1.
 ///
-/// The radius over angle and height is found by a semi-global search over the cost of wall_cost.h;
+/// The radius over angle and height is found by a semi-global search over the cost of wall_cost.h,
+/// twice again with the brightness that wall_contrast.h measures round the wall found before;
 /// wall_refinement.h then moves it to the middle of the step that the image shows there.
 PectoralWall find_pectoral_wall(const Volume<float>& corrected, const Volume<std::uint8_t>& body,
                                 const BreastFrame& frame, const WallContrast& contrast,

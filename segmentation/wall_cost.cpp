@@ -39,7 +39,10 @@ class WallCost {
   explicit WallCost(const WallContrast& contrast)
       : log_fat_(std::log(contrast.fat)),
         log_muscle_(std::log(contrast.muscle)),
-        roughness_(contrast.roughness) {
+        log_gland_(std::log(contrast.gland > 0 ? contrast.gland : contrast.fat)),
+        spread_(contrast.spread),
+        roughness_(contrast.roughness),
+        knows_gland_(contrast.gland > 0) {
     dark_ = 0.5 * std::min(contrast.fat, contrast.muscle);
   }
 
@@ -47,7 +50,7 @@ class WallCost {
     std::vector<float> log_intensity, likelihood, dark, value(ray, ray + exit), square;
     for (int d = 0; d < exit; ++d) {
       log_intensity.push_back(std::log(ray[d]));
-      likelihood.push_back(muscle_over_fat(log_intensity.back()));
+      likelihood.push_back(muscle_over_others(log_intensity.back()));
       square.push_back(ray[d] * ray[d]);
       dark.push_back(ray[d] < dark_ ? 1.0F : 0.0F);
     }
@@ -62,17 +65,22 @@ class WallCost {
       const double inside = muscle.mean(d - inside_mm, d);
       const double outside = muscle.mean(d, std::min(d + outside_mm, exit - 2));
       const double region = (outside - inside) / strongest_;
-      const double step = logs.mean(d + blur_mm, d + blur_mm + edge_mm) -
-                          logs.mean(d - blur_mm - edge_mm, d - blur_mm);
-      const double edge = std::clamp(-step / (log_muscle_ - log_fat_), -1.0, 1.0);
+      const double edge = knows_gland_ ? outward_fall(muscle, d) / (2 * strongest_)
+                                       : outward_fall(logs, d) / (log_muscle_ - log_fat_);
       const double dark_mm = darks.sum(d + 1, exit - below_skin_mm);
       const double dark_inside = darks.mean(d - inside_mm, d);
-      cost[d] = static_cast<float>(0.5 * region - 2 * edge + dark_mm / 10 + dark_inside +
-                                   2 * roughness(values, squares, d));
+      cost[d] = static_cast<float>(0.5 * region - 2 * std::clamp(edge, -1.0, 1.0) + dark_mm / 10 +
+                                   dark_inside + 2 * roughness(values, squares, d));
     }
   }
 
  private:
+  /// Mean 1 to 3 mm inside less that 1 to 3 mm outside.
+  static double outward_fall(const RunningSum& along, int d) {
+    return along.mean(d - blur_mm - edge_mm, d - blur_mm) -
+           along.mean(d + blur_mm, d + blur_mm + edge_mm);
+  }
+
   /// How much rougher than muscle the inside is: 0 up to 1.5 times, 1 from 3 times on.
   double roughness(const RunningSum& values, const RunningSum& squares, int d) const {
     if (roughness_ <= 0) return 0;
@@ -83,21 +91,23 @@ class WallCost {
     return std::clamp((ratio - harmless) / (full - harmless), 0.0, 1.0);
   }
 
-  /// log p(muscle) - log p(fat), cut at +-3; both classes have the same spread. What is like
-  /// neither (lung, vessels) says nothing: a hundredth of the peak is there for it.
-  float muscle_over_fat(float log_intensity) const {
-    constexpr double spread = 0.2;  // of log intensity: noise, texture and what bias is left
-    constexpr double neither = 0.01;
+  /// log p(muscle) less that of fat or gland, whichever is likelier, cut at +-3; all have the same
+  /// spread. What is like none of them (lung, vessels) says nothing: a hundredth of the peak is
+  /// there for it.
+  float muscle_over_others(float log_intensity) const {
+    constexpr double none = 0.01;
     const auto likelihood = [&](double mean) {
-      const double d = (log_intensity - mean) / spread;
-      return std::exp(-0.5 * d * d) + neither;
+      const double d = (log_intensity - mean) / spread_;
+      return std::exp(-0.5 * d * d) + none;
     };
-    const double ratio = std::log(likelihood(log_muscle_) / likelihood(log_fat_));
+    const double others = std::max(likelihood(log_fat_), likelihood(log_gland_));
+    const double ratio = std::log(likelihood(log_muscle_) / others);
     return static_cast<float>(std::clamp(ratio, -strongest_, strongest_));
   }
 
   static constexpr double strongest_ = 3;
-  double log_fat_, log_muscle_, roughness_, dark_;
+  double log_fat_, log_muscle_, log_gland_, spread_, roughness_, dark_;
+  bool knows_gland_;
 };
 
 }  // namespace

@@ -9,6 +9,10 @@ namespace mammotwin {
 /// What it costs to put the wall between the samples d - 1 and d of each ray; laid out as the
 /// intensities of the rays. `contrast` is that of each ray.
 ///
+/// Where the contrast knows gland, a tissue is taken for muscle only if that is likelier than
+/// gland, and the edge is that of the likelihoods: from gland to muscle brightness changes little,
+/// and the other way.
+///
 /// 0.5 times a region term (fat in the 6 mm outside, muscle in the 7 mm inside, by
 /// log-likelihood), minus 2 times the signed edge (outward: darker where muscle is brighter than
 /// fat; 1 to 3 mm to either side), plus dark tissue in front of it (per 10 mm), plus the dark share

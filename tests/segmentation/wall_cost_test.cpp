@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace mammotwin {
@@ -38,6 +39,18 @@ TEST(WallCost, IsLowestAtTheFrontOfMuscle) {
   for (int d = 0; d < PolarRays::depths; ++d)
     if (cost[d] < cost[best]) best = d;
   EXPECT_EQ(best, 60) << "between the samples 59 and 60";
+}
+
+TEST(WallCost, IsLowestAtTheFrontOfMuscleUnderGlandThatIsKnown) {
+  PolarRays rays{1, 1, {}, {120}};
+  for (int d = 0; d < PolarRays::depths; ++d)
+    rays.intensity.push_back(d < 60 ? 1.5F : d < 80 ? 1.9F : 1.0F);
+  const auto best = [&](const WallContrast& contrast) {
+    const std::vector<float> cost = wall_costs(rays, {contrast});
+    return std::min_element(cost.begin(), cost.end()) - cost.begin();
+  };
+  EXPECT_EQ(best({1, 1.5, 0, 0}), 80) << "gland passes for muscle";
+  EXPECT_EQ(best({1, 1.5, 0, 1.9, 0.05}), 60);
 }
 
 }  // namespace

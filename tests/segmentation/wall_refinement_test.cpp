@@ -57,5 +57,28 @@ TEST(WallContrast, IsMeasuredWhereTheImageSupportsTheWall) {
   }
 }
 
+/// Rays of muscle (1.5, one sample in two brighter by `mix`) up to 60 and fat, with gland of 2 over
+/// 35 mm of it in every third.
+PolarRays rays_under_gland(float mix) {
+  PolarRays rays{rows, angles, {}, std::vector<int>(rows * angles, 150)};
+  for (int n = 0; n < rows * angles; ++n)
+    for (int d = 0; d < PolarRays::depths; ++d)
+      rays.intensity.push_back(d < 60                 ? 1.5F + static_cast<float>(d % 2) * mix
+                               : n % 3 == 0 && d < 95 ? 2.0F
+                                                      : 1.0F);
+  return rays;
+}
+
+TEST(WallContrast, KnowsGlandThatDiffersFromMuscleMoreThanMuscleFromItself) {
+  const std::vector<double> depth(rows * angles, 60);
+  const std::vector<float> cost(rows * angles, -2);
+  for (const WallContrast& c : local_contrasts(rays_under_gland(0.05F), depth, cost, {1, 1.55})) {
+    EXPECT_NEAR(c.gland, 2, 1e-5);
+    EXPECT_NEAR(c.spread, 0.05, 1e-9) << "the least";
+  }
+  for (const WallContrast& c : local_contrasts(rays_under_gland(0.5F), depth, cost, {1, 1.55}))
+    EXPECT_EQ(c.gland, 0) << "muscle of 1.5 and 2";
+}
+
 }  // namespace
 }  // namespace mammotwin
