@@ -117,6 +117,32 @@ TEST(Lesion, LobesOfALargeOneStay) {
   EXPECT_NEAR(volume_ratio(found, truth), 1, 0.05);
 }
 
+TEST(Lesion, LobeOnANeckStaysIfItIsAsBright) {
+  // The neck is thinner than what opening takes off.
+  const auto lobe = [](const Eigen::Vector3d& x) {
+    return (x - Eigen::Vector3d(17, 0, 0)).norm() < 5;
+  };
+  Volume<std::uint8_t> truth;
+  Volume<float> image = lesion_in_fat(
+      [&](const Eigen::Vector3d& x) {
+        return x.norm() < 9 || lobe(x) || (x.x() > 0 && x.x() < 17 && std::hypot(x.y(), x.z()) < 2);
+      },
+      truth);
+  const auto allowed = image.like<std::uint8_t>(1);
+  EXPECT_NEAR(volume_ratio(find_lesion(image, as_it_is(image), allowed, {1, 2, -1}, {}), truth), 1,
+              0.05);
+
+  double voxels = 0, in_lobe = 0;
+  for (int k = 0; k < 80; ++k)
+    for (int j = 0; j < 80; ++j)
+      for (int i = 0; i < 110; ++i) {
+        voxels += truth(i, j, k);
+        if (lobe(image.position(i, j, k))) image(i, j, k) = 4.5F, ++in_lobe;  // a vessel, say
+      }
+  EXPECT_NEAR(volume_ratio(find_lesion(image, as_it_is(image), allowed, {1, 2, -1}, {}), truth),
+              1 - in_lobe / voxels, 0.05);
+}
+
 TEST(Lesion, LongerThanTheUsualSearchIsFollowed) {
   // From the point it goes on for 42 mm.
   Volume<std::uint8_t> truth;
