@@ -81,10 +81,8 @@ float BiasEstimate::correction(const Eigen::Vector3d& x_in_lps) const {
 
 BiasEstimate estimate_bias(const Volume<float>& image, const Volume<std::uint8_t>& mask,
                            int num_classes) {
-  const Eigen::Vector3i factor =
-      (block_mm / image.spacing.array()).round().max(1).cast<int>().matrix();
   Volume<float> share;
-  Volume<float> y = block_means(image, mask, factor, share);
+  Volume<float> y = block_means(image, mask, block_mm, share);
   std::vector<float> inside;
   for (std::size_t v = 0; v < y.values.size(); ++v) {
     y.values[v] = std::log(std::max(y.values[v], 1e-6F));

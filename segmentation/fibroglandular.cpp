@@ -78,12 +78,10 @@ struct PureTissue {
     }
   }
 
-  /// Divides the image by the smoothed ratio, on blocks: the field is 10 mm wide.
+  /// Divides the image by the smoothed ratio.
   void divide_out_of(Volume<float>& image) {
-    Volume<float> share;
-    const Eigen::Vector3i factor = (3 / image.spacing.array()).round().max(1).cast<int>().matrix();
-    const Volume<float> coarse = block_means(log_ratio, known, factor, share);
-    const Volume<float> field = weighted_smoothed(coarse, share, refit_mm);
+    constexpr double block_mm = 3;
+    const Volume<float> field = smooth_field(log_ratio, known, block_mm, refit_mm);
     for (int k = 0; k < image.size.z(); ++k)
       for (int j = 0; j < image.size.y(); ++j)
         for (int i = 0; i < image.size.x(); ++i)

@@ -21,11 +21,7 @@ Volume<float> layer_brightness(const Volume<float>& image, const Volume<float>& 
   auto layer = depth.like<std::uint8_t>(0);
   for (std::size_t v = 0; v < depth.values.size(); ++v)
     layer.values[v] = depth.values[v] > layer_from_mm && depth.values[v] < layer_to_mm;
-  const Eigen::Vector3i factor =
-      (block_mm / image.spacing.array()).round().max(1).cast<int>().matrix();
-  Volume<float> share;
-  const Volume<float> means = block_means(image, layer, factor, share);
-  Volume<float> brightness = weighted_smoothed(means, share, smoothing_mm);
+  Volume<float> brightness = smooth_field(image, layer, block_mm, smoothing_mm);
   std::replace(brightness.values.begin(), brightness.values.end(), 0.0F, 1.0F);
   return brightness;
 }

@@ -44,10 +44,8 @@ Crop side_box(const Volume<float>& image, const BreastFrame& frame, Side side) {
 /// The logarithm of the bias that N4 finds in `where`, 0 in the mean there, on blocks of 4 mm.
 std::optional<Volume<float>> bias_by_n4(const Volume<float>& image,
                                         const Volume<std::uint8_t>& where) {
-  const Eigen::Vector3i factor =
-      (n4_block_mm / image.spacing.array()).round().max(1).cast<int>().matrix();
   Volume<float> share;
-  const Volume<float> coarse = block_means(image, where, factor, share);
+  const Volume<float> coarse = block_means(image, where, n4_block_mm, share);
   RawImage raw;
   std::vector<std::uint8_t> mask;
   for (int a = 0; a < 3; ++a) {

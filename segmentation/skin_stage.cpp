@@ -34,17 +34,15 @@ Volume<std::uint8_t> over_fat(const Volume<float>& image, const Volume<float>& d
   auto below = layer;
   for (std::size_t v = 0; v < below.values.size(); ++v)
     below.values[v] = depth.values[v] > from_mm && depth.values[v] < to_mm;
-  const Eigen::Vector3i factor =
-      (block_mm / image.spacing.array()).round().max(1).cast<int>().matrix();
-  Volume<float> share;
-  const Volume<float> means = block_means(image, below, factor, share);
-  const Volume<float> around = weighted_smoothed(means, share, neighbourhood_mm);
+  const Volume<float> around = smooth_field(image, below, block_mm, neighbourhood_mm);
   auto chosen = layer;
   for (int k = 0; k < layer.size.z(); ++k)
     for (int j = 0; j < layer.size.y(); ++j)
       for (int i = 0; i < layer.size.x(); ++i) {
         if (!layer(i, j, k)) continue;
-        const float here = around(i / factor.x(), j / factor.y(), k / factor.z());
+        const Eigen::Vector3i block =
+            around.index(layer.position(i, j, k)).array().round().cast<int>().matrix();
+        const float here = around(block.x(), block.y(), block.z());
         chosen(i, j, k) = here > darkest && here < brightest;
       }
   return chosen;

@@ -98,7 +98,9 @@ float interpolated(const Volume<float>& image, const Eigen::Vector3d& x_in_lps) 
 }
 
 Volume<float> block_means(const Volume<float>& image, const Volume<std::uint8_t>& mask,
-                          const Eigen::Vector3i& factor, Volume<float>& share) {
+                          double block_mm, Volume<float>& share) {
+  const Eigen::Vector3i factor =
+      (block_mm / image.spacing.array()).round().max(1).cast<int>().matrix();
   const Eigen::Vector3i size =
       ((image.size.array() + factor.array() - 1) / factor.array()).matrix();
   const Eigen::Vector3d f = factor.cast<double>();
@@ -119,6 +121,13 @@ Volume<float> block_means(const Volume<float>& image, const Volume<std::uint8_t>
       }
   });
   return mean;
+}
+
+Volume<float> smooth_field(const Volume<float>& image, const Volume<std::uint8_t>& mask,
+                           double block_mm, double sigma) {
+  Volume<float> share;
+  const Volume<float> mean = block_means(image, mask, block_mm, share);
+  return weighted_smoothed(mean, share, sigma);
 }
 
 }  // namespace mammotwin

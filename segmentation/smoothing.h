@@ -21,9 +21,14 @@ Volume<float> local_maximum(Volume<float> image, int n);
 /// Trilinear value at a point [mm]; beyond the grid the nearest face's value.
 float interpolated(const Volume<float>& image, const Eigen::Vector3d& x_in_lps);
 
-/// A coarser grid of blocks of `factor` voxels: mean over the voxels in the mask. `share` receives
-/// the part of each block that lies in the mask.
+/// A coarser grid of blocks of whole voxels, about `block_mm` a side: mean over the voxels in the
+/// mask. `share` receives the part of each block that lies in the mask.
 Volume<float> block_means(const Volume<float>& image, const Volume<std::uint8_t>& mask,
-                          const Eigen::Vector3i& factor, Volume<float>& share);
+                          double block_mm, Volume<float>& share);
+
+/// The local mean over the mask as a field `sigma` mm wide, on such blocks; 0 where nothing of the
+/// mask is within reach.
+Volume<float> smooth_field(const Volume<float>& image, const Volume<std::uint8_t>& mask,
+                           double block_mm, double sigma);
 
 }  // namespace mammotwin

@@ -46,10 +46,9 @@ double judge_skin(const SlabFit& skin, const SegmentOptions& options, SegmentQua
 
 /// Volume [ml] that is brighter than twice fat after smoothing by 6 mm: suppression has failed.
 double failed_suppression_ml(const Volume<float>& image, const Volume<std::uint8_t>& interior) {
-  constexpr double smoothing_mm = 6, alarm = 2;
-  const Eigen::Vector3i factor = (3 / image.spacing.array()).round().max(1).cast<int>().matrix();
+  constexpr double block_mm = 3, smoothing_mm = 6, alarm = 2;
   Volume<float> share;
-  const Volume<float> coarse = block_means(image, interior, factor, share);
+  const Volume<float> coarse = block_means(image, interior, block_mm, share);
   const Volume<float> smooth = weighted_smoothed(coarse, share, smoothing_mm);
   double count = 0;
   for (std::size_t v = 0; v < smooth.values.size(); ++v)

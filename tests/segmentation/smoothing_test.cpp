@@ -51,11 +51,24 @@ TEST(Smoothing, BlockMeansCountTheMaskOnly) {
   auto mask = image.like<std::uint8_t>(0);
   mask(0, 0, 0) = mask(1, 1, 1) = 1;
   Volume<float> share;
-  const auto mean = block_means(image, mask, {2, 2, 2}, share);
+  const auto mean = block_means(image, mask, 3, share);  // 3 x 2 x 2 voxels
   EXPECT_NEAR(mean(0, 0, 0), (image(0, 0, 0) + image(1, 1, 1)) / 2, 1e-5);
-  EXPECT_NEAR(share(0, 0, 0), 0.25, 1e-6);
+  EXPECT_NEAR(share(0, 0, 0), 2.0 / 12, 1e-6);
   EXPECT_TRUE(
-      mean.position(0, 0, 0).isApprox((image.position(0, 0, 0) + image.position(1, 1, 1)) / 2));
+      mean.position(0, 0, 0).isApprox((image.position(0, 0, 0) + image.position(2, 1, 1)) / 2));
+}
+
+TEST(Smoothing, SmoothFieldFollowsTheMaskedVoxelsAndEndsFarFromThem) {
+  Volume<float> image({40, 12, 12}, Eigen::Vector3d::Ones(), Eigen::Vector3d::Zero(), 7);
+  auto mask = image.like<std::uint8_t>(0);
+  for (int k = 0; k < 12; ++k)
+    for (int j = 0; j < 12; ++j)
+      for (int i = 0; i < 10; ++i) image(i, j, k) = 3, mask(i, j, k) = 1;
+  const auto field = smooth_field(image, mask, 2, 2);
+  EXPECT_EQ(field.size, Eigen::Vector3i(20, 6, 6));
+  EXPECT_NEAR(field(0, 3, 3), 3, 1e-5);
+  EXPECT_NEAR(field(6, 3, 3), 3, 1e-5) << "what is not in the mask does not count";
+  EXPECT_EQ(field(19, 3, 3), 0);
 }
 
 TEST(Smoothing, LocalMaximumReachesItsCube) {
