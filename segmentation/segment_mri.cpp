@@ -105,8 +105,7 @@ void add_enhancement(const SegmentInput& input, BodyStage& body, SegmentResult& 
   const Mri pre = read_mri(input.pre ? *input.pre : *input.mri, input.pre_series);
   result.files.insert(result.files.end(), pre.files.begin(), pre.files.end());
   body.pre = on_grid_of(body.image, pre.image);
-  body.enhancement =
-      relative_enhancement(body.clean, denoised(body.pre, body.noise), body.noise);
+  body.enhancement = relative_enhancement(body.clean, denoised(body.pre, body.noise), body.noise);
   result.quality.notes.push_back(
       "lesions were outlined in the enhancement over the image before contrast agent");
 }
@@ -151,12 +150,13 @@ SegmentResult segment_image(const Mri& mri, const SegmentInput& input,
   check_seeds(half, seeds);
   offer_candidates(half, result.quality);
   correct_shading(body.frame, half);
+  const TissueScan scan = tissue_scan(half, result.quality);
   progress(0.80, "finding the lesions");
   const Volume<std::uint8_t> lesions =
       find_lesions(half, seeds, body.contrast.fat_suppressed, options, result.quality);
   judge_lesions_on_wall(half, lesions, result.quality);
   progress(0.88, "telling skin, fat and fibroglandular tissue apart");
-  label_tissue(half, lesions, body.contrast.fat_suppressed, options, result);
+  label_tissue(half, scan, lesions, body.contrast.fat_suppressed, options, result);
   result.segmentation.region.side = side;
   result.segmentation.lesions = named_lesions(result.segmentation.labels, seeds);
   return result;

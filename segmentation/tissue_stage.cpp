@@ -7,7 +7,6 @@
 #include "segmentation/distance.h"
 #include "segmentation/fibroglandular.h"
 #include "segmentation/half_body.h"
-#include "segmentation/pre_match.h"
 #include "segmentation/restored_scan.h"
 #include "segmentation/segment_limits.h"
 #include "segmentation/smoothing.h"
@@ -70,45 +69,12 @@ void judge_suppression(const Volume<float>& image, const Volume<std::uint8_t>& i
   quality.doubt(SegmentStatus::look, reason.str());
 }
 
-/// What the scanner saw, with its noise.
-struct Scan {
-  Volume<float> image, noise;
-};
-
-/// Fat and gland hardly change with contrast agent: the image before it, where it lies on the one
-/// after, halves the noise's square.
-Scan scan_of(const HalfBreast& half, SegmentQuality& quality) {
-  Scan scan{half.scan, half.noise};
-  if (half.pre.values.empty()) return scan;
-  const PreMatch match = match_pre(half.scan, half.pre, half.noise, half.inside);
-  quality.pre_shift_mm = match.shift_mm;
-  if (match.shift_mm.value_or(0) > limits::pre_shift_mm) {
-    std::ostringstream reason;
-    reason.setf(std::ios::fixed);
-    reason.precision(1);
-    reason << "the image before contrast agent lies " << *match.shift_mm
-           << " mm off the one after it; expected " << limits::pre_shift_mm
-           << " mm at most (did the patient move?): lesions outlined in their difference may be "
-              "wrong";
-    quality.doubt(SegmentStatus::look, reason.str());
-    return scan;
-  }
-  const auto scale = static_cast<float>(match.scale);
-  for (std::size_t v = 0; v < scan.image.values.size(); ++v) {
-    scan.image.values[v] = (half.scan.values[v] + scale * half.pre.values[v]) / 2;
-    scan.noise.values[v] *= std::sqrt(1 + scale * scale) / 2;
-  }
-  return scan;
-}
-
-/// The image, restored within `interior`.
-Volume<float> restored(const HalfBreast& half, const Volume<std::uint8_t>& interior,
-                       SegmentQuality& quality) {
+/// The image, and the scan of tissue restored within `interior`.
+Volume<float> restored(const HalfBreast& half, const TissueScan& scan,
+                       const Volume<std::uint8_t>& interior) {
   Volume<float> image = half.image;
   const auto [low, high] = labelled_box(interior, 0);
   if ((low.array() > high.array()).any()) return image;
-  Scan scan = scan_of(half, quality);
-  for (float& noise : scan.noise.values) noise *= static_cast<float>(half.noise_spread);
   const Volume<float> clean =
       restored_scan(cropped(scan.image, low, high), cropped(scan.noise, low, high));
   for (int k = low.z(); k <= high.z(); ++k)
@@ -142,7 +108,8 @@ void continue_to_wall(Volume<std::uint8_t> known, Volume<std::uint8_t> hidden,
 
 }  // namespace
 
-void label_tissue(const HalfBreast& half, const Volume<std::uint8_t>& lesions, bool fat_suppressed,
+void label_tissue(const HalfBreast& half, const TissueScan& scan,
+                  const Volume<std::uint8_t>& lesions, bool fat_suppressed,
                   const SegmentOptions& options, SegmentResult& result) {
   const double skin = judge_skin(half.skin, options, result.quality);
   const Volume<float> to_lesion = distance_to(lesions);
@@ -158,7 +125,7 @@ void label_tissue(const HalfBreast& half, const Volume<std::uint8_t>& lesions, b
         to_lesion.values[v] > lesion_left_out_mm &&
         (half.enhancement.values.empty() || half.enhancement.values[v] < vessel_enhancement);
   }
-  const Volume<float> clean = restored(half, interior, result.quality);
+  const Volume<float> clean = restored(half, scan, interior);
   TissueSplit split = split_tissue(clean, interior, statistics, fat_suppressed);
   continue_to_wall(interior, beside_wall, split.gland_fraction);
   if (fat_suppressed) judge_suppression(half.widely_corrected, statistics, result.quality);
