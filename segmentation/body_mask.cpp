@@ -8,17 +8,14 @@
 
 #include "segmentation/components.h"
 #include "segmentation/distance.h"
+#include "segmentation/order_statistics.h"
 #include "segmentation/smoothing.h"
 
 namespace mammotwin {
 namespace {
 
-/// The value below which `share` of the values lie; reorders them. 0 for none.
-float quantile(std::vector<float>& values, double share) {
-  if (values.empty()) return 0;
-  const auto n = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), values.begin() + n, values.end());
-  return values[static_cast<std::size_t>(n)];
+float quantile_or_zero(std::vector<float>& values, double share) {
+  return values.empty() ? 0 : quantile(values, share);
 }
 
 /// Sets to body what neither the front nor the sides of a slice reach through air.
@@ -52,18 +49,18 @@ double estimate_noise(const Volume<float>& image) {
     if (image.values[v] > 0) sample.push_back(image.values[v]);
   // A Rayleigh distribution has 10 % below 0.459 sigma; cut at 3 sigma, its mean square is 1.899
   // sigma^2. The fixed point belongs to air as long as air is a tenth of the image.
-  double sigma = quantile(sample, 0.10) / 0.459;
+  double sigma = quantile_or_zero(sample, 0.10) / 0.459;
   for (int round = 0; round < 20; ++round) {
     double sum = 0, count = 0;
     for (const float value : sample)
       if (value < 3 * sigma) sum += static_cast<double>(value) * value, ++count;
     if (count > 0) sigma = std::sqrt(sum / count / 1.899);
   }
-  const float middle = quantile(sample, 0.5);
+  const float middle = quantile_or_zero(sample, 0.5);
   std::vector<float> upper;
   for (const float value : sample)
     if (value > middle) upper.push_back(value);
-  return std::min(sigma, 0.1 * quantile(upper, 0.5));
+  return std::min(sigma, 0.1 * quantile_or_zero(upper, 0.5));
 }
 
 Volume<std::uint8_t> coarse_body(const Volume<float>& image, double noise) {
@@ -75,7 +72,8 @@ Volume<std::uint8_t> coarse_body(const Volume<float>& image, double noise) {
     std::vector<float> tissue;
     for (std::size_t v = 0; v < slice; ++v)
       if (first[v] > noise_factor * noise) tissue.push_back(first[v]);
-    const double threshold = std::max(noise_factor * noise, tissue_share * quantile(tissue, 0.5));
+    const double threshold =
+        std::max(noise_factor * noise, tissue_share * quantile_or_zero(tissue, 0.5));
     for (std::size_t v = 0; v < slice; ++v) body.values[k * slice + v] = first[v] > threshold;
   });
   // Filled first, so that dark tissue inside does not open.

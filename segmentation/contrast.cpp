@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "segmentation/em_bias.h"
+#include "segmentation/order_statistics.h"
 
 namespace mammotwin {
 namespace {
@@ -36,9 +37,7 @@ double quantile_at(const Volume<float>& image, const Volume<float>& depth, const
     }
   }
   if (values.empty()) return 0;
-  const auto n = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), values.begin() + n, values.end());
-  return values[static_cast<std::size_t>(n)];
+  return quantile(values, share);
 }
 
 double brightest_bin(const Volume<float>& image, const Volume<float>& depth,

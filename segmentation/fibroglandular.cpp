@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "segmentation/distance.h"
+#include "segmentation/order_statistics.h"
 #include "segmentation/smoothing.h"
 
 namespace mammotwin {
@@ -22,8 +23,7 @@ double median_where(const Volume<float>& image, const Mask& mask) {
   for (std::size_t v = 0; v < mask.values.size(); ++v)
     if (mask.values[v]) values.push_back(image.values[v]);
   if (values.size() < least_voxels) return 0;
-  std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
-  return values[values.size() / 2];
+  return median(values);
 }
 
 /// Otsu's threshold over the mask, in 256 bins up to the 99.5th percentile.

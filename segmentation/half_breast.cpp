@@ -12,6 +12,7 @@
 #include "segmentation/flank_shading.h"
 #include "segmentation/half_body.h"
 #include "segmentation/n4.h"
+#include "segmentation/order_statistics.h"
 #include "segmentation/skin_stage.h"
 #include "segmentation/smoothing.h"
 
@@ -96,9 +97,8 @@ Volume<float> corrected_widely(Volume<float> image, const Volume<float>& log_bia
         if (where(i, j, k)) values.push_back(image(i, j, k));
       }
   if (values.empty()) return image;
-  std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
-  const float median = std::max(values[values.size() / 2], 1e-6F);
-  for (float& value : image.values) value /= median;
+  const float one = std::max(median(values), 1e-6F);
+  for (float& value : image.values) value /= one;
   return image;
 }
 

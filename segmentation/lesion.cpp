@@ -8,6 +8,7 @@
 #include "segmentation/components.h"
 #include "segmentation/distance.h"
 #include "segmentation/half_body.h"
+#include "segmentation/order_statistics.h"
 #include "segmentation/random_walker.h"
 #include "segmentation/smoothing.h"
 
@@ -33,8 +34,7 @@ double median_where(const Volume<float>& image, const Mask& mask) {
   for (std::size_t v = 0; v < mask.values.size(); ++v)
     if (mask.values[v]) values.push_back(image.values[v]);
   if (values.empty()) return 0;
-  std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
-  return values[values.size() / 2];
+  return median(values);
 }
 
 std::size_t count(const Mask& mask) {

@@ -5,14 +5,10 @@
 #include <cmath>
 #include <vector>
 
+#include "segmentation/order_statistics.h"
+
 namespace mammotwin {
 namespace {
-
-double median(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 constexpr int edge = 8;  // of the cubes of air [voxels]
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "segmentation/order_statistics.h"
 #include "segmentation/polar_rays.h"
 #include "segmentation/semi_global_search.h"
 #include "segmentation/smoothing.h"
@@ -42,8 +43,7 @@ std::vector<double> median_filtered(const std::vector<double>& map, int rows, in
       for (int b = std::max(0, r - 1); b <= std::min(rows - 1, r + 1); ++b)
         for (int a = std::max(0, c - 1); a <= std::min(columns - 1, c + 1); ++a)
           near.push_back(map[static_cast<std::size_t>(b) * columns + a]);
-      std::nth_element(near.begin(), near.begin() + near.size() / 2, near.end());
-      out[static_cast<std::size_t>(r) * columns + c] = near[near.size() / 2];
+      out[static_cast<std::size_t>(r) * columns + c] = median(near);
     }
   return out;
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "segmentation/order_statistics.h"
 #include "segmentation/smoothing.h"
 
 namespace mammotwin {
@@ -19,9 +20,7 @@ double median_ratio(const Volume<float>& post, const Volume<float>& pre,
   for (std::size_t v = 0; v < where.values.size(); ++v)
     if (where.values[v] && pre.values[v] > 0) ratios.push_back(post.values[v] / pre.values[v]);
   if (ratios.empty()) return 1;
-  const auto middle = ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2);
-  std::nth_element(ratios.begin(), middle, ratios.end());
-  return *middle;
+  return median(ratios);
 }
 
 /// Normal equations of one part: displacement [mm] and relative change of brightness.

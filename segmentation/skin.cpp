@@ -3,17 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "segmentation/order_statistics.h"
+
 namespace mammotwin {
 namespace {
 
 constexpr double bin_mm = 0.25, outermost_mm = -3, innermost_mm = 5.5;
 constexpr std::size_t least_in_bin = 50;
-
-float median(std::vector<float>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 }  // namespace
 

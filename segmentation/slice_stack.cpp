@@ -6,6 +6,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "segmentation/order_statistics.h"
+
 namespace mammotwin {
 namespace {
 
@@ -99,10 +101,9 @@ SliceStack stack_slices(const std::vector<SlicePlacement>& slices) {
   for (std::size_t n = 1; n < slices.size(); ++n)
     steps.push_back(along(stack.order[n]) - along(stack.order[n - 1]));
   std::vector<double> sorted = steps;
-  std::nth_element(sorted.begin(), sorted.begin() + sorted.size() / 2, sorted.end());
-  const double median = sorted[sorted.size() / 2];
+  const double usual = median(sorted);
 
-  check_holes(slices, stack.order, steps, median);
+  check_holes(slices, stack.order, steps, usual);
   for (std::size_t n = 0; n < steps.size(); ++n) {
     const std::size_t a = stack.order[n], b = stack.order[n + 1];
     const std::string pair = placed(slices[a], along(a)) + " and " + placed(slices[b], along(b));

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <vector>
 
+#include "segmentation/order_statistics.h"
+
 namespace mammotwin {
 namespace {
 
@@ -20,9 +22,7 @@ float median_of_positive(const std::vector<float>& values) {
   for (const float v : values)
     if (v > 0) positive.push_back(v);
   if (positive.empty()) return 0;
-  const auto middle = positive.begin() + static_cast<std::ptrdiff_t>(positive.size() / 2);
-  std::nth_element(positive.begin(), middle, positive.end());
-  return *middle;
+  return median(positive);
 }
 
 /// Mean of the image where its noise is known.

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "segmentation/order_statistics.h"
+
 namespace mammotwin {
 namespace {
 
@@ -26,17 +28,6 @@ constexpr double least_beyond = 1.3, least_between = 1.7;
 constexpr double least_spread = 0.05;
 // Muscle over fat, as far as the study saw it (1.4 to 2.0, 0.4) and a little more.
 constexpr double least_bright = 1.2, most_bright = 2.2, least_dark = 0.2, most_dark = 0.7;
-
-double quantile(std::vector<double>& values, double share) {
-  const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * (values.size() - 1));
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
-}
-
-double median(std::vector<double>& values) {
-  std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
-  return values[values.size() / 2];
-}
 
 double deviation(const float* ray, int low, int high) {
   low = std::clamp(low, 0, PolarRays::depths - 1);

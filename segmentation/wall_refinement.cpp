@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "segmentation/order_statistics.h"
+
 namespace mammotwin {
 namespace {
 
@@ -44,8 +46,7 @@ double median_around(const std::vector<double>& map, int rows, int columns, int 
       if (std::isfinite(value)) near.push_back(value);
     }
   if (static_cast<double>(near.size()) < least_share * all) return 0;
-  std::nth_element(near.begin(), near.begin() + near.size() / 2, near.end());
-  return near[near.size() / 2];
+  return median(near);
 }
 
 }  // namespace
