@@ -84,28 +84,6 @@ Volume<float> restored(const HalfBreast& half, const TissueScan& scan,
   return image;
 }
 
-/// Muscle's blur hides the tissue beside the wall: it is as in the voxels next to it.
-void continue_to_wall(Volume<std::uint8_t> known, Volume<std::uint8_t> hidden,
-                      Volume<float>& fraction) {
-  const int rounds = static_cast<int>(std::ceil(wall_blur_mm / known.spacing.minCoeff())) + 1;
-  for (int round = 0; round < rounds; ++round) {
-    const auto before = known;
-    for (int k = 0; k < known.size.z(); ++k)
-      for (int j = 0; j < known.size.y(); ++j)
-        for (int i = 0; i < known.size.x(); ++i) {
-          if (!hidden(i, j, k)) continue;
-          double sum = 0, count = 0;
-          for (int c = k - 1; c <= k + 1; ++c)
-            for (int b = j - 1; b <= j + 1; ++b)
-              for (int a = i - 1; a <= i + 1; ++a)
-                if (before.contains(a, b, c) && before(a, b, c)) sum += fraction(a, b, c), ++count;
-          if (count == 0) continue;
-          fraction(i, j, k) = static_cast<float>(sum / count);
-          known(i, j, k) = 1, hidden(i, j, k) = 0;
-        }
-  }
-}
-
 }  // namespace
 
 void label_tissue(const HalfBreast& half, const TissueScan& scan,
@@ -113,21 +91,18 @@ void label_tissue(const HalfBreast& half, const TissueScan& scan,
                   const SegmentOptions& options, SegmentResult& result) {
   const double skin = judge_skin(half.skin, options, result.quality);
   const Volume<float> to_lesion = distance_to(lesions);
-  auto interior = half.inside, statistics = half.inside, beside_wall = half.inside;
+  auto interior = half.inside, statistics = half.inside;
   for (std::size_t v = 0; v < interior.values.size(); ++v) {
     const float depth = half.depth.values[v], above = half.above_wall.values[v];
     interior.values[v] &=
         depth > skin + skin_blur_mm && above > wall_blur_mm && lesions.values[v] == 0;
-    beside_wall.values[v] &=
-        depth > skin + skin_blur_mm && above <= wall_blur_mm && lesions.values[v] == 0;
     statistics.values[v] &=
         depth > skin_left_out_mm && above > wall_left_out_mm &&
         to_lesion.values[v] > lesion_left_out_mm &&
         (half.enhancement.values.empty() || half.enhancement.values[v] < vessel_enhancement);
   }
   const Volume<float> clean = restored(half, scan, interior);
-  TissueSplit split = split_tissue(clean, interior, statistics, fat_suppressed);
-  continue_to_wall(interior, beside_wall, split.gland_fraction);
+  const TissueSplit split = split_tissue(clean, interior, statistics, fat_suppressed);
   if (fat_suppressed) judge_suppression(half.widely_corrected, statistics, result.quality);
 
   Segmentation& s = result.segmentation;
