@@ -1,6 +1,5 @@
 #include "segmentation/noise.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <vector>

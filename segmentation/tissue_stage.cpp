@@ -8,7 +8,6 @@
 #include "segmentation/fibroglandular.h"
 #include "segmentation/half_body.h"
 #include "segmentation/restored_scan.h"
-#include "segmentation/segment_limits.h"
 #include "segmentation/smoothing.h"
 
 namespace mammotwin {
