@@ -21,6 +21,8 @@ constexpr double find_within_mm = 6;  // of the point: it may be that far off
 constexpr double smoothing_mm = 0.4;
 constexpr double opening_share = 0.5;  // of the inscribed radius
 constexpr double most_opening_mm = 3;  // vessels are thinner, the lobes of a large lesion are not
+constexpr double longest_neck_mm = 6;  // between a lesion and its lobe
+constexpr double thin_share = 0.3;     // of the inscribed radius: tongues, which opening cuts off
 constexpr double shell_from_mm = 2, shell_to_mm = 6;
 constexpr double usual_reach_mm = 30, most_cut_mm2 = 100;
 constexpr int most_rounds = 12;
@@ -49,6 +51,10 @@ Mask where(const Mask& grid, const Keep& keep) {
     for (int j = 0; j < grid.size.y(); ++j)
       for (int i = 0; i < grid.size.x(); ++i, ++v) out.values[v] = keep(grid.position(i, j, k), v);
   return out;
+}
+
+void join(Mask& mask, const Mask& other) {
+  for (std::size_t v = 0; v < mask.values.size(); ++v) mask.values[v] |= other.values[v];
 }
 
 /// Voxel of the largest value in a mask; the first of equals.
@@ -106,8 +112,8 @@ struct Region {
 class HalfMaximum {
  public:
   HalfMaximum(const Volume<float>& image, const Mask& allowed, const Eigen::Vector3d& point,
-              double reach)
-      : image_(image), allowed_(allowed), point_(point), reach_(reach) {}
+              const LesionSearch& search)
+      : image_(image), allowed_(allowed), point_(point), search_(search) {}
 
   Mask run(FoundLesion& lesion) {
     const Volume<float> wide = gaussian_smoothed(image_, 1.5);
@@ -127,7 +133,8 @@ class HalfMaximum {
       region = next;
       measure(region, lesion);
     }
-    if (count(region) > 0) region = grow(lesion, true);
+    // Dark lobes would be gland.
+    if (count(region) > 0 && search_.brighter) region = grow(lesion, true);
     return region;
   }
 
@@ -136,7 +143,8 @@ class HalfMaximum {
   Mask grow(FoundLesion& lesion, bool with_lobes) {
     const double threshold = (lesion.brightness + lesion.background) / 2;
     Mask above = where(allowed_, [&](const Eigen::Vector3d& x, std::size_t v) {
-      return allowed_.values[v] && image_.values[v] > threshold && (x - point_).norm() <= reach_;
+      return allowed_.values[v] && image_.values[v] > threshold &&
+             (x - point_).norm() <= search_.reach_mm;
     });
     above = component_at(above, core_);
     if (count(above) == 0) return above;
@@ -148,37 +156,51 @@ class HalfMaximum {
         where(above, [&](const auto&, std::size_t v) { return depth.values[v] > opening_mm; });
     Mask kept = component_at(inner, core_);
     if (count(kept) == 0) return kept;
-    if (with_lobes) add_lobes(inner, opening_mm, lesion, kept);
+    if (with_lobes) join(kept, lobes_of(inner, kept, 2 * opening_mm + longest_neck_mm, lesion));
     const Volume<float> to_kept = distance_to(kept);
-    return where(above, [&](const auto&, std::size_t v) {
+    Mask region = where(above, [&](const auto&, std::size_t v) {
       return above.values[v] && to_kept.values[v] <= opening_mm;
+    });
+    const double thin_mm = thin_share * lesion.inscribed_mm;
+    if (!with_lobes || thin_mm >= opening_mm) return region;
+    const Mask thin = where(above, [&](const auto&, std::size_t v) {
+      return depth.values[v] > thin_mm && to_kept.values[v] > opening_mm;
+    });
+    const double beside_mm = opening_mm + above.spacing.maxCoeff();
+    const Mask tongues = lobes_of(thin, kept, beside_mm, lesion);
+    if (count(tongues) == 0) return region;
+    const Volume<float> to_tongues = distance_to(tongues);
+    return where(above, [&](const auto&, std::size_t v) {
+      return region.values[v] || (above.values[v] && to_tongues.values[v] <= thin_mm);
     });
   }
 
-  /// Smaller parts that opening cut off at a neck: next to the core's part, and as bright.
-  void add_lobes(const Mask& inner, double opening_mm, const FoundLesion& lesion,
-                 Mask& kept) const {
-    // True lobes of simulated lesions were within 0.07 of the lesion's contrast, what touches a
-    // real one (fat that was not suppressed, vessels) 0.3 and more off.
-    constexpr double largest = 0.5, longest_neck_mm = 6, unlike = 0.15;
-    const Components parts = connected_components(inner);
-    const Volume<float> to_core = distance_to(kept);
-    const double core_size = count(kept);
+  /// Parts not far from what was kept of the lesion that are smaller, and as bright.
+  Mask lobes_of(const Mask& mask, const Mask& kept, double most_gap_mm,
+                const FoundLesion& lesion) const {
+    // True lobes of simulated lesions were within 0.07 of the lesion's contrast, tongues, which
+    // blur dims, within 0.2; what touches a real lesion behind a neck (fat that was not suppressed,
+    // vessels) 0.3 and more off.
+    constexpr double largest = 0.5, unlike = 0.2;
+    const Components parts = connected_components(mask);
+    const Volume<float> to_kept = distance_to(kept);
+    const double kept_size = count(kept);
     std::vector<double> gap(parts.sizes.size(), 1e9), sum(parts.sizes.size(), 0);
-    for (std::size_t v = 0; v < inner.values.size(); ++v) {
+    for (std::size_t v = 0; v < mask.values.size(); ++v) {
       const std::int32_t part = parts.ids.values[v];
-      gap[part] = std::min<double>(gap[part], to_core.values[v]), sum[part] += image_.values[v];
+      gap[part] = std::min<double>(gap[part], to_kept.values[v]), sum[part] += image_.values[v];
     }
     const double contrast = lesion.brightness - lesion.background;
     std::vector<std::uint8_t> is_lobe(parts.sizes.size(), 0);
     for (std::size_t part = 1; part < parts.sizes.size(); ++part) {
       const double size = static_cast<double>(parts.sizes[part]);
-      is_lobe[part] = size <= largest * core_size &&
-                      gap[part] <= 2 * opening_mm + longest_neck_mm &&
+      is_lobe[part] = size <= largest * kept_size && gap[part] <= most_gap_mm &&
                       std::abs(sum[part] / size - lesion.brightness) < unlike * contrast;
     }
-    for (std::size_t v = 0; v < inner.values.size(); ++v)
-      kept.values[v] |= is_lobe[parts.ids.values[v]];
+    auto lobes = mask.like<std::uint8_t>(0);
+    for (std::size_t v = 0; v < mask.values.size(); ++v)
+      lobes.values[v] = is_lobe[parts.ids.values[v]];
+    return lobes;
   }
 
   /// Climbs from the core to the deepest place within its own depth, and moves the core there.
@@ -211,7 +233,7 @@ class HalfMaximum {
   const Volume<float>& image_;
   const Mask& allowed_;
   Eigen::Vector3d point_;
-  double reach_;
+  const LesionSearch& search_;
   std::size_t core_ = 0;
 };
 
@@ -287,7 +309,7 @@ FoundLesion find_within(const Volume<float>& image, const SharpImage& sharp,
     for (float& value : part.values) value = top - value;
   part = gaussian_smoothed(std::move(part), smoothing_mm);
 
-  lesion.mask = HalfMaximum(part, may, point_in_lps, search.reach_mm).run(lesion);
+  lesion.mask = HalfMaximum(part, may, point_in_lps, search).run(lesion);
   if (count(lesion.mask) > 0) sharpen_edge(sharp, may, search.brighter, lesion);
   const double ml = count(lesion.mask) * image.voxel_volume() / 1000;
   if (ml < least_ml || lesion.brightness - lesion.background < least_contrast ||

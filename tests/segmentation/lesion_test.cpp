@@ -143,6 +143,36 @@ TEST(Lesion, LobeOnANeckStaysIfItIsAsBright) {
               1 - in_lobe / voxels, 0.05);
 }
 
+TEST(Lesion, TongueStaysIfItIsThickAndAsBright) {
+  // Opening by 3 mm takes tongues and vessels off a ball of 7 mm.
+  const auto found_share = [](double tongue_mm, float brightness, bool brighter) {
+    Volume<std::uint8_t> truth;
+    Volume<float> image =
+        lesion_in_fat([](const Eigen::Vector3d& x) { return x.norm() < 7; }, truth);
+    double ball = 0, tongue = 0;
+    for (int k = 0; k < 80; ++k)
+      for (int j = 0; j < 80; ++j)
+        for (int i = 0; i < 110; ++i) {
+          const Eigen::Vector3d x = image.position(i, j, k);
+          ball += truth(i, j, k);
+          if (truth(i, j, k) || x.x() < 0 || x.x() > 14 || std::hypot(x.y(), x.z()) > tongue_mm)
+            continue;
+          image(i, j, k) = brightness, ++tongue;
+        }
+    if (!brighter)
+      for (float& value : image.values) value = 4.2F - value;
+    LesionSearch search;
+    search.brighter = brighter;
+    const FoundLesion found =
+        find_lesion(image, as_it_is(image), image.like<std::uint8_t>(1), {1, 2, -1}, search);
+    return (volume_ratio(found, truth) * ball - ball) / tongue;
+  };
+  EXPECT_GT(found_share(2.8, 3.2F, true), 0.8);
+  EXPECT_LT(found_share(1.5, 3.2F, true), 0.2) << "a vessel";
+  EXPECT_LT(found_share(2.8, 2.5F, true), 0.3) << "not as bright";
+  EXPECT_LT(found_share(2.8, 3.2F, false), 0.3) << "dark: gland";
+}
+
 TEST(Lesion, LongerThanTheUsualSearchIsFollowed) {
   // From the point it goes on for 42 mm.
   Volume<std::uint8_t> truth;
