@@ -112,6 +112,7 @@ void cut_images(const BodyStage& body, const WallStage& wall, const Crop& crop, 
   const Volume<float> scan = cropped(body.image, crop.low, crop.high);
   const Volume<float> clean = cropped(body.clean, crop.low, crop.high);
   if (!body.pre.values.empty()) half.pre = cropped(body.pre, crop.low, crop.high);
+  half.pre_match = wall.pre_match;
   for (std::size_t v = 0; v < scan.values.size(); ++v) {
     if (!(scan.values[v] > 0)) continue;
     const float gain = half.scan.values[v] / scan.values[v];

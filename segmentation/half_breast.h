@@ -9,13 +9,14 @@ namespace mammotwin {
 /// behind the skin between the breasts.
 struct HalfBreast {
   Side side = Side::left;
-  Volume<float> image;             ///< bias corrected, denoised, fat at 1
-  Volume<float> scan;              ///< the same, not denoised
-  Volume<float> pre;               ///< like `scan`, before contrast agent; may be empty
-  Volume<float> noise;             ///< standard deviation in either; 0 where it is not known
-  double noise_spread = 1;         ///< BodyStage's noise at a distance over `noise`
-  Volume<float> widely_corrected;  ///< by the 60 mm part of the bias only, its median fat at 1
-  Volume<float> enhancement;       ///< relative; empty without `pre`
+  Volume<float> image;                ///< bias corrected, denoised, fat at 1
+  Volume<float> scan;                 ///< the same, not denoised
+  Volume<float> pre;                  ///< like `scan`, before contrast agent; may be empty
+  std::optional<PreMatch> pre_match;  ///< of `pre`
+  Volume<float> noise;                ///< standard deviation in either; 0 where it is not known
+  double noise_spread = 1;            ///< BodyStage's noise at a distance over `noise`
+  Volume<float> widely_corrected;     ///< by the 60 mm part of the bias only, its median fat at 1
+  Volume<float> enhancement;          ///< relative; empty without `pre`
   Volume<std::uint8_t> body;
   Volume<std::uint8_t> inside;  ///< body in front of the chest wall
   Volume<float> depth;          ///< below the skin [mm]

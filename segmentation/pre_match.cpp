@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "segmentation/order_statistics.h"
+#include "segmentation/segment_limits.h"
 #include "segmentation/smoothing.h"
 
 namespace mammotwin {
@@ -52,6 +53,8 @@ Eigen::Vector3d gradient(const Volume<float>& image, int i, int j, int k) {
 
 }  // namespace
 
+bool PreMatch::moved() const { return shift_mm.value_or(0) > limits::pre_shift_mm; }
+
 PreMatch match_pre(const Volume<float>& post, const Volume<float>& pre, const Volume<float>& noise,
                    const Volume<std::uint8_t>& where) {
   PreMatch match;
@@ -83,6 +86,13 @@ PreMatch match_pre(const Volume<float>& post, const Volume<float>& pre, const Vo
   std::nth_element(shifts.begin(), ninth, shifts.end());
   match.shift_mm = *ninth;
   return match;
+}
+
+Volume<float> mean_with_pre(Volume<float> post, const Volume<float>& pre, double scale) {
+  const auto factor = static_cast<float>(scale);
+  for (std::size_t v = 0; v < post.values.size(); ++v)
+    post.values[v] = (post.values[v] + factor * pre.values[v]) / 2;
+  return post;
 }
 
 }  // namespace mammotwin

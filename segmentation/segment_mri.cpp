@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 #include <stdexcept>
 
 #include "segmentation/denoise.h"
@@ -99,6 +100,20 @@ std::vector<Lesion> named_lesions(const Volume<std::uint8_t>& labels,
   return lesions;
 }
 
+void judge_movement(const std::optional<PreMatch>& match, SegmentQuality& quality) {
+  if (!match) return;
+  quality.pre_shift_mm = match->shift_mm;
+  if (!match->moved()) return;
+  std::ostringstream reason;
+  reason.setf(std::ios::fixed);
+  reason.precision(1);
+  reason << "the image before contrast agent lies " << *match->shift_mm
+         << " mm off the one after it; expected " << limits::pre_shift_mm
+         << " mm at most (did the patient move?): lesions outlined in their difference may be "
+            "wrong";
+  quality.doubt(SegmentStatus::look, reason.str());
+}
+
 /// Reads the image before contrast agent, if one is named, and compares the two.
 void add_enhancement(const SegmentInput& input, BodyStage& body, SegmentResult& result) {
   if (!input.pre && !input.pre_series) return;
@@ -139,7 +154,8 @@ SegmentResult segment_image(const Mri& mri, const SegmentInput& input,
         "and pixel spacing (export it as single slices)");
   const Side side = choose_side(input, seeds, body.frame.midline_x);
   progress(0.35, "finding the chest wall");
-  const WallStage wall = find_wall(body, options.wall_stiffness);
+  const WallStage wall = find_wall(body, side, options.wall_stiffness);
+  judge_movement(wall.pre_match, result.quality);
   judge_wall(body, wall, side, result.quality);
   judge_end_slices(body, side, result.quality);
   judge_noise(result.quality);
@@ -150,13 +166,12 @@ SegmentResult segment_image(const Mri& mri, const SegmentInput& input,
   check_seeds(half, seeds);
   offer_candidates(half, result.quality);
   correct_shading(body.frame, half);
-  const TissueScan scan = tissue_scan(half, result.quality);
   progress(0.80, "finding the lesions");
   const Volume<std::uint8_t> lesions =
       find_lesions(half, seeds, body.contrast.fat_suppressed, options, result.quality);
   judge_lesions_on_wall(half, lesions, result.quality);
   progress(0.88, "telling skin, fat and fibroglandular tissue apart");
-  label_tissue(half, scan, lesions, body.contrast.fat_suppressed, options, result);
+  label_tissue(half, tissue_scan(half), lesions, body.contrast.fat_suppressed, options, result);
   result.segmentation.region.side = side;
   result.segmentation.lesions = named_lesions(result.segmentation.labels, seeds);
   return result;

@@ -52,7 +52,7 @@ Volume<std::uint8_t> over_fat(const Volume<float>& image, const Volume<float>& d
 
 SkinStage find_skin(const Volume<float>& image, const Volume<std::uint8_t>& body,
                     const BreastFrame& frame) {
-  constexpr double reach_mm = 5.5, least_share = 0.1;
+  constexpr double reach_mm = 5.5, least_share = 0.075;
   auto share = body.like<float>(0);
   std::copy(body.values.begin(), body.values.end(), share.values.begin());
   const Volume<std::uint8_t> layer = skin_layer(body, frame);

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "segmentation/half_breast.h"
-#include "segmentation/segment_quality.h"
 
 namespace mammotwin {
 
@@ -10,10 +9,7 @@ struct TissueScan {
   Volume<float> image, noise;
 };
 
-/// The scan; or, of images before and after contrast agent, their mean, because fat and gland
-/// hardly change and half of the noise's square is gone. Where the patient moved in between the one
-/// after it is taken alone, and the doubt goes to `quality`, for lesions are outlined in the
-/// difference.
-TissueScan tissue_scan(const HalfBreast& half, SegmentQuality& quality);
+/// The scan; or its mean with the image before contrast agent, unless the patient moved in between.
+TissueScan tissue_scan(const HalfBreast& half);
 
 }  // namespace mammotwin

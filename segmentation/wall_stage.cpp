@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "segmentation/em_bias.h"
+#include "segmentation/half_body.h"
 #include "segmentation/smoothing.h"
 
 namespace mammotwin {
@@ -46,26 +47,58 @@ Volume<std::uint8_t> with_closed_thorax(const BodyStage& stage) {
   return body;
 }
 
+Volume<float> corrected(Volume<float> image, const BiasEstimate& bias) {
+  tbb::parallel_for(0, image.size.z(), [&](int k) {
+    for (int j = 0; j < image.size.y(); ++j)
+      for (int i = 0; i < image.size.x(); ++i)
+        image(i, j, k) *= bias.correction(image.position(i, j, k));
+  });
+  return image;
+}
+
+/// Compares the images before and after contrast agent in front of the wall, on one side.
+PreMatch match_breast(const BodyStage& body, const PectoralWall& wall, Side side) {
+  auto breast = body.body;
+  tbb::parallel_for(0, breast.size.z(), [&](int k) {
+    for (int j = 0; j < breast.size.y(); ++j)
+      for (int i = 0; i < breast.size.x(); ++i) {
+        if (!breast(i, j, k)) continue;
+        const Eigen::Vector3d x = breast.position(i, j, k);
+        breast(i, j, k) = is_on_side(x.x(), body.frame.midline_x, side) && !wall.is_behind(x);
+      }
+  });
+  constexpr int margin = 8;  // voxels: more than smoothing reaches
+  const auto [low, high] = labelled_box(breast, margin);
+  const Volume<float> after = cropped(body.image, low, high);
+  return match_pre(after, cropped(body.pre, low, high),
+                   after.like<float>(static_cast<float>(body.noise)), cropped(breast, low, high));
+}
+
 }  // namespace
 
-WallStage find_wall(const BodyStage& body, double stiffness) {
+WallStage find_wall(const BodyStage& body, Side side, double stiffness) {
   const BiasEstimate bias = estimate_bias(body.image, body.body, num_classes);
   WallStage stage;
   stage.wide_log_bias = bias.wide_log_bias;
-  stage.corrected = body.image;
-  Volume<float>& corrected = stage.corrected;
-  tbb::parallel_for(0, corrected.size.z(), [&](int k) {
-    for (int j = 0; j < corrected.size.y(); ++j)
-      for (int i = 0; i < corrected.size.x(); ++i)
-        corrected(i, j, k) *= bias.correction(corrected.position(i, j, k));
-  });
-  const double fat =
-      subcutaneous_fat(corrected, body.depth, body.frame, body.contrast.fat_suppressed);
-  for (float& value : corrected.values) value /= static_cast<float>(fat);
+  stage.corrected = corrected(body.image, bias);
+  const auto fat_of = [&](const Volume<float>& image) {
+    return subcutaneous_fat(image, body.depth, body.frame, body.contrast.fat_suppressed);
+  };
+  const double fat = fat_of(stage.corrected);
+  for (float& value : stage.corrected.values) value /= static_cast<float>(fat);
   stage.contrast.muscle = muscle_over_fat(bias, std::log(fat), body.contrast.fat_suppressed);
-  constexpr double ray_smoothing_mm = 0.8;  // about a voxel: noise falls, the edge stays
-  stage.wall = find_pectoral_wall(gaussian_smoothed(corrected, ray_smoothing_mm),
-                                  with_closed_thorax(body), body.frame, stage.contrast, stiffness);
+  const Volume<std::uint8_t> closed = with_closed_thorax(body);
+  const auto found_in = [&](Volume<float> image) {
+    constexpr double ray_smoothing_mm = 0.8;  // about a voxel: noise falls, the edge stays
+    return find_pectoral_wall(gaussian_smoothed(std::move(image), ray_smoothing_mm), closed,
+                              body.frame, stage.contrast, stiffness);
+  };
+  stage.wall = found_in(stage.corrected);
+  if (body.pre.values.empty()) return stage;
+  stage.pre_match = match_breast(body, stage.wall, side);
+  if (stage.pre_match->moved()) return stage;
+  const Volume<float> before = corrected(body.pre, bias);
+  stage.wall = found_in(mean_with_pre(stage.corrected, before, 1 / fat_of(before)));
   return stage;
 }
 
