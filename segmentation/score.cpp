@@ -1,6 +1,7 @@
 #include "segmentation/score.h"
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "segmentation/distance.h"
@@ -83,6 +84,15 @@ Mask both(Mask a, const Mask& b) {
   return a;
 }
 
+/// `scored` without the voxels that are half fibroglandular tissue in truth.
+Mask off_half(Mask scored, const Segmentation& truth) {
+  constexpr float within = 0.05F;
+  const Volume<Fractions> fractions = values_on(scored, truth.fractions);
+  for (std::size_t v = 0; v < scored.values.size(); ++v)
+    scored.values[v] &= std::abs(fractions.values[v].fibroglandular - 0.5F) > within;
+  return scored;
+}
+
 /// Compares the fractions at the voxels that are set in `scored`.
 void score_fractions(const Segmentation& truth, const Segmentation& found, const Mask& scored,
                      SegmentationScore& score) {
@@ -159,8 +169,13 @@ SegmentationScore score_segmentation(const Segmentation& truth, const Segmentati
   for (std::size_t v = 0; v < apart.values.size(); ++v)
     apart.values[v] &=
         off_muscle.values[v] >= fibroglandular_off_muscle_mm && a.values[v] < label::lesion;
-  score.fibroglandular_dice = dice(both(where(a, is(label::fibroglandular)), apart),
-                                   both(where(b, is(label::fibroglandular)), apart));
+  const Mask true_gland = where(a, is(label::fibroglandular));
+  const Mask found_gland = where(b, is(label::fibroglandular));
+  const auto gland_overlap = [&](const Mask& mask) {
+    return dice(both(true_gland, mask), both(found_gland, mask));
+  };
+  score.fibroglandular_dice = gland_overlap(apart);
+  score.clear_fibroglandular_dice = gland_overlap(off_half(apart, truth));
   score_fractions(truth, found, apart, score);
   constexpr double inset_mm = 5;
   const int inset = static_cast<int>(inset_mm / a.spacing.minCoeff());

@@ -54,6 +54,7 @@ void keep_files(const std::string& name, const std::filesystem::path& image,
 void add_score(const SegmentationScore& score, json& row) {
   row["breast_dice"] = number(score.breast_dice);
   row["fibroglandular_dice"] = number(score.fibroglandular_dice);
+  row["clear_fibroglandular_dice"] = number(score.clear_fibroglandular_dice);
   row["fibroglandular_fraction_dice"] = number(score.fibroglandular_fraction_dice);
   row["fibroglandular_volume_ratio"] = number(score.fibroglandular_volume_ratio);
   row["nipple_mm"] = number(score.nipple_mm);
@@ -92,7 +93,8 @@ json empty_row(const SegmentationCase& c) {
               {"contrast", name_of(c.contrast) + (c.make_pre ? pre_post : "")},
               {"reason", nullptr}};
   for (const char* key :
-       {"breast_dice", "fibroglandular_dice", "fibroglandular_fraction_dice", "chest_wall_mean_mm", "skin_thickness_error_mm",
+       {"breast_dice", "fibroglandular_dice", "clear_fibroglandular_dice",
+        "fibroglandular_fraction_dice", "chest_wall_mean_mm", "skin_thickness_error_mm",
         "skin_surface_mean_mm", "nipple_mm", "lesion_dice", "lesion_centroid_mm"})
     row[key] = nullptr;
   return row;
@@ -112,6 +114,7 @@ constexpr Aim aims[] = {{"breast_dice", "breast Dice", true, 0.98},
                         {"chest_wall_mean_mm", "wall mean", false, 2.5},
                         {"chest_wall_p95_mm", "wall p95", false, 5},
                         {"fibroglandular_dice", "gland Dice", true, 0.90},
+                        {"clear_fibroglandular_dice", "gland, no halves", true, 0.90},
                         {"fibroglandular_fraction_dice", "gland, fractions", true, 0.90},
                         {"skin_thickness_error_mm", "skin thickness", false, 0.5},
                         {"lesion_dice", "lesion Dice", true, 0.8},
@@ -177,9 +180,8 @@ json segmentation_row(const SegmentationCase& c, const std::filesystem::path& im
 std::string segmentation_summary(const json& cases) {
   std::ostringstream out;
   out << std::setprecision(3);
-  for (const std::string& contrast :
-       {std::string("fat_suppressed"), std::string("not_suppressed"),
-        std::string("not_suppressed") + pre_post})
+  for (const std::string& contrast : {std::string("fat_suppressed"), std::string("not_suppressed"),
+                                      std::string("not_suppressed") + pre_post})
     for (const bool drawn : {true, false}) {
       std::vector<const json*> rows;
       for (const json& row : cases)
@@ -187,7 +189,8 @@ std::string segmentation_summary(const json& cases) {
             (row.at("name").get<std::string>().rfind("seed-", 0) == 0) == drawn)
           rows.push_back(&row);
       if (rows.empty()) continue;
-      out << (drawn ? "drawn, " : "label maps, ") << contrast << ", " << rows.size() << " breasts\n";
+      out << (drawn ? "drawn, " : "label maps, ") << contrast << ", " << rows.size()
+          << " breasts\n";
       for (const Aim& aim : aims) summarise(aim, rows, out);
     }
   return out.str();

@@ -59,6 +59,20 @@ TEST(Score, ComparesFractionsWithoutAThreshold) {
   EXPECT_NEAR(*score.fibroglandular_volume_ratio, 2 / 1.5, 1e-6);
 }
 
+TEST(Score, ScoresClearTissueApartFromHalves) {
+  Segmentation truth = slab(0, 0), found = slab(0, 0);
+  truth.labels(5, 12, 5) = label::fibroglandular;
+  truth.fractions(5, 12, 5) = {0, 1, 0};
+  truth.fractions(6, 12, 5) = {0.5F, 0.5F, 0};
+  truth.fractions(7, 12, 5) = {0.7F, 0.3F, 0};
+  found.labels(5, 12, 5) = found.labels(6, 12, 5) = label::fibroglandular;
+  SegmentationScore score = score_segmentation(truth, found);
+  EXPECT_NEAR(*score.fibroglandular_dice, 2.0 / 3, 1e-9);
+  EXPECT_EQ(score.clear_fibroglandular_dice, 1);
+  found.labels(7, 12, 5) = label::fibroglandular;
+  EXPECT_NEAR(*score_segmentation(truth, found).clear_fibroglandular_dice, 2.0 / 3, 1e-9);
+}
+
 TEST(Score, LeavesTrueLesionsOutOfFibroglandularTissue) {
   Segmentation truth = slab(0, 0);
   truth.labels(5, 12, 5) = label::fibroglandular;
