@@ -30,7 +30,7 @@ Volume<std::uint8_t> skin_layer(const Volume<std::uint8_t>& body, const BreastFr
 Volume<std::uint8_t> over_fat(const Volume<float>& image, const Volume<float>& depth,
                               const Volume<std::uint8_t>& layer) {
   constexpr double from_mm = 3.5, to_mm = 5.2, neighbourhood_mm = 3, block_mm = 2.4;
-  constexpr float darkest = 0.8F, brightest = 1.25F;  // fat is at 1; gland 0.45 or 1.8
+  constexpr float darkest = 0.7F, brightest = 1.25F;  // fat is at 1; gland 0.45 or 1.8
   auto below = layer;
   for (std::size_t v = 0; v < below.values.size(); ++v)
     below.values[v] = depth.values[v] > from_mm && depth.values[v] < to_mm;
@@ -52,7 +52,7 @@ Volume<std::uint8_t> over_fat(const Volume<float>& image, const Volume<float>& d
 
 SkinStage find_skin(const Volume<float>& image, const Volume<std::uint8_t>& body,
                     const BreastFrame& frame) {
-  constexpr double reach_mm = 5.5, least_share = 0.075;
+  constexpr double reach_mm = 5.5, least_share = 0.05;
   auto share = body.like<float>(0);
   std::copy(body.values.begin(), body.values.end(), share.values.begin());
   const Volume<std::uint8_t> layer = skin_layer(body, frame);
