@@ -28,9 +28,10 @@ Volume<std::uint8_t> skin_layer(const Volume<std::uint8_t>& body, const BreastFr
 /// The part of `layer` under which fat begins: where gland lies at the skin, neither it nor its
 /// blur is told from skin.
 Volume<std::uint8_t> over_fat(const Volume<float>& image, const Volume<float>& depth,
-                              const Volume<std::uint8_t>& layer) {
+                              const Volume<std::uint8_t>& layer, bool fat_suppressed) {
   constexpr double from_mm = 3.5, to_mm = 5.2, neighbourhood_mm = 3, block_mm = 2.4;
-  constexpr float darkest = 0.7F, brightest = 1.25F;  // fat is at 1; gland 0.45 or 1.8
+  constexpr float brightest = 1.25F;  // fat is at 1; gland 0.45 or 1.8
+  const float darkest = fat_suppressed ? 0.8F : 0.7F;
   auto below = layer;
   for (std::size_t v = 0; v < below.values.size(); ++v)
     below.values[v] = depth.values[v] > from_mm && depth.values[v] < to_mm;
@@ -51,12 +52,13 @@ Volume<std::uint8_t> over_fat(const Volume<float>& image, const Volume<float>& d
 }  // namespace
 
 SkinStage find_skin(const Volume<float>& image, const Volume<std::uint8_t>& body,
-                    const BreastFrame& frame) {
+                    const BreastFrame& frame, bool fat_suppressed) {
   constexpr double reach_mm = 5.5, least_share = 0.05;
   auto share = body.like<float>(0);
   std::copy(body.values.begin(), body.values.end(), share.values.begin());
   const Volume<std::uint8_t> layer = skin_layer(body, frame);
-  const Volume<std::uint8_t> fat = over_fat(image, signed_depth(std::move(share), reach_mm), layer);
+  const Volume<std::uint8_t> fat =
+      over_fat(image, signed_depth(std::move(share), reach_mm), layer, fat_suppressed);
   const auto count = [](const Volume<std::uint8_t>& mask) {
     return std::count(mask.values.begin(), mask.values.end(), std::uint8_t{1});
   };
