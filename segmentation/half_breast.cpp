@@ -131,8 +131,7 @@ HalfBreast cut_half(const BodyStage& body, const WallStage& wall, Side side) {
   cut_images(body, wall, crop, half);
   if (!body.enhancement.values.empty())
     half.enhancement = cropped(body.enhancement, crop.low, crop.high);
-  SkinStage skin = find_skin(half.scan, cropped(body.body, crop.low, crop.high), body.frame,
-                             body.contrast.fat_suppressed);
+  SkinStage skin = find_skin(half.scan, cropped(body.body, crop.low, crop.high), body.frame);
   half.body = std::move(skin.surface.body);
   half.depth = depth_below_surface(half.body);
   half.skin_depth = std::move(skin.surface.depth);

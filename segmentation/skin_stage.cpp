@@ -25,13 +25,12 @@ Volume<std::uint8_t> skin_layer(const Volume<std::uint8_t>& body, const BreastFr
   return where;
 }
 
-/// The part of `layer` under which fat begins: where gland lies at the skin, neither it nor its
-/// blur is told from skin.
+/// The part of `layer` under which fat begins, not darker than `darkest`: where gland lies at the
+/// skin, neither it nor its blur is told from skin.
 Volume<std::uint8_t> over_fat(const Volume<float>& image, const Volume<float>& depth,
-                              const Volume<std::uint8_t>& layer, bool fat_suppressed) {
+                              const Volume<std::uint8_t>& layer, float darkest) {
   constexpr double from_mm = 3.5, to_mm = 5.2, neighbourhood_mm = 3, block_mm = 2.4;
-  constexpr float brightest = 1.25F;  // fat is at 1; gland 0.45 or 1.8
-  const float darkest = fat_suppressed ? 0.8F : 0.7F;
+  constexpr float brightest = 1.25F;  // fat is at 1, gland at 0.45 or 1.8
   auto below = layer;
   for (std::size_t v = 0; v < below.values.size(); ++v)
     below.values[v] = depth.values[v] > from_mm && depth.values[v] < to_mm;
@@ -52,17 +51,27 @@ Volume<std::uint8_t> over_fat(const Volume<float>& image, const Volume<float>& d
 }  // namespace
 
 SkinStage find_skin(const Volume<float>& image, const Volume<std::uint8_t>& body,
-                    const BreastFrame& frame, bool fat_suppressed) {
-  constexpr double reach_mm = 5.5, least_share = 0.05;
+                    const BreastFrame& frame) {
+  constexpr double reach_mm = 5.5;
+  // Dense gland leaves little fat under the skin, and darkens the mean there.
+  constexpr double usual_share = 0.1, least_share = 0.05;
+  constexpr float usually_darkest = 0.8F, darkest = 0.7F;
   auto share = body.like<float>(0);
   std::copy(body.values.begin(), body.values.end(), share.values.begin());
+  const Volume<float> depth = signed_depth(std::move(share), reach_mm);
   const Volume<std::uint8_t> layer = skin_layer(body, frame);
-  const Volume<std::uint8_t> fat =
-      over_fat(image, signed_depth(std::move(share), reach_mm), layer, fat_suppressed);
-  const auto count = [](const Volume<std::uint8_t>& mask) {
-    return std::count(mask.values.begin(), mask.values.end(), std::uint8_t{1});
+  const auto is_enough = [&](const Volume<std::uint8_t>& part, double least_share) {
+    const auto count = [](const Volume<std::uint8_t>& mask) {
+      return std::count(mask.values.begin(), mask.values.end(), std::uint8_t{1});
+    };
+    return count(part) > least_share * static_cast<double>(count(layer));
   };
-  const bool enough = count(fat) > least_share * static_cast<double>(count(layer));
+  Volume<std::uint8_t> fat = over_fat(image, depth, layer, usually_darkest);
+  bool enough = is_enough(fat, usual_share);
+  if (!enough) {
+    fat = over_fat(image, depth, layer, darkest);
+    enough = is_enough(fat, least_share);
+  }
   const Volume<std::uint8_t>& where = enough ? fat : layer;
   SkinStage skin;
   skin.surface = find_skin_surface(image, body, where);

@@ -15,6 +15,6 @@ struct SkinStage {
 /// Finds where the skin begins, and how thick it is where the breast hangs free. `image`: bias
 /// corrected, not denoised.
 SkinStage find_skin(const Volume<float>& image, const Volume<std::uint8_t>& body,
-                    const BreastFrame& frame, bool fat_suppressed);
+                    const BreastFrame& frame);
 
 }  // namespace mammotwin
