@@ -5,7 +5,9 @@
 namespace mammotwin {
 
 /// Value that OPENBLAS_CORETYPE should have on this processor, or an empty string where nothing
-/// is to be set: the user has set it, or OpenBLAS has no better kernels than its own choice.
+/// is to be set: the user has set it, or OpenBLAS has no better kernels than its own choice. The
+/// same kernels on all processors with AVX2: with those for AVX-512, which round otherwise, two
+/// solves of the tests find no equilibrium (sliding friction, tissue almost too soft to stand).
 ///
 /// Debian 12's OpenBLAS 0.3.21 does not know recent Intel cores and falls back to SSE3 kernels, 4 to
 /// 5 times slower. It reads the variable when the library loads, so a program sets it and runs
