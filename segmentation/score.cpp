@@ -86,7 +86,7 @@ Mask both(Mask a, const Mask& b) {
 
 /// `scored` without the voxels that are half fibroglandular tissue in truth.
 Mask off_half(Mask scored, const Segmentation& truth) {
-  constexpr float within = 0.05F;
+  constexpr float within = 0.06F;
   const Volume<Fractions> fractions = values_on(scored, truth.fractions);
   for (std::size_t v = 0; v < scored.values.size(); ++v)
     scored.values[v] &= std::abs(fractions.values[v].fibroglandular - 0.5F) > within;

@@ -22,7 +22,7 @@ std::optional<SurfaceDistance> surface_distance(const Volume<std::uint8_t>& a,
 /// How near a segmentation comes to the truth, inside the true region. What either lacks is empty.
 struct SegmentationScore {
   std::optional<double> breast_dice, skin_dice, fibroglandular_dice;
-  /// The same without the voxels whose true fraction is a half to within 0.05: noise alone puts
+  /// The same without the voxels whose true fraction is a half to within 0.06: noise alone puts
   /// those on one side or the other.
   std::optional<double> clear_fibroglandular_dice;
   /// 2 sum(min(a, b)) / sum(a + b) of the voxels' fibroglandular fractions.
