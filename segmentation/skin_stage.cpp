@@ -60,11 +60,11 @@ SkinStage find_skin(const Volume<float>& image, const Volume<std::uint8_t>& body
   std::copy(body.values.begin(), body.values.end(), share.values.begin());
   const Volume<float> depth = signed_depth(std::move(share), reach_mm);
   const Volume<std::uint8_t> layer = skin_layer(body, frame);
-  const auto is_enough = [&](const Volume<std::uint8_t>& part, double least_share) {
+  const auto is_enough = [&](const Volume<std::uint8_t>& part, double share_of_layer) {
     const auto count = [](const Volume<std::uint8_t>& mask) {
       return std::count(mask.values.begin(), mask.values.end(), std::uint8_t{1});
     };
-    return count(part) > least_share * static_cast<double>(count(layer));
+    return count(part) > share_of_layer * static_cast<double>(count(layer));
   };
   Volume<std::uint8_t> fat = over_fat(image, depth, layer, usually_darkest);
   bool enough = is_enough(fat, usual_share);
