@@ -1,10 +1,10 @@
 #include "fitting/fit_breast.h"
 
-#include "fitting/fit_course.h"
+#include "fitting/solve/fit_course.h"
 #include "fitting/fit_limits.h"
 #include "fitting/fit_quality.h"
 #include "fitting/mesh/jacobian_bound.h"
-#include "fitting/skin_to_fit.h"
+#include "fitting/surface/skin_to_fit.h"
 
 #include <algorithm>
 #include <array>

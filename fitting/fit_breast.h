@@ -1,8 +1,8 @@
 #pragma once
 
 #include "fitting/mesh/mesh_file.h"
-#include "fitting/triangle_surface.h"
-#include "segmentation/tissue.h"
+#include "fitting/surface/triangle_surface.h"
+#include "segmentation/segmentation.h"
 
 #include <functional>
 #include <optional>

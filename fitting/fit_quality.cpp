@@ -1,6 +1,6 @@
 #include "fitting/fit_quality.h"
 
-#include "fitting/closest_point.h"
+#include "fitting/surface/closest_point.h"
 #include "fitting/mesh/inverse_map.h"
 
 #include <tbb/parallel_for.h>

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "fitting/face_mesh.h"
-#include "segmentation/tissue.h"
+#include "fitting/surface/face_mesh.h"
+#include "segmentation/segmentation.h"
 
 #include <optional>
 

@@ -1,15 +1,15 @@
 // compress: Hermite mesh + tissue + plates -> the mesh as it lies between the plates of one view.
 
-#include "solver/compress.h"
+#include "solver/press/compress.h"
 
-#include "pipeline/compression_course.h"
-#include "pipeline/compression_quality.h"
+#include "pipeline/steps/compression_course.h"
+#include "pipeline/steps/compression_quality.h"
 #include "pipeline/frame/stage.h"
-#include "pipeline/view_header.h"
-#include "pipeline/breast_problem.h"
-#include "pipeline/view_problem.h"
-#include "registration/view_frame.h"
-#include "segmentation/segmentation_file.h"
+#include "pipeline/steps/view_header.h"
+#include "pipeline/steps/breast_problem.h"
+#include "pipeline/steps/view_problem.h"
+#include "registration/view/view_frame.h"
+#include "segmentation/files/segmentation_file.h"
 #include "solver/press/checkpoint.h"
 
 namespace mammotwin {

@@ -2,9 +2,9 @@
 
 #include "fitting/fit_breast.h"
 
-#include "pipeline/fit_quality.h"
+#include "pipeline/steps/fit_quality.h"
 #include "pipeline/frame/stage.h"
-#include "segmentation/segmentation_file.h"
+#include "segmentation/files/segmentation_file.h"
 
 namespace mammotwin {
 namespace {

@@ -1,12 +1,12 @@
 // mark: marks on mammograms of a registered patient -> where they can be in MRI and in the other view.
 
 #include "pipeline/frame/command_line.h"
-#include "pipeline/registered_view.h"
-#include "pipeline/view_header.h"
-#include "registration/mark_curve.h"
-#include "registration/markups.h"
-#include "registration/simulated_mammogram.h"
-#include "registration/view_products.h"
+#include "pipeline/steps/registered_view.h"
+#include "pipeline/steps/view_header.h"
+#include "registration/carry/mark_curve.h"
+#include "registration/export/markups.h"
+#include "registration/view/simulated_mammogram.h"
+#include "registration/export/view_products.h"
 
 #include <chrono>
 #include <cmath>

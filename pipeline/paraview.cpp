@@ -1,6 +1,6 @@
 // paraview: a compressed mesh -> the breast after each load step, as a series that ParaView plays.
 
-#include "pipeline/compression_course.h"
+#include "pipeline/steps/compression_course.h"
 #include "pipeline/frame/stage.h"
 
 namespace mammotwin {

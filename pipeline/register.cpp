@@ -1,14 +1,14 @@
 // register: compressed meshes + view geometry -> lesions on the CC and MLO detectors.
 
-#include "pipeline/dicom_products.h"
+#include "pipeline/steps/dicom_products.h"
 #include "pipeline/frame/stage.h"
-#include "pipeline/searched_views.h"
-#include "pipeline/view_header.h"
-#include "registration/lesion_table.h"
-#include "registration/markups.h"
-#include "registration/point_carrier.h"
-#include "registration/ray_curve.h"
-#include "segmentation/segmentation_file.h"
+#include "pipeline/steps/searched_views.h"
+#include "pipeline/steps/view_header.h"
+#include "registration/export/lesion_table.h"
+#include "registration/export/markups.h"
+#include "registration/carry/point_carrier.h"
+#include "registration/carry/ray_curve.h"
+#include "segmentation/files/segmentation_file.h"
 
 #include <cstdio>
 #include <iostream>

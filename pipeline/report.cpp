@@ -3,8 +3,8 @@
 #include "pipeline/report/report.h"
 
 #include "pipeline/frame/stage.h"
-#include "pipeline/view_header.h"
-#include "registration/mammogram_header.h"
+#include "pipeline/steps/view_header.h"
+#include "registration/mammogram/mammogram_header.h"
 
 namespace mammotwin {
 namespace {

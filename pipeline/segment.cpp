@@ -2,10 +2,10 @@
 
 #include "segmentation/segment.h"
 
-#include "fitting/scanned_breast.h"
-#include "fitting/tissue_volumes.h"
+#include "fitting/scan/scanned_breast.h"
+#include "fitting/tissue/tissue_volumes.h"
 #include "pipeline/frame/stage.h"
-#include "segmentation/segmentation_file.h"
+#include "segmentation/files/segmentation_file.h"
 
 namespace mammotwin {
 namespace {

@@ -1,13 +1,13 @@
 // unload: the breast as imaged -> its shape free of stress, and how that hangs in other poses.
 
-#include "solver/unload.h"
+#include "solver/gravity/unload.h"
 
-#include "pipeline/breast_problem.h"
+#include "pipeline/steps/breast_problem.h"
 #include "pipeline/frame/sidecar.h"
 #include "pipeline/frame/stage.h"
-#include "pipeline/second_state.h"
-#include "pipeline/unload_quality.h"
-#include "segmentation/segmentation_file.h"
+#include "pipeline/steps/second_state.h"
+#include "pipeline/steps/unload_quality.h"
+#include "segmentation/files/segmentation_file.h"
 
 #include <fstream>
 

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "segmentation/tissue.h"
+#include "segmentation/segmentation.h"
 
 namespace mammotwin {
 

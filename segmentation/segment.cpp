@@ -4,13 +4,13 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "segmentation/breast_region.h"
-#include "segmentation/distance.h"
-#include "segmentation/half_body.h"
+#include "segmentation/body/breast_region.h"
+#include "segmentation/image/distance.h"
+#include "segmentation/body/half_body.h"
 #include "segmentation/landmarks.h"
-#include "segmentation/nipple.h"
-#include "segmentation/read_image.h"
-#include "segmentation/segment_labels.h"
+#include "segmentation/body/nipple.h"
+#include "segmentation/files/read_image.h"
+#include "segmentation/label_maps/segment_labels.h"
 #include "segmentation/segment_limits.h"
 #include "segmentation/segment_mri.h"
 

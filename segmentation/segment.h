@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "segmentation/label_values.h"
+#include "segmentation/label_maps/label_values.h"
 #include "segmentation/segment_quality.h"
-#include "segmentation/tissue.h"
+#include "segmentation/segmentation.h"
 
 namespace mammotwin {
 

@@ -5,17 +5,17 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "segmentation/denoise.h"
-#include "segmentation/enhancement.h"
-#include "segmentation/half_body.h"
-#include "segmentation/half_breast.h"
-#include "segmentation/judge_wall.h"
+#include "segmentation/image/denoise.h"
+#include "segmentation/contrast_agent/enhancement.h"
+#include "segmentation/body/half_body.h"
+#include "segmentation/body/half_breast.h"
+#include "segmentation/chest_wall/judge_wall.h"
 #include "segmentation/landmarks.h"
-#include "segmentation/lesion_seed.h"
-#include "segmentation/lesion_stage.h"
-#include "segmentation/read_image.h"
+#include "segmentation/lesion/lesion_seed.h"
+#include "segmentation/lesion/lesion_stage.h"
+#include "segmentation/files/read_image.h"
 #include "segmentation/segment_limits.h"
-#include "segmentation/tissue_stage.h"
+#include "segmentation/tissue/tissue_stage.h"
 
 namespace mammotwin {
 namespace {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "segmentation/enhancement.h"
-#include "segmentation/tissue.h"
+#include "segmentation/contrast_agent/enhancement.h"
+#include "segmentation/segmentation.h"
 
 namespace mammotwin {
 

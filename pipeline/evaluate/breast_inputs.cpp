@@ -5,14 +5,14 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "pipeline/compression_settings.h"
+#include "pipeline/patient/compression_settings.h"
 #include "pipeline/evaluate/real_breasts.h"
 #include "pipeline/evaluate/stage_command.h"
 #include "pipeline/frame/products.h"
 #include "pipeline/synthesize/option_table.h"
 #include "pipeline/synthesize/patient.h"
-#include "registration/view_frame.h"
-#include "segmentation/segmentation_file.h"
+#include "registration/view/view_frame.h"
+#include "segmentation/files/segmentation_file.h"
 
 namespace mammotwin {
 namespace {

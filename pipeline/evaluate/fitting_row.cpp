@@ -3,12 +3,12 @@
 #include <fstream>
 #include <map>
 
-#include "fitting/cell_tissue.h"
+#include "fitting/tissue/cell_tissue.h"
 #include "fitting/mesh/mesh_file.h"
-#include "fitting/tissue_volumes.h"
+#include "fitting/tissue/tissue_volumes.h"
 #include "pipeline/evaluate/stage_command.h"
 #include "pipeline/frame/products.h"
-#include "segmentation/segmentation_file.h"
+#include "segmentation/files/segmentation_file.h"
 
 namespace mammotwin {
 namespace {

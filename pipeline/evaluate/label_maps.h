@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "segmentation/label_values.h"
-#include "segmentation/tissue.h"
+#include "segmentation/label_maps/label_values.h"
+#include "segmentation/segmentation.h"
 
 namespace mammotwin {
 

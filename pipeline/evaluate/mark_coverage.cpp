@@ -1,6 +1,6 @@
 #include "pipeline/evaluate/mark_coverage.h"
 
-#include "registration/search_ellipse.h"
+#include "registration/search/search_ellipse.h"
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 #include "pipeline/evaluate/outline_population.h"
 
-#include "registration/csv.h"
+#include "registration/export/csv.h"
 
 #include <cmath>
 #include <fstream>

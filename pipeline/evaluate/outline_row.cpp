@@ -1,7 +1,7 @@
 #include "pipeline/evaluate/outline_row.h"
 
-#include "registration/compressed_view.h"
-#include "registration/silhouette.h"
+#include "registration/view/compressed_view.h"
+#include "registration/search/silhouette.h"
 
 #include <Eigen/LU>
 

@@ -7,9 +7,9 @@
 
 #include "pipeline/evaluate/mark_coverage.h"
 #include "pipeline/frame/settings.h"
-#include "pipeline/patient.h"
-#include "pipeline/registered_view.h"
-#include "registration/landmark_table.h"
+#include "pipeline/patient/patient.h"
+#include "pipeline/steps/registered_view.h"
+#include "registration/export/landmark_table.h"
 
 namespace mammotwin {
 namespace {

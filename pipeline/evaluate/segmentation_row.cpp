@@ -7,9 +7,9 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "segmentation/score.h"
+#include "pipeline/evaluate/score.h"
 #include "segmentation/segment.h"
-#include "segmentation/segmentation_file.h"
+#include "segmentation/files/segmentation_file.h"
 
 namespace mammotwin {
 namespace {

@@ -1,8 +1,8 @@
 #include "pipeline/evaluate/true_mammogram.h"
 
 #include "pipeline/synthesize/counter_random.h"
-#include "registration/point_carrier.h"
-#include "registration/simulated_mammogram.h"
+#include "registration/carry/point_carrier.h"
+#include "registration/view/simulated_mammogram.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "pipeline/evaluate/true_views.h"
-#include "registration/png_file.h"
+#include "registration/export/png_file.h"
 
 namespace mammotwin {
 

@@ -1,11 +1,11 @@
 #include "pipeline/evaluate/true_views.h"
 
 #include "fitting/fit_breast.h"
-#include "pipeline/breast_problem.h"
-#include "pipeline/gravity_settings.h"
+#include "pipeline/steps/breast_problem.h"
+#include "pipeline/patient/gravity_settings.h"
 #include "pipeline/synthesize/counter_random.h"
-#include "registration/view_frame.h"
-#include "solver/unload.h"
+#include "registration/view/view_frame.h"
+#include "solver/gravity/unload.h"
 
 #include <Eigen/Geometry>
 

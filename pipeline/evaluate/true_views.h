@@ -1,9 +1,9 @@
 #pragma once
 
 #include "pipeline/synthesize/patient.h"
-#include "registration/compressed_view.h"
-#include "registration/detector.h"
-#include "solver/compress.h"
+#include "registration/view/compressed_view.h"
+#include "registration/view/detector.h"
+#include "solver/press/compress.h"
 
 #include <array>
 #include <optional>

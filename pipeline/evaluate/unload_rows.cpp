@@ -1,11 +1,11 @@
 #include "pipeline/evaluate/unload_rows.h"
 
-#include "pipeline/breast_problem.h"
-#include "pipeline/gravity_settings.h"
-#include "registration/point_carrier.h"
-#include "registration/view_frame.h"
-#include "segmentation/segmentation_file.h"
-#include "solver/unload.h"
+#include "pipeline/steps/breast_problem.h"
+#include "pipeline/patient/gravity_settings.h"
+#include "registration/carry/point_carrier.h"
+#include "registration/view/view_frame.h"
+#include "segmentation/files/segmentation_file.h"
+#include "solver/gravity/unload.h"
 
 #include <algorithm>
 #include <ctime>

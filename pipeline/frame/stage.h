@@ -11,7 +11,7 @@
 #include "pipeline/frame/progress_line.h"
 #include "pipeline/frame/settings.h"
 #include "pipeline/frame/stage_declaration.h"
-#include "pipeline/patient.h"
+#include "pipeline/patient/patient.h"
 
 namespace mammotwin {
 

@@ -1,6 +1,6 @@
 #include "pipeline/report/breast_window.h"
 
-#include "registration/position_grid.h"
+#include "registration/carry/position_grid.h"
 
 #include <algorithm>
 

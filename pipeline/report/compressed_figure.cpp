@@ -3,7 +3,7 @@
 #include "pipeline/report/panel.h"
 #include "pipeline/report/view_figures.h"
 #include "pipeline/report/word.h"
-#include "registration/position_grid.h"
+#include "registration/carry/position_grid.h"
 
 #include <algorithm>
 #include <cmath>

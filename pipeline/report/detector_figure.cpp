@@ -4,7 +4,7 @@
 #include "pipeline/report/panel.h"
 #include "pipeline/report/view_figures.h"
 #include "pipeline/report/word.h"
-#include "registration/simulated_mammogram.h"
+#include "registration/view/simulated_mammogram.h"
 
 #include <algorithm>
 #include <cmath>

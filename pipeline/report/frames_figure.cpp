@@ -1,8 +1,8 @@
 #include "pipeline/report/frames_figure.h"
 
 #include "pipeline/report/palette.h"
-#include "registration/detector.h"
-#include "registration/view_frame.h"
+#include "registration/view/detector.h"
+#include "registration/view/view_frame.h"
 
 #include <cmath>
 #include <numbers>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "registration/lesion_table.h"
+#include "registration/export/lesion_table.h"
 
 #include <nlohmann/json.hpp>
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "pipeline/report/picture.h"
-#include "segmentation/tissue.h"
+#include "segmentation/segmentation.h"
 
 namespace mammotwin::palette {
 

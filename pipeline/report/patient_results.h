@@ -1,9 +1,9 @@
 #pragma once
 
 #include "fitting/mesh/mesh_file.h"
-#include "registration/lesion_table.h"
-#include "registration/mammogram_image.h"
-#include "segmentation/tissue.h"
+#include "registration/export/lesion_table.h"
+#include "registration/mammogram/mammogram_image.h"
+#include "segmentation/segmentation.h"
 
 #include <nlohmann/json.hpp>
 

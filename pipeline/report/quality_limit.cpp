@@ -1,7 +1,7 @@
 #include "pipeline/report/quality_limit.h"
 
 #include "fitting/fit_limits.h"
-#include "pipeline/quality_limits.h"
+#include "pipeline/steps/quality_limits.h"
 #include "pipeline/report/word.h"
 #include "segmentation/segment_limits.h"
 

@@ -1,6 +1,6 @@
 #include "pipeline/report/patient_results.h"
 
-#include "segmentation/segmentation_file.h"
+#include "segmentation/files/segmentation_file.h"
 
 #include <algorithm>
 #include <fstream>

@@ -5,7 +5,7 @@
 #include "pipeline/report/palette.h"
 #include "pipeline/report/surface_render.h"
 #include "pipeline/report/word.h"
-#include "registration/position_grid.h"
+#include "registration/carry/position_grid.h"
 
 #include <Eigen/Geometry>
 

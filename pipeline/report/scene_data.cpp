@@ -4,7 +4,7 @@
 #include "pipeline/report/fit_error.h"
 #include "pipeline/report/mesh_surface.h"
 #include "pipeline/report/palette.h"
-#include "registration/position_grid.h"
+#include "registration/carry/position_grid.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 
 #include "pipeline/report/depth_image.h"
 #include "pipeline/report/mesh_surface.h"
-#include "segmentation/tissue.h"
+#include "segmentation/segmentation.h"
 
 #include <functional>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "fitting/triangle_surface.h"
+#include "fitting/surface/triangle_surface.h"
 
 #include <filesystem>
 #include <vector>

@@ -1,10 +1,10 @@
 #include "pipeline/synthesize/hanging_truth.h"
 
 #include "fitting/fit_breast.h"
-#include "pipeline/breast_problem.h"
-#include "pipeline/gravity_settings.h"
-#include "segmentation/mean_fractions.h"
-#include "solver/unload.h"
+#include "pipeline/steps/breast_problem.h"
+#include "pipeline/patient/gravity_settings.h"
+#include "pipeline/synthesize/mean_fractions.h"
+#include "solver/gravity/unload.h"
 
 #include <stdexcept>
 

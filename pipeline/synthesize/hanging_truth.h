@@ -2,7 +2,7 @@
 
 #include "fitting/mesh/mesh_file.h"
 #include "pipeline/synthesize/patient.h"
-#include "solver/compress.h"
+#include "solver/press/compress.h"
 
 #include <functional>
 

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "pipeline/synthesize/map_thorax.h"
-#include "segmentation/components.h"
-#include "segmentation/distance.h"
+#include "segmentation/image/components.h"
+#include "segmentation/image/distance.h"
 
 namespace mammotwin {
 namespace {

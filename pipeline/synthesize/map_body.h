@@ -3,7 +3,7 @@
 #include <cstdint>
 
 #include "pipeline/synthesize/tissue_map.h"
-#include "segmentation/label_values.h"
+#include "segmentation/label_maps/label_values.h"
 
 namespace mammotwin {
 

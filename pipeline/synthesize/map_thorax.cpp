@@ -8,8 +8,8 @@
 #include "pipeline/synthesize/counter_random.h"
 #include "pipeline/synthesize/lattice_noise.h"
 #include "pipeline/synthesize/tissue_map.h"
-#include "segmentation/components.h"
-#include "segmentation/distance.h"
+#include "segmentation/image/components.h"
+#include "segmentation/image/distance.h"
 
 namespace mammotwin {
 namespace {

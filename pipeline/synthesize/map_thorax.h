@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "segmentation/volume.h"
+#include "segmentation/image/volume.h"
 
 namespace mammotwin {
 

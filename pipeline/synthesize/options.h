@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <string>
 
-#include "segmentation/tissue.h"
+#include "segmentation/segmentation.h"
 
 namespace mammotwin {
 

@@ -5,7 +5,7 @@
 
 #include "pipeline/synthesize/anatomy.h"
 #include "pipeline/synthesize/scan.h"
-#include "segmentation/tissue.h"
+#include "segmentation/segmentation.h"
 
 namespace mammotwin {
 
@@ -24,7 +24,7 @@ struct Truth {
 struct SyntheticPatient {
   PatientOptions options;
   TissueMap tissue;
-  Volume<std::uint8_t> labels;  ///< both sides, values of segmentation/tissue.h
+  Volume<std::uint8_t> labels;  ///< both sides, values of segmentation/segmentation.h
   Truth truth;
   Scan scan;
 };

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 
-#include "segmentation/volume.h"
+#include "segmentation/image/volume.h"
 
 namespace mammotwin {
 

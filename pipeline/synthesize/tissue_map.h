@@ -3,7 +3,7 @@
 #include <array>
 #include <cstdint>
 
-#include "segmentation/volume.h"
+#include "segmentation/image/volume.h"
 
 namespace mammotwin {
 

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "segmentation/tissue.h"
+#include "segmentation/segmentation.h"
 
 namespace mammotwin {
 

@@ -1,8 +1,8 @@
 #include "pipeline/validation/box_fit.h"
 
-#include "fitting/fit_samples.h"
+#include "fitting/solve/fit_samples.h"
 #include "fitting/mesh/block_mesh.h"
-#include "fitting/newton_step.h"
+#include "fitting/solve/newton_step.h"
 
 #include <Eigen/Geometry>
 

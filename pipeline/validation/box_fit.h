@@ -1,6 +1,6 @@
 #pragma once
 
-#include "fitting/slab.h"
+#include "fitting/slab/slab.h"
 
 #include <functional>
 

@@ -1,7 +1,7 @@
 #include "pipeline/validation/claims.h"
 
-#include "solver/comparison/lagrange_cylinder.h"
-#include "solver/comparison/strain_jump.h"
+#include "pipeline/validation/lagrange/lagrange_cylinder.h"
+#include "pipeline/validation/lagrange/strain_jump.h"
 
 #include <cstdio>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "solver/gel_cylinder.h"
+#include "pipeline/validation/gel_cylinder/gel_cylinder.h"
 
 #include <nlohmann/json.hpp>
 

@@ -1,9 +1,9 @@
 #include "pipeline/validation/fit_convergence.h"
 
-#include "fitting/closest_point.h"
-#include "fitting/face_mesh.h"
-#include "fitting/skin_patches.h"
-#include "fitting/skin_to_fit.h"
+#include "fitting/surface/closest_point.h"
+#include "fitting/surface/face_mesh.h"
+#include "fitting/slab/skin_patches.h"
+#include "fitting/surface/skin_to_fit.h"
 #include "pipeline/report/palette.h"
 #include "pipeline/validation/box_fit.h"
 #include "pipeline/validation/chart.h"

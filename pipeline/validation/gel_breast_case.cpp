@@ -2,7 +2,7 @@
 
 #include "pipeline/validation/skin_distance.h"
 #include "pipeline/validation/true_skin.h"
-#include "registration/view_frame.h"
+#include "registration/view/view_frame.h"
 #include "solver/material/neo_hookean.h"
 
 #include <nlohmann/json.hpp>

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "fitting/scanned_breast.h"
-#include "solver/compress.h"
+#include "fitting/scan/scanned_breast.h"
+#include "solver/press/compress.h"
 
 #include <nlohmann/json_fwd.hpp>
 

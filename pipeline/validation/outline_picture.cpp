@@ -1,6 +1,6 @@
 #include "pipeline/report/palette.h"
 #include "pipeline/validation/gel_figures.h"
-#include "solver/gel_cylinder_mesh.h"
+#include "pipeline/validation/gel_cylinder/gel_cylinder_mesh.h"
 
 #include <algorithm>
 #include <cmath>

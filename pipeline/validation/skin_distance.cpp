@@ -1,7 +1,7 @@
 #include "pipeline/validation/skin_distance.h"
 
-#include "fitting/closest_point.h"
-#include "fitting/face_mesh.h"
+#include "fitting/surface/closest_point.h"
+#include "fitting/surface/face_mesh.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "fitting/mesh/mesh_file.h"
-#include "fitting/triangle_surface.h"
+#include "fitting/surface/triangle_surface.h"
 
 #include <vector>
 

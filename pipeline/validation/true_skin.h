@@ -1,6 +1,6 @@
 #pragma once
 
-#include "fitting/scanned_breast.h"
+#include "fitting/scan/scanned_breast.h"
 
 namespace mammotwin {
 

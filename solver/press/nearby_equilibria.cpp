@@ -1,6 +1,6 @@
 #include "solver/press/nearby_equilibria.h"
 
-#include "solver/breast_model.h"
+#include "solver/breast/breast_model.h"
 
 #include <stdexcept>
 #include <utility>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "solver/compress.h"
+#include "solver/press/compress.h"
 #include "solver/newton/assembler.h"
 #include "solver/newton/cholesky.h"
 #include "solver/press/plate_way.h"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "solver/compress.h"
+#include "solver/press/compress.h"
 #include "solver/contact/plate_placement.h"
 
 #include <string>

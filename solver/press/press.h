@@ -1,7 +1,7 @@
 #pragma once
 
-#include "solver/breast_model.h"
-#include "solver/compress.h"
+#include "solver/breast/breast_model.h"
+#include "solver/press/compress.h"
 #include "solver/contact/contact_figures.h"
 #include "solver/contact/penalty_continuation.h"
 #include "solver/newton/newton.h"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "solver/gel_cylinder_mesh.h"
+#include "pipeline/validation/gel_cylinder/gel_cylinder_mesh.h"
 #include "solver/material/neo_hookean.h"
 #include "solver/newton/assembler.h"
 #include "solver/newton/cholesky.h"

@@ -1,6 +1,6 @@
 #include "fitting/mesh/block_mesh.h"
-#include "registration/mark_curve.h"
-#include "registration/view_frame.h"
+#include "registration/carry/mark_curve.h"
+#include "registration/view/view_frame.h"
 
 #include <benchmark/benchmark.h>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "segmentation/tissue.h"
+#include "segmentation/segmentation.h"
 
 #include <cmath>
 

@@ -2,8 +2,8 @@
 
 #include "fitting/mesh/bezier.h"
 #include "fitting/mesh/jacobian_bound.h"
-#include "fitting/flatten.h"
-#include "fitting/skin_to_fit.h"
+#include "fitting/surface/flatten.h"
+#include "fitting/surface/skin_to_fit.h"
 #include "tests/fitting/dome.h"
 
 #include <gtest/gtest.h>

@@ -3,11 +3,11 @@
 
 #include "tests/registration/mammogram_dicom.h"
 
-#include "segmentation/segmentation_file.h"
+#include "segmentation/files/segmentation_file.h"
 #include "tests/pipeline/chain_run.h"
 #include "tests/pipeline/kills.h"
 #include "tests/pipeline/patient_case.h"
-#include "tests/segmentation/dicom_writer.h"
+#include "tests/segmentation/files/dicom_writer.h"
 
 #include <chrono>
 

@@ -2,7 +2,7 @@
 // the same as that of an undisturbed one, bit for bit.
 
 #include "fitting/mesh/mesh_file.h"
-#include "segmentation/segmentation_file.h"
+#include "segmentation/files/segmentation_file.h"
 #include "tests/pipeline/command.h"
 #include "tests/pipeline/kills.h"
 #include "tests/pipeline/scratch_folder.h"

@@ -1,7 +1,7 @@
 // Real MRI and real label maps made by others, from the image to lesions.csv, where they are
 // present.
 
-#include "registration/csv.h"
+#include "registration/export/csv.h"
 #include "tests/pipeline/patient_case.h"
 
 #include <Eigen/Core>

@@ -6,7 +6,7 @@
 #include <regex>
 
 #include "fitting/mesh/mesh_file.h"
-#include "registration/point_carrier.h"
+#include "registration/carry/point_carrier.h"
 #include "tests/pipeline/patient_case.h"
 
 namespace mammotwin {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "fitting/mesh/block_mesh.h"
-#include "registration/compressed_view.h"
+#include "registration/view/compressed_view.h"
 
 #include <algorithm>
 #include <cmath>

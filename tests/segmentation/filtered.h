@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "segmentation/volume.h"
+#include "segmentation/image/volume.h"
 
 namespace mammotwin {
 

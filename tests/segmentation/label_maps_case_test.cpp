@@ -1,6 +1,6 @@
-#include "segmentation/breast_region.h"
-#include "segmentation/label_values.h"
-#include "segmentation/read_image.h"
+#include "segmentation/body/breast_region.h"
+#include "segmentation/label_maps/label_values.h"
+#include "segmentation/files/read_image.h"
 #include "tests/segmentation/cases.h"
 
 namespace mammotwin {

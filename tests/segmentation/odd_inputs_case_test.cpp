@@ -1,4 +1,4 @@
-#include "segmentation/read_image.h"
+#include "segmentation/files/read_image.h"
 #include "tests/segmentation/cases.h"
 #include "tests/segmentation/message.h"
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <random>
 
-#include "segmentation/volume.h"
+#include "segmentation/image/volume.h"
 #include "tests/segmentation/filtered.h"
 
 namespace mammotwin {

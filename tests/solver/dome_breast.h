@@ -1,9 +1,9 @@
 #pragma once
 
-#include "test_meshes.h"
+#include "tests/solver/test_meshes.h"
 
 #include "fitting/mesh/mesh_file.h"
-#include "solver/compress.h"
+#include "solver/press/compress.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "test_meshes.h"
+#include "tests/solver/test_meshes.h"
 
 #include "solver/contact/contact_figures.h"
 #include "solver/contact/penalty_continuation.h"

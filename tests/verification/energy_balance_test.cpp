@@ -1,4 +1,4 @@
-#include "solver/gel_cylinder.h"
+#include "pipeline/validation/gel_cylinder/gel_cylinder.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "dome_breast.h"
+#include "tests/solver/dome_breast.h"
 
 #include "solver/contact/contact_figures.h"
 #include "solver/contact/penalty_continuation.h"

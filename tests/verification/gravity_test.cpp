@@ -1,4 +1,4 @@
-#include "test_meshes.h"
+#include "tests/solver/test_meshes.h"
 
 #include "solver/material/neo_hookean.h"
 #include "solver/newton/newton.h"

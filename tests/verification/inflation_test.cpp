@@ -1,7 +1,7 @@
-#include "test_meshes.h"
+#include "tests/solver/test_meshes.h"
 
 #include "solver/element/skin_membrane.h"
-#include "solver/load/follower_pressure.h"
+#include "tests/verification/follower_pressure.h"
 #include "solver/material/neo_hookean.h"
 #include "solver/newton/newton.h"
 

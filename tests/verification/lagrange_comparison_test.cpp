@@ -1,6 +1,6 @@
-#include "solver/comparison/lagrange_cylinder.h"
-#include "solver/comparison/lagrange_mesh.h"
-#include "solver/comparison/strain_jump.h"
+#include "pipeline/validation/lagrange/lagrange_cylinder.h"
+#include "pipeline/validation/lagrange/lagrange_mesh.h"
+#include "pipeline/validation/lagrange/strain_jump.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
-#include "test_meshes.h"
+#include "tests/solver/test_meshes.h"
 
-#include "solver/load/dead_traction.h"
+#include "tests/verification/dead_traction.h"
 #include "solver/material/kinematics.h"
 #include "solver/material/neo_hookean.h"
 #include "solver/newton/newton.h"

@@ -5,7 +5,7 @@
 #include "pipeline/evaluate/niftysim/comparison.h"
 #include "pipeline/evaluate/niftysim/roll_hold.h"
 #include "pipeline/evaluate/victre/victre_comparison.h"
-#include "solver/compress.h"
+#include "solver/press/compress.h"
 
 #include <Eigen/Geometry>
 

@@ -1,4 +1,4 @@
-#include "dome_breast.h"
+#include "tests/solver/dome_breast.h"
 
 #include <gtest/gtest.h>
 

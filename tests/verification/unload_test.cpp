@@ -1,7 +1,7 @@
-#include "dome_breast.h"
+#include "tests/solver/dome_breast.h"
 
 #include "solver/material/neo_hookean.h"
-#include "solver/fit_stiffness.h"
+#include "solver/gravity/fit_stiffness.h"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 
 #include "fitting/mesh/inverse_map.h"
 #include "pipeline/evaluate/niftysim/roll_hold.h"
-#include "segmentation/mean_fractions.h"
+#include "pipeline/synthesize/mean_fractions.h"
 #include "solver/contact/contact_figures.h"
 #include "solver/contact/penalty_continuation.h"
 #include "solver/element/skin_membrane.h"

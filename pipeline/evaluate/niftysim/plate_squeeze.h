@@ -5,8 +5,8 @@
 
 #include "fitting/mesh/mesh_file.h"
 #include "pipeline/evaluate/niftysim/niftysim_file.h"
-#include "segmentation/volume.h"
-#include "segmentation/tissue.h"
+#include "segmentation/image/volume.h"
+#include "segmentation/segmentation.h"
 
 namespace mammotwin {
 

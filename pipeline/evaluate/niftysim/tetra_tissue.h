@@ -1,8 +1,8 @@
 #pragma once
 
 #include "pipeline/evaluate/niftysim/niftysim_file.h"
-#include "segmentation/volume.h"
-#include "segmentation/tissue.h"
+#include "segmentation/image/volume.h"
+#include "segmentation/segmentation.h"
 
 namespace mammotwin {
 

@@ -6,10 +6,10 @@
 #include "fitting/mesh/inverse_map.h"
 #include "pipeline/evaluate/niftysim/round_skin.h"
 #include "pipeline/evaluate/victre/victre_labels.h"
-#include "segmentation/distance.h"
-#include "segmentation/mean_fractions.h"
-#include "segmentation/tissue.h"
-#include "solver/compress.h"
+#include "segmentation/image/distance.h"
+#include "pipeline/synthesize/mean_fractions.h"
+#include "segmentation/segmentation.h"
+#include "solver/press/compress.h"
 #include "solver/material/neo_hookean.h"
 
 namespace mammotwin {

@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "segmentation/volume.h"
+#include "segmentation/image/volume.h"
 
 namespace mammotwin {
 

@@ -1,0 +1,158 @@
+#include "pipeline/patient/compression_settings.h"
+
+#include "solver/material/exponential.h"
+#include "solver/material/mooney_rivlin.h"
+#include "solver/material/neo_hookean.h"
+
+#include <stdexcept>
+
+namespace mammotwin {
+namespace {
+
+const Range kModulus{0.01, 1000, "kPa", "c1 is half the shear modulus, about a sixth of E"};
+
+void declare_law(Settings& s, const std::string& tissue, LawSettings& law) {
+  const std::string prefix = "materials." + tissue + ".";
+  s.choice(prefix + "law", law.law,
+           {{"neo_hookean", LawName::neo_hookean},
+            {"mooney_rivlin", LawName::mooney_rivlin},
+            {"exponential", LawName::exponential}},
+           "stored energy of " + tissue);
+  s.number(prefix + "c1_kpa", law.c1_kpa, kModulus, "c1 of " + tissue);
+  s.number(prefix + "c2_kpa", law.c2_kpa, {0, 1000, "kPa"}, "c2, mooney_rivlin only");
+  s.number(prefix + "stiffening", law.stiffening, {0.001, 20}, "b, exponential only");
+}
+
+}  // namespace
+
+std::shared_ptr<const Material> LawSettings::material(double factor) const {
+  switch (law) {
+    case LawName::neo_hookean: return std::make_shared<NeoHookean>(factor * c1_kpa);
+    case LawName::mooney_rivlin: return std::make_shared<MooneyRivlin>(factor * c1_kpa, factor * c2_kpa);
+    case LawName::exponential: return std::make_shared<Exponential>(factor * c1_kpa, stiffening);
+  }
+  throw std::logic_error("unknown law");
+}
+
+TissueLaws CompressionSettings::laws(double factor) const {
+  return {{fat.material(factor), fibroglandular.material(factor), lesion.material(factor)},
+          mixing};
+}
+
+void CompressionSettings::shape_plates(PlateOptions& plates) const {
+  constexpr double mN_mm_per_N_m = 1e6;
+  plates.rounding = plate_rounding_mm;
+  plates.wall_clearance = wall_clearance_mm;
+  if (plate_width_mm) plates.width = *plate_width_mm;
+  if (plate_length_mm) plates.length = *plate_length_mm;
+  plates.paddle_tilt = paddle_tilt_deg;
+  if (paddle_spring_nm_per_deg) plates.tilt_spring = *paddle_spring_nm_per_deg * mN_mm_per_N_m;
+  plates.pivot = paddle_pivot_mm;
+}
+
+Detector ViewSettings::detector(const std::string& view, Side side) const {
+  Detector detector;
+  detector.source_distance_mm = source_distance_mm.value_or(detector.source_distance_mm);
+  detector.support_gap_mm = support_gap_mm.value_or(detector.support_gap_mm);
+  const int given = pixel_spacing_mm.has_value() + columns.has_value() + rows.has_value();
+  if (given != 0 && given != 3)
+    throw std::runtime_error("views." + view + ".detector: pixel_spacing_mm, columns and rows are "
+                             "given only in part; expected all three, or none for mm alone");
+  if (given == 3) {
+    const ImageEdge as_hung = side == Side::left ? ImageEdge::left : ImageEdge::right;
+    detector.pixels = PixelGrid{*pixel_spacing_mm, *columns, *rows, chest_wall.value_or(as_hung),
+                                lateral_at_top.value_or(true)};
+  }
+  check_detector(detector);
+  return detector;
+}
+
+void declare_compression(Settings& s, CompressionSettings& c) {
+  declare_law(s, "fat", c.fat);
+  declare_law(s, "fibroglandular", c.fibroglandular);
+  declare_law(s, "lesion", c.lesion);
+  s.choice("materials.mixing", c.mixing,
+           {{"arithmetic", Mixing::arithmetic},
+            {"geometric", Mixing::geometric},
+            {"harmonic", Mixing::harmonic}},
+           "stiffness of a quadrature point that holds several tissues");
+  s.number("materials.stiffness_factor", c.stiffness_factor, {0.01, 100},
+           "on all stiffnesses: tissue, skin and springs");
+  s.flag("materials.skin.membrane", c.skin.on, "skin resists stretch as a membrane");
+  s.number("materials.skin.c1_kpa", c.skin.c1, kModulus, "c1 of the skin membrane");
+  s.number("materials.skin.thickness_mm", c.skin.thickness, {0.1, 5, "mm"},
+           "thickness of the skin membrane");
+  s.choice("compress.chest_wall", c.boundary.chest_wall,
+           {{"sliding", ChestWall::sliding},
+            {"free", ChestWall::free},
+            {"clamped", ChestWall::clamped}},
+           "breast on the pectoral muscle: held on its surface against springs, freely, or fixed");
+  s.number("compress.chest_wall_spring_kpa_per_mm", c.boundary.chest_wall_spring,
+           {0, 10, "kPa/mm"}, "springs against sliding");
+  s.choice("compress.cut_faces", c.boundary.cut_faces,
+           {{"springs", CutFaces::springs}, {"free", CutFaces::free}, {"clamped", CutFaces::clamped}},
+           "where tissue goes on behind the model");
+  s.number("compress.cut_face_depth_mm", c.boundary.cut_face_depth, {1, 1000, "mm"},
+           "depth of the tissue behind a cut face: spring = shear modulus / depth");
+  s.number("compress.plate_rounding_mm", c.plate_rounding_mm, {0.5, 50, "mm"},
+           "radius of the plates' edges at the chest wall");
+  s.number("compress.wall_clearance_mm", c.wall_clearance_mm, {0, 60, "mm"},
+           "from the chest wall to the plates' edges");
+  s.number("compress.plate_width_mm", c.plate_width_mm, {20, 1000, "mm"},
+           "of both plates, edges rounded like the rear ones; default endless");
+  s.number("compress.plate_length_mm", c.plate_length_mm, {20, 1000, "mm"},
+           "from the plates' rear to their front edges; default endless");
+  s.number("compress.paddle_tilt_deg", c.paddle_tilt_deg, {-30, 30, "deg"},
+           "of the paddle about its rear edge, positive: front lower");
+  s.number("compress.paddle_spring_nm_per_deg", c.paddle_spring_nm_per_deg, {0.01, 100, "N m/deg"},
+           "spring that a flexible paddle tilts against; default rigid");
+  s.number("compress.paddle_pivot_mm", c.paddle_pivot_mm, {0, 500, "mm"},
+           "from the rear edge to the axis of a flexible paddle");
+  s.path("compress.paddle_stl", c.paddle_stl,
+         "paddle as facets (STL, mm): x from the rear edge to the nipple, z into the breast");
+  s.path("compress.support_stl", c.support_stl, "support as facets, the same");
+  s.choice("compress.moving", c.options.moving, {{"both", Moving::both}, {"paddle", Moving::paddle}},
+           "plates that press: both, or the paddle once the support has lifted the breast");
+  s.number("compress.friction_coefficient", c.friction.coefficient, {0, 1},
+           "Coulomb friction with the plates");
+  s.number("compress.holding_friction", c.options.holding_friction, {0, 1},
+           "with which a breast that plates without friction do not hold is pressed again, then with "
+           "twice it; 0: it is not");
+  s.number("compress.friction_slip_mm", c.friction.slip, {0.001, 1, "mm"},
+           "slip up to which friction is elastic");
+  s.number("compress.gap_tolerance_mm", c.options.gap_tolerance, {0.0001, 0.1, "mm"},
+           "largest penetration of a plate");
+  s.flag("compress.gravity", c.standing_gravity,
+         "the breast sags as the patient stands before the plates close");
+}
+
+void declare_view(Settings& s, const std::string& view, ViewSettings& v) {
+  const std::string prefix = "views." + view + ".";
+  s.path(prefix + "mammogram", v.mammogram,
+         "the view's mammogram (DICOM, or PNG with `detector` keys): the breast is brought to it");
+  s.numbers(prefix + "nipple_pixel", v.nipple_pixel, {-20000, 20000, "pixels"},
+            "column and row of the nipple in the mammogram; default: its marker, or the profile's tip");
+  s.number(prefix + "thickness_mm", v.thickness_mm, {10, 200, "mm", "is it in cm?"},
+           "compressed thickness; default the DICOM mammogram's, else 0.45 of the free extent");
+  s.number(prefix + "angle_deg", v.angle_deg, {-90, 90, "deg"},
+           "positioner angle: the beam runs from superior-medial to inferior-lateral; default the DICOM "
+           "mammogram's, else 0 for CC and 45 for MLO");
+  s.number(prefix + "lift_mm", v.lift_mm, {-50, 50, "mm"},
+           "how far the plates' middle lies above the breast's centroid");
+  const std::string detector = prefix + "detector.";
+  s.number(detector + "source_distance_mm", v.source_distance_mm, {300, 1500, "mm"},
+           "X-ray source to detector; default the DICOM mammogram's, else 660");
+  s.number(detector + "support_gap_mm", v.support_gap_mm, {0, 50, "mm"},
+           "detector to the support's surface; default the DICOM mammogram's, else 0");
+  s.number(detector + "pixel_spacing_mm", v.pixel_spacing_mm, {0.01, 2, "mm"},
+           "on the detector (ImagerPixelSpacing); without it positions are in mm only");
+  s.integer(detector + "columns", v.columns, {1, 20000}, "of the stored image");
+  s.integer(detector + "rows", v.rows, {1, 20000}, "of the stored image");
+  s.choice(detector + "chest_wall", v.chest_wall,
+           {{"left", ImageEdge::left}, {"right", ImageEdge::right}},
+           "image edge at the chest wall; default: left for a left breast");
+  s.choice(detector + "lateral", v.lateral_at_top, {{"top", true}, {"bottom", false}},
+           "image edge towards the patient's side (CC) or head (MLO); default: top");
+}
+
+}  // namespace mammotwin

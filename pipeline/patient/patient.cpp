@@ -1,0 +1,242 @@
+#include "pipeline/patient/patient.h"
+
+#include <stdexcept>
+
+#include "pipeline/frame/nearest_name.h"
+#include "pipeline/frame/toml_file.h"
+
+namespace mammotwin {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+constexpr double kFarthestMm = 2000;
+constexpr ForeignTissue kTissues[] = {ForeignTissue::air,        ForeignTissue::skin,
+                                      ForeignTissue::fat,        ForeignTissue::fibroglandular,
+                                      ForeignTissue::transition, ForeignTissue::muscle,
+                                      ForeignTissue::lesion};
+
+void refuse_unknown(const std::string& where, const std::string& key, const Settings& settings) {
+  if (settings.find(key)) return;
+  throw std::runtime_error(where + ": unknown key " + key + "; the nearest known one is " +
+                           nearest_name(key, settings.keys()));
+}
+
+}  // namespace
+
+void Patient::declare(Settings& settings) {
+  declare_inputs(settings);
+  declare_scan(settings);
+  declare_segment(settings);
+  declare_fit(settings);
+  declare_gravity(settings, gravity);
+  declare_compression(settings, compression);
+  declare_registration(settings, registration);
+  declare_view(settings, "cc", cc);
+  declare_view(settings, "mlo", mlo);
+}
+
+void Patient::declare_inputs(Settings& s) {
+  s.choice("side", side_, {{"left", Side::left}, {"right", Side::right}},
+           "the breast; default: the lesions' side");
+  s.path("mri.path", mri_, "DICOM folder, NIfTI, NRRD or MHA; default: the folder mri");
+  s.private_text("mri.series", series_, "series number or UID, where the folder holds several");
+  s.path("mri.pre", pre_, "the image before contrast agent, where it lies apart");
+  s.private_text("mri.pre_series", pre_series_,
+                 "its series number or UID (with phase, \"NUMBER:PHASE\")");
+  s.choice("mri.fat_suppressed", fat_suppressed_, {{"yes", true}, {"no", false}},
+           "is the fat dark? default: decided from the image");
+  s.path("labels.path", labels_, "label map made elsewhere, taken as the whole segmentation");
+  for (const ForeignTissue tissue : kTissues)
+    s.label_values(
+        "labels." + to_string(tissue), label_values_[tissue],
+        "values of `labels.path` that are " + to_string(tissue) +
+            (tissue == ForeignTissue::transition ? " (half fat, half fibroglandular)" : ""));
+  s.point("nipple.point_lps_mm", nipple_lps_mm_, {-kFarthestMm, kFarthestMm, "mm"},
+          "the nipple, patient LPS; default: what stands out of the skin there");
+  s.path("nipple.markups", nipple_markups_, "the nipple as 3D Slicer markups (.mrk.json)");
+}
+
+void Patient::declare_scan(Settings& s) {
+  s.path("scan.path", scan_, "scanned skin instead of an image: PLY, STL, OBJ, OFF or XYZ");
+  s.number("scan.unit_mm", scan_options_.unit_mm, {1e-6, 1e6, "mm"}, "length of the file's unit");
+  s.point("scan.base_point", scan_options_.base_point, {-1e9, 1e9},
+          "a point of the plane that the breast stands on, in the file's axes and unit; default: "
+          "behind the scan's rim");
+  s.point("scan.base_normal", scan_options_.base_normal, {-1e9, 1e9},
+          "its normal, in the file's axes");
+  s.number("scan.base_depth_mm", scan_options_.base_depth_mm, {2, 100, "mm"},
+           "how far behind the rim's plane the base lies where it is not given");
+  s.point("scan.up", scan_up_, {-1e9, 1e9},
+          "direction to the head in the file's axes; default [0, 0, 1]");
+}
+
+Pose Patient::imaged_pose(const std::string& patient_position) const {
+  if (gravity.imaged) return *gravity.imaged;
+  if (scan_) return Pose::none;
+  return patient_position.ends_with("S") ? Pose::supine : Pose::prone;
+}
+
+std::optional<fs::path> Patient::scan_file() const {
+  if (!scan_) return std::nullopt;
+  if (mri_ || labels_)
+    throw std::runtime_error(file_.string() + ": scan.path stands beside mri.path or labels.path; "
+                             "expected one of them");
+  return resolve(*scan_);
+}
+
+ScanOptions Patient::scan_options() const {
+  ScanOptions options = scan_options_;
+  if (options.base_point.has_value() != options.base_normal.has_value())
+    throw std::runtime_error(file_.string() + ": scan.base_point and scan.base_normal belong "
+                             "together; expected both or none");
+  options.up = scan_up_.value_or(options.up);
+  options.side = side_.value_or(Side::left);
+  return options;
+}
+
+void Patient::declare_segment(Settings& s) {
+  s.number("segment.skin_thickness_mm", segment.skin_thickness_mm, {0.5, 5, "mm"},
+           "skin thickness where it is known; measured otherwise");
+  s.choice("segment.lesion_method", segment.lesion_method,
+           {{"mix", LesionMethod::mix}, {"random_walker", LesionMethod::random_walker}},
+           "how a lesion's extent is found from its point");
+  s.number("segment.lesion_reach_mm", segment.lesion_reach_mm, {5, 60, "mm"},
+           "a lesion reaches at most this far from its point");
+  s.number("segment.wall_stiffness", segment.wall_stiffness, {0.01, 1, "per mm^2"},
+           "stiffness of the chest wall's search");
+}
+
+void Patient::declare_fit(Settings& s) {
+  s.integers("fit.elements", fit.elements, {1, 16},
+             "elements along x, z and from chest wall to skin; default: from the skin's area");
+  s.number("fit.accuracy_mm", fit.accuracy_mm, {0.05, 5, "mm"},
+           "skin RMS that decides how many elements stand along x and z");
+  s.number("fit.smoothing", fit.smoothing, {1e-12, 1e-3},
+           "weight of the Sobolev term; default: from the data's noise");
+  s.number("fit.shape", fit.shape, {0.1, 10}, "weight of well-shaped elements against closeness");
+}
+
+const ViewSettings& Patient::view(const std::string& name) const {
+  if (name == "cc") return cc;
+  if (name == "mlo") return mlo;
+  throw std::logic_error("no view is called " + name);
+}
+
+void Patient::read(const fs::path& file, const Settings& settings) {
+  file_ = file;
+  for (const auto& [key, value] : read_toml(file)) {
+    if (key == "lesions") {
+      read_lesions(file.string(), value);
+      continue;
+    }
+    refuse_unknown(file.string(), key, settings);
+    settings.assign(file.string() + ": " + key, key, value);
+  }
+}
+
+void Patient::read_lesions(const std::string& file, const json& list) {
+  if (!list.is_array()) throw std::runtime_error(file + ": lesions: expected tables [[lesions]]");
+  for (const json& table : list) {
+    LesionEntry& entry = lesions_.emplace_back();
+    const std::string where = "lesions[" + std::to_string(lesions_.size() - 1) + "]";
+    Settings settings;
+    declare_lesion(settings, "", entry);
+    if (!table.is_object()) throw std::runtime_error(file + ": " + where + ": expected a table");
+    for (const auto& [key, value] : table.items()) {
+      refuse_unknown(file + ": " + where, key, settings);
+      settings.assign(file + ": " + where + "." + key, key, value);
+    }
+    require_one_place(file + ": " + where, entry);
+    if (!entry.id) entry.id = "L" + std::to_string(lesions_.size());
+  }
+}
+
+std::string Patient::name() const {
+  return file_.empty() ? "" : fs::absolute(file_).parent_path().filename().string();
+}
+
+fs::path Patient::resolve(const fs::path& path) const {
+  return path.is_absolute() ? path : file_.parent_path() / path;
+}
+
+std::optional<fs::path> Patient::second_state() const {
+  if (!gravity.second_state) return std::nullopt;
+  return resolve(*gravity.second_state);
+}
+
+LesionSeed Patient::seed_of(const LesionEntry& entry) const {
+  LesionSeed seed;
+  seed.id = *entry.id;
+  seed.point_in_lps = entry.point_lps_mm;
+  seed.radius_mm = entry.radius_mm;
+  if (entry.markups) seed.markups = resolve(*entry.markups);
+  if (entry.labels) {
+    seed.label_map = resolve(*entry.labels);
+    seed.label_value = static_cast<std::uint16_t>(entry.label);
+  }
+  return seed;
+}
+
+LabelValues Patient::label_values() const {
+  LabelValues values;
+  for (const auto& [tissue, numbers] : label_values_)
+    for (const int number : numbers)
+      if (!values.emplace(static_cast<std::uint16_t>(number), tissue).second)
+        throw std::runtime_error(file_.string() + ": labels: the value " + std::to_string(number) +
+                                 " is given to two tissues");
+  return values;
+}
+
+SegmentInput Patient::segment_input() const {
+  SegmentInput input;
+  const fs::path default_mri = resolve("mri");
+  if (mri_)
+    input.mri = resolve(*mri_);
+  else if (fs::exists(default_mri))
+    input.mri = default_mri;
+  if (labels_) input.label_map = resolve(*labels_);
+  if (!input.mri && !input.label_map)
+    throw std::runtime_error(file_.string() +
+                             ": no image: set mri.path (DICOM folder, NIfTI, NRRD, "
+                             "MHA), labels.path or scan.path, or put the series in " +
+                             default_mri.string());
+  input.series = series_;
+  if (pre_) input.pre = resolve(*pre_);
+  input.pre_series = pre_series_;
+  input.fat_suppressed = fat_suppressed_;
+  input.label_values = label_values();
+  input.side = side_;
+  for (const LesionEntry& entry : lesions_) input.lesions.push_back(seed_of(entry));
+  input.nipple_in_lps = nipple_lps_mm_;
+  if (nipple_markups_) input.nipple_markups = resolve(*nipple_markups_);
+  return input;
+}
+
+std::vector<fs::path> Patient::segment_files() const {
+  if (const auto scan = scan_file()) return {*scan};
+  const SegmentInput input = segment_input();
+  std::vector<fs::path> files;
+  for (const auto& path : {input.mri, input.pre, input.label_map, input.nipple_markups})
+    if (path) files.push_back(*path);
+  for (const LesionSeed& seed : input.lesions)
+    for (const auto& path : {seed.markups, seed.label_map})
+      if (path) files.push_back(*path);
+  return files;
+}
+
+json Patient::list_parameters(const std::vector<std::string>& prefixes) const {
+  json parameters = json::object();
+  for (const std::string& prefix : prefixes) {
+    if (prefix != "lesions.") continue;
+    for (std::size_t n = 0; n < lesions_.size(); ++n) {
+      LesionEntry entry = lesions_[n];
+      Settings settings;
+      declare_lesion(settings, "lesions[" + std::to_string(n) + "].", entry);
+      parameters.update(settings.parameters({"lesions["}));
+    }
+  }
+  return parameters;
+}
+
+}  // namespace mammotwin

@@ -1,0 +1,59 @@
+#include "pipeline/steps/breast_problem.h"
+
+#include "fitting/tissue/cell_tissue.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace mammotwin {
+
+TissueSampler tissue_of(const MeshFile& mesh, const Volume<Fractions>& fractions) {
+  const auto tissue = std::make_shared<const CellTissue>(prone_file(mesh).mesh, fractions);
+  return [tissue](const Eigen::Vector3d& x_prone, double) {
+    const Fractions f = tissue->at(x_prone);
+    return std::array<double, 3>{f.fat, f.fibroglandular, f.lesion};
+  };
+}
+
+CompressionProblem breast_problem(MeshFile mesh, TissueSampler tissue,
+                                  const CompressionSettings& settings, double stiffness_factor) {
+  CompressionProblem problem;
+  problem.mesh = std::move(mesh);
+  if (const auto prone = problem.mesh.configurations.find("prone");
+      prone != problem.mesh.configurations.end())
+    problem.prone = prone->second;
+  problem.tissue = std::move(tissue);
+  problem.laws = settings.laws(stiffness_factor);
+  problem.skin = settings.skin;
+  problem.skin.c1 *= stiffness_factor;
+  problem.boundary = settings.boundary;
+  problem.boundary.chest_wall_spring *= stiffness_factor;
+  return problem;
+}
+
+double stiffness_factor_of(const MeshFile& mesh, const CompressionSettings& settings) {
+  const auto written = mesh.metadata.find("stiffness_factor");
+  return written == mesh.metadata.end() ? settings.stiffness_factor : written->second.at(0);
+}
+
+MeshFile prone_file(const MeshFile& file) {
+  MeshFile prone = file;
+  if (const auto found = file.configurations.find("prone"); found != file.configurations.end())
+    prone.mesh = HermiteMesh(found->second, file.mesh.elements());
+  return prone;
+}
+
+double wall_slide(const MeshFile& mesh, const std::vector<HermiteMesh::Node>& from,
+                  const std::vector<HermiteMesh::Node>& to) {
+  double slide = 0;
+  for (int e = 0; e < mesh.mesh.num_elements(); ++e)
+    for (int face = 0; face < 6; ++face)
+      for (int c = 0; mesh.faces[e][face] == FaceLabel::chest_wall && c < 8; ++c)
+        if ((c >> (face / 2) & 1) == face % 2) {
+          const int node = mesh.mesh.corners(e)[c];
+          slide = std::max(slide, (from[node].col(0) - to[node].col(0)).norm());
+        }
+  return slide;
+}
+
+}  // namespace mammotwin

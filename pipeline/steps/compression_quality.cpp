@@ -1,0 +1,92 @@
+#include "pipeline/steps/compression_quality.h"
+
+#include "pipeline/steps/quality_limits.h"
+
+#include <cmath>
+#include <cstdio>
+
+namespace mammotwin {
+namespace {
+
+using nlohmann::json;
+
+json history_json(const CompressionReport& report) {
+  json history = json::array();
+  for (const CompressionStep& step : report.history)
+    history.push_back({{"thickness_mm", step.thickness_mm},
+                       {"force_N", step.force_N},
+                       {"iterations", step.iterations},
+                       {"penalty_kPa_per_mm", step.penalty},
+                       {"min_J", step.min_J},
+                       {"max_J", step.max_J}});
+  return history;
+}
+
+json quality_of(const CompressionReport& r, double angle_deg) {
+  return {{"angle_deg", angle_deg},
+          {"target_thickness_mm", r.target_thickness_mm},
+          {"thickness_mm", r.thickness_mm},
+          {"free_thickness_mm", r.free_thickness_mm},
+          {"compressed_fraction", 1 - r.thickness_mm / r.free_thickness_mm},
+          {"force_N", r.force_N},
+          {"energy_force_N", r.energy_force_N},
+          {"paddle_tilt_deg", r.paddle_tilt_deg},
+          {"contact_area_cm2", r.contact_area_cm2},
+          {"volume_change", r.volume_change},
+          {"min_J", r.min_J},
+          {"max_J", r.max_J},
+          {"J_within_half", r.J_within_half},
+          {"max_penetration_mm", r.max_penetration_mm},
+          {"retained_fraction", r.retained_fraction},
+          {"held_by_friction", r.held_by_friction},
+          {"wall_gap_mm", r.wall_gap_mm},
+          {"steps", r.steps},
+          {"cutbacks", r.cutbacks},
+          {"newton_iterations", r.newton_iterations},
+          {"indefinite_matrices", r.indefinite_matrices},
+          {"dof", r.dof},
+          {"history", history_json(r)}};
+}
+
+std::string sentence(const char* format, double value, double limit) {
+  char text[200];
+  std::snprintf(text, sizeof text, format, value, limit);
+  return text;
+}
+
+}  // namespace
+
+Outcome judge_compression(const CompressionReport& r, double angle_deg, bool assumed_thickness) {
+  Outcome outcome;
+  outcome.quality = quality_of(r, angle_deg);
+  outcome.quality["thickness_assumed"] = assumed_thickness;
+  if (!r.usable()) {
+    outcome.status = Status::not_converged;
+    outcome.reasons = {r.reason};
+    return outcome;
+  }
+  const auto doubt = [&](bool doubtful, const std::string& reason) {
+    if (!doubtful) return;
+    outcome.status = Status::look;
+    outcome.reasons.push_back(reason);
+  };
+  doubt(std::abs(r.thickness_mm - r.target_thickness_mm) > limits::thickness_error_mm,
+        sentence("the breast ended %.2f mm thick where %.2f mm were asked", r.thickness_mm,
+                 r.target_thickness_mm));
+  doubt(std::abs(r.volume_change) > limits::volume_change,
+        sentence("its volume changed by %.2f %%; expected under %.0f %%", 100 * r.volume_change,
+                 100 * limits::volume_change));
+  doubt(r.max_penetration_mm > limits::penetration_mm,
+        sentence("a plate went %.3f mm into the breast; expected under %.1f mm",
+                 r.max_penetration_mm, limits::penetration_mm));
+  doubt(r.held_by_friction > 0,
+        sentence("between plates without friction the breast slips out or finds no equilibrium; a "
+                 "friction coefficient of %.2f was taken to hold it",
+                 r.held_by_friction, 0));
+  doubt(r.J_within_half < limits::share_of_sane_J,
+        sentence("volume is locally kept within half at %.1f %% of the points; expected %.0f %%",
+                 100 * r.J_within_half, 100 * limits::share_of_sane_J));
+  return outcome;
+}
+
+}  // namespace mammotwin

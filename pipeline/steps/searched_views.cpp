@@ -1,0 +1,124 @@
+#include "pipeline/steps/searched_views.h"
+
+#include "pipeline/steps/breast_problem.h"
+#include "pipeline/steps/view_problem.h"
+#include "registration/mammogram/mammogram_findings.h"
+#include "registration/mammogram/mammogram_header.h"
+
+#include <cstdio>
+#include <stdexcept>
+
+namespace mammotwin {
+namespace {
+
+using nlohmann::json;
+
+// What is worth a look after a search.
+constexpr double kPoorOutline_mm = 5, kPoorNipple_mm = 10, kFarState = 2;
+
+ViewEvidence evidence_of(const Patient& patient, const RegisteredView& view) {
+  const CompressedView& geometry = view.projection.view();
+  const ViewSettings& settings = patient.view(geometry.name);
+  const std::filesystem::path path = patient.resolve(*settings.mammogram);
+  const Detector& detector = view.projection.detector();
+  const std::string key = "views." + geometry.name;
+  if (!detector.pixels)
+    throw std::runtime_error(key + ".mammogram is given, but not " + key +
+                             ".detector.pixel_spacing_mm, columns and rows");
+  const MammogramImage image =
+      is_dicom(path) ? read_mammogram_dicom(path) : read_mammogram_png(path);
+  if (image.columns != detector.pixels->columns || image.rows != detector.pixels->rows)
+    throw std::runtime_error(path.filename().string() + " has " + std::to_string(image.columns) +
+                             " x " + std::to_string(image.rows) + " pixels; " + key +
+                             ".detector says " + std::to_string(detector.pixels->columns) + " x " +
+                             std::to_string(detector.pixels->rows));
+  const MammogramFindings found = find_breast(image, std::abs(geometry.angle_deg) > 15);
+  if (found.chest_wall != detector.pixels->chest_wall)
+    throw std::runtime_error(path.filename().string() +
+                             ": the breast lies on the image's other side than " + key +
+                             ".detector.chest_wall says; is it the other breast, or mirrored?");
+  return view_evidence(image, found, detector, settings.nipple_pixel);
+}
+
+json figures_json(const MatchFigures& f) {
+  return {{"outline_rms_mm", f.outline_rms_mm},
+          {"nipple_mm", f.nipple_mm ? json(*f.nipple_mm) : json()},
+          {"pattern_correlation", f.pattern_correlation}};
+}
+
+json search_json(const SearchedView& view) {
+  json state = json::object();
+  for (int i = 0; i < kStates; ++i)
+    state[kStateNames[i]] = {{"value", view.state[i]}, {"sd", view.state_sd[i]}};
+  return {{"state", state},
+          {"before", figures_json(*view.before)},
+          {"after", figures_json(*view.after)},
+          {"evidence_variance", view.evidence_variance},
+          {"complete", view.complete},
+          {"failed_solves", view.failed_solves}};
+}
+
+std::string sentence(const std::string& view, const char* format, double value) {
+  char text[160];
+  std::snprintf(text, sizeof text, format, value);
+  return view + ": " + text;
+}
+
+void judge(const SearchedView& view, std::vector<std::string>& reasons) {
+  const std::string& name = view.view.name;
+  if (view.failed_solves == 2 * kMechanical)
+    reasons.push_back(name + ": no solve near the compressed state succeeded, so neither a search "
+                             "nor ellipses that know the mechanics; run compress again");
+  if (!view.after) return;
+  if (view.after->outline_rms_mm > kPoorOutline_mm)
+    reasons.push_back(sentence(name, "after the search the model's outline still lies %.1f mm (RMS) "
+                               "off the mammogram's", view.after->outline_rms_mm));
+  if (view.after->nipple_mm && *view.after->nipple_mm > kPoorNipple_mm)
+    reasons.push_back(sentence(name, "after the search the model's nipple still lies %.1f mm off the "
+                               "mammogram's", *view.after->nipple_mm));
+  if (!view.complete)
+    reasons.push_back(name + ": the search stopped where no equilibrium was found, with the best state "
+                             "that it had solved");
+  const ViewState sd = view.uncertainty.sd;
+  for (const int i : {kThickness, kRoll, kTurn})
+    if (std::abs(view.state[i]) > kFarState * sd[i])
+      reasons.push_back(sentence(name, (std::string("the mammogram asks for another ") +
+                                        kStateNames[i] + " by %.1f; is the header right?").c_str(),
+                                 view.state[i]));
+}
+
+void take(const SearchedView& searched, RegisteredView& view) {
+  view.compressed = searched.compressed;
+  view.uncertainty = searched.uncertainty;
+  view.projection = ViewProjection(view.prone, view.compressed, searched.view,
+                                   view.projection.detector(), searched.baseline);
+}
+
+}  // namespace
+
+std::map<std::string, json> search_and_register(const Patient& patient,
+                                                const Segmentation& segmentation,
+                                                std::vector<RegisteredView>& views,
+                                                const Progress& progress,
+                                                std::vector<std::string>& reasons) {
+  std::vector<SearchInput> inputs;
+  for (const RegisteredView& view : views) {
+    const CompressedView& geometry = view.projection.view();
+    SearchInput input{view.file, geometry, view.projection.detector(),
+                      nearby_solver(patient, geometry, view.file,
+                                    tissue_of(view.file, segmentation.fractions)), {}};
+    if (patient.view(geometry.name).mammogram) input.evidence = evidence_of(patient, view);
+    inputs.push_back(std::move(input));
+  }
+  const std::vector<SearchedView> searched =
+      search_views(inputs, segmentation.fractions, segmentation.nipple_in_lps, progress);
+  std::map<std::string, json> said;
+  for (std::size_t v = 0; v < views.size(); ++v) {
+    take(searched[v], views[v]);
+    judge(searched[v], reasons);
+    if (searched[v].after) said[searched[v].view.name] = search_json(searched[v]);
+  }
+  return said;
+}
+
+}  // namespace mammotwin

@@ -1,0 +1,101 @@
+#include "pipeline/steps/unload_quality.h"
+
+#include "pipeline/steps/quality_limits.h"
+
+#include <cmath>
+#include <cstdio>
+
+namespace mammotwin {
+namespace {
+
+using nlohmann::json;
+
+template <class... Values>
+std::string sentence(const char* format, Values... values) {
+  char text[240];
+  std::snprintf(text, sizeof text, format, values...);
+  return text;
+}
+
+json optional_number(const std::optional<double>& value) {
+  return value ? json(*value) : json();
+}
+
+json fit_json(const StiffnessFit& fit) {
+  json at_one = std::isfinite(fit.distance_at_one_mm) ? json(fit.distance_at_one_mm) : json();
+  return {{"factor", fit.factor},
+          {"distance_mm", fit.distance_mm},
+          {"distance_at_one_mm", at_one},
+          {"trials", fit.trials}};
+}
+
+json quality_of(const UnloadingRecord& record) {
+  const UnloadReport& r = record.report;
+  json quality = {{"gravity", name_of(record.imaged)},
+                  {"gravity_fraction", r.gravity_fraction},
+                  {"stiffness_factor", record.stiffness_factor},
+                  {"sag_max_mm", r.sag_max_mm},
+                  {"round_trip_max_mm", r.round_trip_max_mm},
+                  {"naive_reversal_error_mm", optional_number(r.naive_reversal_error_mm)},
+                  {"stretch_p95", r.stretch_p95},
+                  {"stretch_max", r.stretch_max},
+                  {"min_J", r.min_J},
+                  {"max_J", r.max_J},
+                  {"steps", r.steps},
+                  {"newton_iterations", r.newton_iterations},
+                  {"dof", r.dof}};
+  for (const auto& [name, pose] : record.poses)
+    if (pose.result.report.usable()) {
+      quality[name + "_sag_max_mm"] = pose.result.report.sag_max_mm;
+      quality[name + "_slide_max_mm"] = pose.wall_slide_mm;
+    }
+  if (record.stiffness_fit && record.stiffness_fit->usable())
+    quality["stiffness_fit"] = fit_json(*record.stiffness_fit);
+  return quality;
+}
+
+std::string too_soft(const UnloadingRecord& record) {
+  const UnloadReport& r = record.report;
+  if (r.gravity_fraction <= 0)
+    return "no unloaded shape was found, not even for a part of the gravity: " + r.reason;
+  // A stiffness a little above the smallest: two digits, rounded up.
+  const double factor =
+      std::ceil(100 * record.stiffness_factor * r.sufficient_stiffness_factor()) / 100;
+  return sentence("no unloaded shape holds with these stiffnesses beyond %.0f %% of the gravity; "
+                  "materials.stiffness_factor = %.2f is enough (",
+                  100 * r.gravity_fraction, factor) + r.reason + ")";
+}
+
+}  // namespace
+
+Outcome judge_unloading(const UnloadingRecord& record) {
+  Outcome outcome;
+  outcome.quality = quality_of(record);
+  if (record.stiffness_fit && !record.stiffness_fit->usable())
+    return {Status::not_converged, {record.stiffness_fit->reason}, outcome.quality};
+  if (!record.report.usable()) {
+    outcome.status = Status::not_converged;
+    outcome.quality["sufficient_stiffness_factor"] =
+        record.report.gravity_fraction > 0
+            ? json(record.stiffness_factor * record.report.sufficient_stiffness_factor())
+            : json();
+    outcome.reasons = {too_soft(record)};
+    return outcome;
+  }
+  const auto doubt = [&](bool doubtful, const std::string& reason) {
+    if (!doubtful) return;
+    outcome.status = Status::look;
+    outcome.reasons.push_back(reason);
+  };
+  doubt(record.report.stretch_p95 > limits::stretch_p95,
+        sentence("hanging stretches 5 %% of the breast by more than %.2f; are the stiffnesses too "
+                 "low?", record.report.stretch_p95));
+  for (const auto& [name, pose] : record.poses) {
+    const HangReport& r = pose.result.report;
+    doubt(!r.usable(), "the breast does not come to rest " + name + ": " + r.reason +
+                           "; no markups are written for that state");
+  }
+  return outcome;
+}
+
+}  // namespace mammotwin

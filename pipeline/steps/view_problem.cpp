@@ -1,0 +1,115 @@
+#include "pipeline/steps/view_problem.h"
+
+#include "pipeline/steps/breast_problem.h"
+#include "registration/view/view_frame.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace mammotwin {
+namespace {
+
+std::shared_ptr<const PlateMesh> facets(const std::filesystem::path& stl) {
+  return std::make_shared<PlateMesh>(PlateMesh::read(stl));
+}
+
+/// The mesh as `compress` read it, from what it wrote.
+MeshFile reference_of(const MeshFile& compressed) {
+  MeshFile reference = compressed;
+  const auto unloaded = compressed.configurations.find("unloaded");
+  const bool was_unloaded = unloaded != compressed.configurations.end();
+  reference.mesh = HermiteMesh(
+      was_unloaded ? unloaded->second : compressed.configurations.at("prone"),
+      compressed.mesh.elements());
+  if (!was_unloaded) reference.configurations.erase("prone");
+  return reference;
+}
+
+/// The problem with the mechanical numbers of a state put in.
+CompressionProblem changed(const Patient& patient, const ViewSettings& view, Side side,
+                           const MeshFile& mesh, const TissueSampler& tissue,
+                           double thickness_mm, const ViewState& state) {
+  CompressionProblem problem =
+      view_problem(patient, view, view_axes(side, view.angle() + state[kRoll]), mesh, tissue);
+  CompressionSettings stiffer = patient.compression;
+  for (LawSettings* law : {&stiffer.fibroglandular, &stiffer.lesion}) {
+    law->c1_kpa *= std::exp(state[kStiffnessRatio]);
+    law->c2_kpa *= std::exp(state[kStiffnessRatio]);
+  }
+  problem.laws = stiffer.laws(stiffness_factor_of(mesh, patient.compression));
+  problem.boundary.chest_wall_spring *= std::exp(state[kSprings]);
+  problem.plates.thickness = thickness_mm + state[kThickness];
+  problem.plates.lift += state[kLift];
+  problem.plates.wall_clearance = std::max(0.0, problem.plates.wall_clearance + state[kClearance]);
+  problem.plates.paddle_tilt += state[kTilt];
+  return problem;
+}
+
+}  // namespace
+
+PlateOptions plates_of(const Patient& patient, const ViewSettings& view,
+                       const Eigen::Matrix3d& axes, const MeshFile& mesh) {
+  PlateOptions plates;
+  plates.depth = axes.row(0);
+  plates.up = axes.row(2);
+  plates.lift = view.lift_mm;
+  const CompressionSettings& settings = patient.compression;
+  settings.shape_plates(plates);
+  if (settings.support_stl)
+    plates.support_mesh = facets(patient.resolve(*settings.support_stl));
+  if (settings.paddle_stl) plates.paddle_mesh = facets(patient.resolve(*settings.paddle_stl));
+  plates.thickness =
+      view.thickness_mm.value_or(kDefaultThicknessFraction * free_thickness(mesh, plates));
+  return plates;
+}
+
+CompressionProblem view_problem(const Patient& patient, const ViewSettings& view,
+                                const Eigen::Matrix3d& axes, const MeshFile& mesh,
+                                const TissueSampler& tissue) {
+  CompressionProblem problem = breast_problem(mesh, tissue, patient.compression,
+                                              stiffness_factor_of(mesh, patient.compression));
+  problem.friction = patient.compression.friction;
+  problem.plates = plates_of(patient, view, axes, prone_file(mesh));
+  if (patient.compression.standing_gravity) {
+    problem.gravity = gravity_in_lps(Pose::standing);
+    problem.density = patient.gravity.density();
+  }
+  return problem;
+}
+
+void remember_solution(const CompressionResult& result, MeshFile& file) {
+  file.metadata["pressure_kpa"] = result.pressure;
+  file.metadata["plates"] = {result.plates.support_height, result.plates.paddle_height,
+                             result.plates.edge, result.plates.lateral_middle,
+                             result.penalty, result.report.target_thickness_mm};
+}
+
+std::optional<NearbySolver> nearby_solver(const Patient& patient, const CompressedView& view,
+                                          const MeshFile& compressed,
+                                          const TissueSampler& tissue) {
+  const auto pressure = compressed.metadata.find("pressure_kpa");
+  const auto plates = compressed.metadata.find("plates");
+  if (pressure == compressed.metadata.end() || plates == compressed.metadata.end())
+    return std::nullopt;
+  SolvedView base{{}, view};
+  CompressionResult& result = base.result;
+  result.deformed = compressed.mesh.nodes();
+  result.pressure = pressure->second;
+  const std::vector<double>& numbers = plates->second;
+  result.plates.support_height = numbers.at(0);
+  result.plates.paddle_height = numbers.at(1);
+  result.plates.edge = numbers.at(2);
+  result.plates.lateral_middle = numbers.at(3);
+  result.penalty = numbers.at(4);
+  result.report.target_thickness_mm = numbers.at(5);
+  result.report.thickness_mm = view.thickness_mm;
+  ViewSettings settings = patient.view(view.name);
+  settings.angle_deg = view.angle_deg;
+  return NearbySolver(base, [&patient, tissue, settings, side = view.side,
+                             mesh = reference_of(compressed),
+                             thickness = numbers.at(5)](const ViewState& state) {
+    return changed(patient, settings, side, mesh, tissue, thickness, state);
+  });
+}
+
+}  // namespace mammotwin

@@ -1,0 +1,30 @@
+#pragma once
+
+#include "pipeline/patient/patient.h"
+#include "registration/search/reduced_view.h"
+#include "solver/press/compress.h"
+
+namespace mammotwin {
+
+/// Of the breast's free extent, where nobody says how thick it was.
+inline constexpr double kDefaultThicknessFraction = 0.45;
+
+/// Plates of a view as patient.toml says; `mesh` is the breast as imaged.
+PlateOptions plates_of(const Patient& patient, const ViewSettings& view,
+                       const Eigen::Matrix3d& axes, const MeshFile& mesh);
+
+/// The compression of one view. `mesh` is what unload or fit made.
+CompressionProblem view_problem(const Patient& patient, const ViewSettings& view,
+                                const Eigen::Matrix3d& axes, const MeshFile& mesh,
+                                const TissueSampler& tissue);
+
+/// Adds to a compressed mesh's metadata what a solve from there needs.
+void remember_solution(const CompressionResult& result, MeshFile& file);
+
+/// A solution read back from a compressed mesh, ready for solves near it; empty where the file was
+/// written without one.
+std::optional<NearbySolver> nearby_solver(const Patient& patient, const CompressedView& view,
+                                          const MeshFile& compressed,
+                                          const TissueSampler& tissue);
+
+}  // namespace mammotwin

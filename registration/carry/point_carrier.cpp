@@ -1,0 +1,31 @@
+#include "registration/carry/point_carrier.h"
+
+#include <Eigen/LU>
+
+#include <stdexcept>
+
+namespace mammotwin {
+
+PointCarrier::PointCarrier(const HermiteMesh& from, const HermiteMesh& to)
+    : from_(from), to_(to), from_inverse_(from_) {
+  if (from.elements() != to.elements() || from.num_nodes() != to.num_nodes())
+    throw std::invalid_argument(
+        "point carrier: the two configurations do not belong to one mesh (their elements differ)");
+}
+
+CarriedPoint PointCarrier::carry(const Eigen::Vector3d& x_in_lps) const {
+  if (const auto inside = from_inverse_.locate(x_in_lps))
+    return {*inside, 0, to_.position(*inside)};
+  const MeshPoint nearest = from_inverse_.nearest(x_in_lps);
+  const Eigen::Vector3d offset = x_in_lps - from_.position(nearest);
+  const Eigen::Matrix3d F = to_.jacobian(nearest) * from_.jacobian(nearest).inverse();
+  return {nearest, offset.norm(), to_.position(nearest) + F * offset};
+}
+
+std::optional<Eigen::Vector3d> PointCarrier::carry_inside(const Eigen::Vector3d& x_in_lps) const {
+  const auto inside = from_inverse_.locate(x_in_lps);
+  if (!inside) return std::nullopt;
+  return to_.position(*inside);
+}
+
+}  // namespace mammotwin

@@ -1,0 +1,64 @@
+#include "registration/view/breast_position.h"
+#include "registration/export/lesion_table.h"
+
+#include <cmath>
+
+namespace mammotwin {
+namespace {
+
+/// Beyond this the detector's cross axis says more of up and down than of lateral and medial in
+/// the words of a reader; positioners stand at 0 for CC and 30 to 60 for MLO.
+constexpr double kCranioCaudalLimit_deg = 15;
+
+LesionRow row_of(const std::string& patient, Side side, const Landmark& lesion,
+                 const Eigen::Vector3d& nipple_in_lps) {
+  const BreastPosition place = breast_position(side, lesion.prone_in_lps, nipple_in_lps);
+  LesionRow row;
+  row.patient = patient;
+  row.lesion = lesion.id;
+  row.mri_l_mm = lesion.prone_in_lps.x();
+  row.mri_p_mm = lesion.prone_in_lps.y();
+  row.mri_s_mm = lesion.prone_in_lps.z();
+  row.quadrant = place.quadrant;
+  row.clock = place.clock;
+  return row;
+}
+
+}  // namespace
+
+LesionRow mri_row(const std::string& patient, Side side, const Landmark& lesion,
+                  const Eigen::Vector3d& nipple_in_lps) {
+  LesionRow row = row_of(patient, side, lesion, nipple_in_lps);
+  const Eigen::Vector3d offset = lesion.prone_in_lps - nipple_in_lps;
+  row.view = "mri";
+  row.behind_nipple_mm = offset.y();
+  row.lateral_of_nipple_mm = side == Side::left ? offset.x() : -offset.x();
+  row.above_nipple_mm = offset.z();
+  row.nipple_distance_mm = offset.norm();
+  return row;
+}
+
+LesionRow view_row(const std::string& patient, const CompressedView& view,
+                   const ProjectedLandmark& lesion, const ProjectedLandmark& nipple) {
+  LesionRow row = row_of(patient, view.side, lesion.landmark, nipple.landmark.prone_in_lps);
+  row.view = view.name;
+  row.depth_mm = lesion.in_view.x();
+  row.lateral_mm = lesion.in_view.y();
+  row.height_mm = lesion.in_view.z();
+  row.detector_u_mm = lesion.on_detector.x();
+  row.detector_v_mm = lesion.on_detector.y();
+  if (lesion.in_image) {
+    row.pixel_column = lesion.in_image->x();
+    row.pixel_row = lesion.in_image->y();
+  }
+  row.baseline_u_mm = lesion.baseline_on_detector.x();
+  row.baseline_v_mm = lesion.baseline_on_detector.y();
+  const Eigen::Vector2d offset = lesion.on_detector - nipple.on_detector;
+  row.behind_nipple_mm = -offset.x();
+  const bool cranio_caudal = std::abs(view.angle_deg) <= kCranioCaudalLimit_deg;
+  (cranio_caudal ? row.lateral_of_nipple_mm : row.above_nipple_mm) = offset.y();
+  row.nipple_distance_mm = offset.norm();
+  return row;
+}
+
+}  // namespace mammotwin

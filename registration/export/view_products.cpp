@@ -1,0 +1,65 @@
+#include "registration/export/view_products.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace mammotwin {
+namespace {
+
+float trilinear(const Volume<float>& image, const Eigen::Vector3d& x) {
+  const Eigen::Vector3d index = image.index(x);
+  const Eigen::Vector3i low = index.array().floor().cast<int>();
+  double sum = 0;
+  for (int corner = 0; corner < 8; ++corner) {
+    double weight = 1;
+    Eigen::Vector3i v = low;
+    for (int a = 0; a < 3; ++a) {
+      const bool up = corner >> a & 1;
+      v[a] += up;
+      weight *= up ? index[a] - low[a] : 1 - (index[a] - low[a]);
+    }
+    if (image.contains(v.x(), v.y(), v.z())) sum += weight * image(v.x(), v.y(), v.z());
+  }
+  return static_cast<float>(sum);
+}
+
+}  // namespace
+
+ViewFields view_fields(const HermiteMesh& prone, const HermiteMesh& compressed) {
+  constexpr double tolerance = 0.05;  // [mm], where 0.1 is asked
+  constexpr double fine = 1.5;        // [mm]; on 2 mm it cannot be corrected below 0.15 mm
+  ViewFields fields{displacement_field(prone, compressed),
+                    displacement_field(compressed, prone, fine), {}};
+  compose_to_identity(fields.compressed_from_prone, prone, tolerance, fields.prone_from_compressed);
+  fields.error =
+      composition_error(fields.compressed_from_prone, fields.prone_from_compressed, prone);
+  return fields;
+}
+
+Volume<float> mri_in_view(const HermiteMesh& prone, const HermiteMesh& compressed,
+                          const Volume<float>& mri) {
+  constexpr double kVoxel_mm = 1;
+  PositionGrid positions = cover(bounding_box(compressed), kVoxel_mm);
+  fill_positions(compressed, prone, positions);
+  Volume<float> image = positions.like<float>();
+  for (std::size_t i = 0; i < image.values.size(); ++i)
+    if (positions.values[i].allFinite()) image.values[i] = trilinear(mri, positions.values[i]);
+  return image;
+}
+
+GreyPixels hung_pixels(const DetectorImage& shown, Side side) {
+  GreyPixels pixels{shown.columns, shown.rows, {}};
+  for (int row = 0; row < shown.rows; ++row)
+    for (int column = 0; column < shown.columns; ++column) {
+      const int from_wall = side == Side::left ? column : shown.columns - 1 - column;
+      const double grey = std::clamp(shown.at(from_wall, shown.rows - 1 - row), 0.0, 1.0);
+      pixels.grey.push_back(static_cast<std::uint16_t>(std::lround(65535 * grey)));
+    }
+  return pixels;
+}
+
+void write_view_png(const std::filesystem::path& path, const DetectorImage& shown, Side side) {
+  write_png(path, hung_pixels(shown, side));
+}
+
+}  // namespace mammotwin

@@ -1,0 +1,36 @@
+#pragma once
+
+#include "registration/mammogram/mammogram_image.h"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace mammotwin {
+
+/// What a mammogram's DICOM header says of its geometry, as it stands there: text without padding,
+/// empty where a tag is missing. No identifier is read.
+struct MammogramHeader {
+  std::string modality, positioner_type, presentation_intent, paddle, implant, partial_view;
+  std::string view_position, view_code, view_code_meaning;   ///< (0018,5101), (0054,0220)
+  std::vector<std::string> view_modifiers;                   ///< meanings in (0054,0222)
+  std::string image_laterality, laterality;                  ///< (0020,0062), (0020,0060)
+  std::vector<std::string> patient_orientation;              ///< of rows, of columns
+  std::optional<double> primary_angle_deg, thickness_mm, force, source_to_detector_mm,
+      source_to_patient_mm, magnification;
+  std::vector<double> imager_spacing_mm, pixel_spacing_mm;   ///< between rows, between columns
+  std::optional<int> rows, columns, frames;
+};
+
+/// Throws std::runtime_error naming the file where it is no DICOM file.
+MammogramHeader read_mammogram_header(const std::filesystem::path& path);
+
+/// True where the file begins as DICOM files do.
+bool is_dicom(const std::filesystem::path& path);
+
+/// Grey values, dense tissue bright: MONOCHROME1 is turned over; detector counts (FOR PROCESSING)
+/// become the logarithm of their loss. Uncompressed and JPEG files. Throws std::runtime_error.
+MammogramImage read_mammogram_dicom(const std::filesystem::path& path);
+
+}  // namespace mammotwin

@@ -1,0 +1,90 @@
+#include "registration/mammogram/mammogram_masks.h"
+
+#include <itkBinaryThresholdImageFilter.h>
+#include <itkConnectedComponentImageFilter.h>
+#include <itkImage.h>
+#include <itkImageFileReader.h>
+#include <itkImageRegionConstIterator.h>
+#include <itkPNGImageIO.h>
+#include <itkRelabelComponentImageFilter.h>
+#include <itkSmoothingRecursiveGaussianImageFilter.h>
+
+#include <algorithm>
+#include <limits>
+#include <stdexcept>
+
+namespace mammotwin {
+namespace {
+
+using GreyImage = itk::Image<float, 2>;
+using LabelImage = itk::Image<std::uint32_t, 2>;
+
+constexpr unsigned kWorkUnits = 4;  // fixed, so that results do not depend on the machine
+
+GreyImage::Pointer to_itk(const MammogramImage& image) {
+  auto grey = GreyImage::New();
+  grey->SetRegions(GreyImage::SizeType{{static_cast<itk::SizeValueType>(image.columns),
+                                        static_cast<itk::SizeValueType>(image.rows)}});
+  grey->Allocate();
+  std::copy(image.grey.begin(), image.grey.end(), grey->GetBufferPointer());
+  return grey;
+}
+
+MammogramImage from_itk(const GreyImage& grey) {
+  const auto size = grey.GetLargestPossibleRegion().GetSize();
+  MammogramImage image{static_cast<int>(size[0]), static_cast<int>(size[1]), {}};
+  image.grey.assign(grey.GetBufferPointer(), grey.GetBufferPointer() + size[0] * size[1]);
+  return image;
+}
+
+}  // namespace
+
+MammogramImage read_mammogram_png(const std::filesystem::path& path) {
+  if (!std::filesystem::exists(path)) throw std::runtime_error(path.string() + ": no such file");
+  auto io = itk::PNGImageIO::New();
+  if (!io->CanReadFile(path.c_str()))
+    throw std::runtime_error(path.string() + ": not a PNG image; expected a grey mammogram");
+  auto reader = itk::ImageFileReader<GreyImage>::New();
+  reader->SetFileName(path.string());
+  reader->SetImageIO(io);
+  try {
+    reader->Update();
+  } catch (const itk::ExceptionObject& error) {
+    throw std::runtime_error(path.string() + ": cannot be read: " + error.GetDescription());
+  }
+  if (io->GetNumberOfComponents() != 1)
+    throw std::runtime_error(path.string() + ": has " +
+                             std::to_string(io->GetNumberOfComponents()) +
+                             " colour channels; expected a grey image");
+  return from_itk(*reader->GetOutput());
+}
+
+MammogramImage smoothed(const MammogramImage& image, double sigma) {
+  auto filter = itk::SmoothingRecursiveGaussianImageFilter<GreyImage, GreyImage>::New();
+  filter->SetInput(to_itk(image));
+  filter->SetSigma(sigma);
+  filter->SetNumberOfWorkUnits(kWorkUnits);
+  filter->Update();
+  return from_itk(*filter->GetOutput());
+}
+
+std::vector<std::uint32_t> regions_above(const MammogramImage& image, float threshold) {
+  auto above = itk::BinaryThresholdImageFilter<GreyImage, LabelImage>::New();
+  above->SetInput(to_itk(image));
+  above->SetLowerThreshold(threshold);
+  above->SetUpperThreshold(std::numeric_limits<float>::max());
+  above->SetInsideValue(1);
+  above->SetOutsideValue(0);
+  above->SetNumberOfWorkUnits(kWorkUnits);
+  auto components = itk::ConnectedComponentImageFilter<LabelImage, LabelImage>::New();
+  components->SetInput(above->GetOutput());
+  components->SetNumberOfWorkUnits(kWorkUnits);
+  auto by_size = itk::RelabelComponentImageFilter<LabelImage, LabelImage>::New();
+  by_size->SetInput(components->GetOutput());
+  by_size->SetNumberOfWorkUnits(kWorkUnits);
+  by_size->Update();
+  const std::uint32_t* labels = by_size->GetOutput()->GetBufferPointer();
+  return {labels, labels + image.grey.size()};
+}
+
+}  // namespace mammotwin

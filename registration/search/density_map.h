@@ -1,0 +1,62 @@
+#pragma once
+
+#include "registration/view/detector.h"
+#include "registration/mammogram/mammogram_image.h"
+#include "registration/search/view_samples.h"
+#include "segmentation/segmentation.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace mammotwin {
+
+/// Grid of square cells on the detector over which dense tissue is compared; those that count lie
+/// well inside the breast, where thickness hardly varies.
+struct DensityGrid {
+  double cell_mm = 4;
+  Eigen::Vector2d first = Eigen::Vector2d::Zero();  ///< middle of the first cell, (u, v) [mm]
+  int columns = 0, rows = 0;
+  std::vector<std::uint8_t> inside;  ///< by cell, u fastest
+  std::vector<int> cells;            ///< those inside
+
+  Eigen::Vector2d middle(int cell) const {
+    return first + cell_mm * Eigen::Vector2d(cell % columns, cell / columns);
+  }
+};
+
+/// Cells at least 10 mm inside the outline (u, v) of a mammogram.
+DensityGrid density_grid(const std::vector<Eigen::Vector2d>& outline);
+
+/// The pattern of dense tissue in the counted cells: what is left without its mean over 25 mm, mean
+/// 0 and variance 1. It does not change with brightness, contrast or slow shading.
+Eigen::VectorXd pattern(const DensityGrid& grid, const std::vector<double>& values);
+
+/// Mean grey of a mammogram in each cell.
+std::vector<double> grey_in_cells(const DensityGrid& grid, const MammogramImage& image,
+                                  const Detector& detector);
+
+/// The dense tissue of a breast as samples of equal volume.
+class DenseTissue {
+ public:
+  /// Voxels of `fractions` with fibroglandular or lesion tissue inside the prone mesh.
+  DenseTissue(const ReducedView& view, const HermiteMesh& prone, const Volume<Fractions>& fractions);
+
+  /// Dense volume over each cell [mm^3], spread over neighbours.
+  std::vector<double> in_cells(const DensityGrid& grid, const ReducedView& view, const ViewState& z,
+                               const Detector& detector) const;
+
+  void renew(const ReducedView& view) { samples_.renew(view); }
+
+ private:
+  struct Points {
+    std::vector<MeshPoint> points;
+    std::vector<double> volumes;
+  };
+  DenseTissue(const ReducedView& view, Points points);
+  static Points sampled(const HermiteMesh& prone, const Volume<Fractions>& fractions);
+
+  std::vector<double> volumes_;
+  ViewSamples samples_;
+};
+
+}  // namespace mammotwin

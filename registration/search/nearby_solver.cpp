@@ -1,0 +1,136 @@
+#include "registration/search/nearby_solver.h"
+
+#include "solver/press/nearby_equilibria.h"
+
+#include <array>
+#include <stdexcept>
+#include <utility>
+
+namespace mammotwin {
+namespace {
+
+// Of a standard deviation, to either side: a derivative. Plates must move by less than what contact
+// lets them sink in (hundredths of a mm), for beyond that the residual is not linear.
+constexpr double kNudge = 1e-4;
+// Of the penalty that the compression ended with: the softest at which the breast stays where it is.
+constexpr std::array<double, 3> kSofter = {0.1, 0.3, 1};
+constexpr double kLeastRetained = 0.2;  // of the tissue between the plates; less is another breast
+
+CompressionOptions soft_options() {
+  CompressionOptions options;
+  options.gap_tolerance = 0.5;
+  options.thickness_tolerance = 1e3;  // the plates stay where they are put
+  // Whether it slipped out is for the mammogram to say: next to a breast that keeps little more than
+  // half of its tissue between the plates are states that keep less, and the search passes them.
+  options.least_retained = kLeastRetained;
+  return options;
+}
+
+}  // namespace
+
+Nodes in_view(const Nodes& nodes, const ViewFrame& frame) {
+  Nodes result = nodes;
+  for (HermiteMesh::Node& node : result) {
+    node.col(0) -= frame.origin_in_lps;
+    node = (frame.axes * node).eval();
+  }
+  return result;
+}
+
+Nodes combined(double a, const Nodes& x, double b, const Nodes& y) {
+  Nodes sum = x;
+  for (std::size_t i = 0; i < x.size(); ++i) sum[i] = a * x[i] + b * y[i];
+  return sum;
+}
+
+CompressedView view_of_plates(const std::string& name, Side side, double angle_deg,
+                              const PlateOptions& options, const CompressionResult& result) {
+  CompressedView view{name, side, angle_deg, result.report.thickness_mm, {}};
+  view.frame.axes = view_axes(side, angle_deg);
+  const Eigen::Vector3d depth = options.depth, up = options.up;
+  const Eigen::Vector3d across(depth.y() * up.z() - depth.z() * up.y(),
+                               depth.z() * up.x() - depth.x() * up.z(),
+                               depth.x() * up.y() - depth.y() * up.x());
+  view.frame.origin_in_lps = depth * result.plates.edge + up * result.plates.support_height +
+                             across * result.plates.lateral_middle;
+  return view;
+}
+
+NearbySolver::NearbySolver(SolvedView base, ProblemAt problem_at)
+    : base_(std::move(base)), problem_at_(std::move(problem_at)) {
+  CompressionResult near = base_.result;
+  const double penalty = near.penalty;
+  for (const double softer : kSofter) {
+    near.penalty = softer * penalty;
+    soft_base_ = solve_from(near, ViewState::Zero());
+    if (soft_base_) break;
+  }
+}
+
+std::optional<SolvedView> NearbySolver::solve_from(const CompressionResult& near,
+                                                   const ViewState& state) const {
+  try {
+    const CompressionProblem problem = problem_at_(state);
+    CompressionResult result = compress_from(near, problem, soft_options());
+    if (!result.report.usable()) return std::nullopt;
+    const CompressedView view =
+        view_of_plates(base_.view.name, base_.view.side, base_.view.angle_deg + state[kRoll],
+                       problem.plates, result);
+    return SolvedView{std::move(result), view};
+  } catch (const std::invalid_argument&) {  // a state in which the problem cannot be posed
+    return std::nullopt;
+  }
+}
+
+Walk NearbySolver::walk_from(const SolvedView& solved, const ViewState& at, const ViewState& to,
+                             double shortest) const {
+  return walk(solved, shortest, [&](const SolvedView& near, double share) {
+    return solve_from(near.result, at + share * (to - at));
+  });
+}
+
+Walk NearbySolver::walk_to(const ViewState& state, double shortest) const {
+  return walk_from(soft_base_.value(), ViewState::Zero(), state, shortest);
+}
+
+std::optional<SolvedView> NearbySolver::solve(const ViewState& state) const {
+  if (!soft_base_) return std::nullopt;
+  Walk walk = walk_to(state);
+  if (walk.share < 1) return std::nullopt;
+  return std::move(walk.end);
+}
+
+std::optional<Slopes> NearbySolver::slopes(const ViewState& sd) const {
+  if (!soft_base_) return std::nullopt;
+  const NearbyEquilibria nearby(soft_base_->result, problem_at_(ViewState::Zero()), soft_options());
+  if (!nearby.usable()) return std::nullopt;
+  Slopes slopes;
+  for (int i = 0; i < kMechanical; ++i) {
+    const ViewState nudge = kNudge * sd[i] * ViewState::Unit(i);
+    try {
+      slopes[i] = change_between(nearby, -nudge, nudge);
+      for (HermiteMesh::Node& node : slopes[i]) node /= 2 * kNudge;
+    } catch (const std::invalid_argument&) {  // a state in which the problem cannot be posed
+    }
+  }
+  return slopes;
+}
+
+/// Nodes as they stand in the view at `to`, less those at `from`.
+Nodes NearbySolver::change_between(const NearbyEquilibria& nearby, const ViewState& from,
+                                   const ViewState& to) const {
+  const CompressionProblem lower = problem_at_(from), upper = problem_at_(to);
+  const NearbyEquilibria::Step step = nearby.step(lower, upper);
+  const auto placed = [&](double share, const ViewState& state, const PlateOptions& options,
+                          const PlacedPlates& plates) {
+    CompressionResult result;
+    result.plates = plates;
+    const CompressedView view = view_of_plates(base_.view.name, base_.view.side,
+                                               base_.view.angle_deg + state[kRoll], options, result);
+    return in_view(combined(1, soft_base_->result.deformed, share, step.nodes), view.frame);
+  };
+  return combined(1, placed(0.5, to, upper.plates, step.to), -1,
+                  placed(-0.5, from, lower.plates, step.from));
+}
+
+}  // namespace mammotwin

@@ -1,0 +1,43 @@
+#include "registration/search/placed_baseline.h"
+
+#include "registration/search/pose_search.h"
+
+namespace mammotwin {
+namespace {
+
+/// The prone breast mapped by the baseline, as a view that can only be turned and shifted.
+ReducedView rigid_view(const HermiteMesh& prone, const AffineBaseline& baseline) {
+  ReducedView view;
+  view.elements = prone.elements();
+  view.base = prone.nodes();
+  const Eigen::Vector3d zero = baseline.view_from_prone(Eigen::Vector3d::Zero());
+  for (HermiteMesh::Node& node : view.base)
+    for (int d = 0; d < 8; ++d) {
+      const Eigen::Vector3d mapped = baseline.view_from_prone(node.col(d));
+      node.col(d) = d == 0 ? mapped : mapped - zero;  // derivatives know no origin
+    }
+  return view;
+}
+
+}  // namespace
+
+HermiteMesh prone_of(const MeshFile& compressed) {
+  return HermiteMesh(compressed.configurations.at("prone"), compressed.mesh.elements());
+}
+
+AffineBaseline placed_baseline(const MeshFile& compressed, CompressedView view, double thickness_mm,
+                               const Eigen::Vector3d& nipple_in_lps, const Detector& detector,
+                               const std::optional<ViewEvidence>& evidence) {
+  view.thickness_mm = thickness_mm;
+  const HermiteMesh prone = prone_of(compressed);
+  AffineBaseline baseline(prone, view);
+  if (!evidence) return baseline;
+  const ViewMatch match(rigid_view(prone, baseline), compressed.faces, prone, nullptr, nipple_in_lps,
+                        detector, *evidence);
+  const ViewState state =
+      search_pose({&match}, {ViewState::Zero()}, true).states.front().cwiseProduct(prior_sd());
+  baseline.place(state[kTurn], {state[kShiftDepth], state[kShiftLateral]});
+  return baseline;
+}
+
+}  // namespace mammotwin

@@ -1,0 +1,17 @@
+#pragma once
+
+#include "registration/search/affine_baseline.h"
+#include "registration/search/view_match.h"
+
+namespace mammotwin {
+
+/// The baseline of a compressed view at a thickness; with evidence, turned and shifted to the
+/// mammogram's outline and nipple as the model is.
+AffineBaseline placed_baseline(const MeshFile& compressed, CompressedView view, double thickness_mm,
+                               const Eigen::Vector3d& nipple_in_lps, const Detector& detector,
+                               const std::optional<ViewEvidence>& evidence);
+
+/// The prone breast of what compress wrote.
+HermiteMesh prone_of(const MeshFile& compressed);
+
+}  // namespace mammotwin

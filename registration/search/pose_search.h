@@ -1,0 +1,36 @@
+#pragma once
+
+#include "registration/search/view_match.h"
+
+#include <vector>
+
+namespace mammotwin {
+
+/// Where a search over all views' states ended. States are in standard deviations.
+struct PoseEstimate {
+  std::vector<ViewState> states;  ///< of each view
+  std::vector<Eigen::Matrix<double, kStates, kStates>> covariances;  ///< what is left unknown
+  double cost = 0;                ///< half the sum of squares
+  /// Of the evidence's differences left, over the one that their standard deviations say, where it
+  /// is more (Birge's ratio): these count as ten observations, the mammograms as theirs less the
+  /// numbers found from them. Is in the covariances.
+  double evidence_variance = 1;
+  int iterations = 0;
+};
+
+/// The states that are most probable given the mammograms: Levenberg-Marquardt on all residuals and
+/// z itself (the prior; a shift in depth beyond two standard deviations by the square root of its
+/// distance), two numbers shared by the views. First outline and nipple alone, which
+/// lead from far away; then with the pattern of dense tissue. `start` holds a state for each view.
+PoseEstimate search_pose(const std::vector<const ViewMatch*>& views,
+                         const std::vector<ViewState>& start, bool only_rigid = false);
+
+/// The same without a search: cost and covariances at these states.
+PoseEstimate pose_at(const std::vector<const ViewMatch*>& views,
+                     const std::vector<ViewState>& states);
+
+/// Before any mammogram: the prior, without turn and lateral shift, as sideways only the breast's own
+/// frame is spoken of then; depth is from the detector's edge, and nobody knows where that stands.
+Eigen::Matrix<double, kStates, kStates> prior_covariance();
+
+}  // namespace mammotwin

@@ -1,0 +1,46 @@
+#pragma once
+
+#include "registration/search/nearby_solver.h"
+
+#include <vector>
+
+namespace mammotwin {
+
+/// One view as a function of its state z, in standard deviations (`sd`):
+///
+///   x(z) = x0 + sum_i (z_i a_i + z_i^2 b_i)
+///
+/// over nodal parameters in the view's own frame, through solves at z_i = +1 and -1, or half of that
+/// where no equilibrium is found so far off; on one side only, then b = 0. Then turn and shifts in the
+/// detector's plane, exactly. A number for which no solve succeeds has no effect.
+struct ReducedView {
+  struct Mode {
+    Nodes linear, quadratic;  ///< empty: no effect
+  };
+  std::vector<HermiteMesh::Corners> elements;
+  Nodes base;  ///< view coordinates [mm]
+  std::array<Mode, kMechanical> modes;
+  ViewState sd = prior_sd();
+  int failed_solves = 0;
+
+  /// Nodes in view coordinates; turn and shifts left out.
+  Nodes nodes_at(const ViewState& z) const;
+
+  /// Nodes at z moved on by the slope there of one mechanical number: x(z) + dx/dz_i.
+  Nodes nodes_along_slope(const ViewState& z, int number) const;
+
+  /// Turn and shifts of a point.
+  Eigen::Vector3d placed(const Eigen::Vector3d& x_in_view, const ViewState& z) const;
+
+  /// From here on x(z) is what was solved there.
+  void rebase(const ViewState& z, const Nodes& solved_in_view);
+};
+
+/// From two solves a number.
+ReducedView reduce_view(const NearbySolver& solver, const ViewState& sd);
+
+/// Without a solve, a from `slopes` and b = 0: enough to say how sure a place is. A search needs
+/// more: slopes change within a fraction of a standard deviation, as points touch and let go.
+ReducedView linear_view(const NearbySolver& solver, const ViewState& sd);
+
+}  // namespace mammotwin

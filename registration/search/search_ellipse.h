@@ -1,0 +1,48 @@
+#pragma once
+
+#include "registration/search/pose_search.h"
+
+namespace mammotwin {
+
+/// An ellipse on the detector that holds the true position with a stated probability.
+struct SearchEllipse {
+  double major_mm = 0, minor_mm = 0;  ///< semi-axes
+  double angle_deg = 0;               ///< of the major axis, from u towards v
+};
+
+/// What no state explains, in each direction on the detector [mm]: a place in an MRI of 1.2 mm is
+/// known to a voxel, whose uniform law has a standard deviation of 1.2 / sqrt(12). The marks of
+/// synthetic patients ask for no more (pipeline/evaluate/README.md).
+inline constexpr double kModelSd_mm = 0.35;
+
+/// A registered view with what is not known of its state.
+struct ViewUncertainty {
+  /// The breast with one mechanical number a standard deviation further along the slope that the
+  /// covariance was found with, as it stands in the registered view's frame, in LPS [mm]; empty: no
+  /// effect.
+  std::array<Nodes, kMechanical> varied;
+  ViewState sd = prior_sd();
+  Eigen::Matrix<double, kStates, kStates> covariance = prior_covariance();  ///< of z [-]
+};
+
+/// Covariance on the detector [mm^2] of a material point: J C J^T + kModelSd_mm^2, J being the
+/// slopes times a standard deviation.
+Eigen::Matrix2d detector_covariance(const ViewUncertainty& uncertainty,
+                                    const HermiteMesh& compressed, const CompressedView& view,
+                                    const Detector& detector, const MeshPoint& point);
+
+/// The same where turn and shifts on the detector are none: for the model's own picture of a view
+/// without a mammogram, in which the breast lies where it is drawn.
+ViewUncertainty without_placement(ViewUncertainty uncertainty);
+
+/// The normal distribution's ellipse of that probability (0.5, 0.9): semi-axes
+/// sqrt(-2 ln(1 - p)) standard deviations.
+SearchEllipse search_ellipse(const Eigen::Matrix2d& covariance, double probability);
+
+/// Points of the ellipse, from its middle, evenly in its own angle.
+std::vector<Eigen::Vector2d> rim(const SearchEllipse& ellipse, int points);
+
+/// True inside it; `off` from its middle [mm].
+bool contains(const SearchEllipse& ellipse, const Eigen::Vector2d& off);
+
+}  // namespace mammotwin

@@ -1,0 +1,147 @@
+#include "registration/search/view_match.h"
+
+#include "registration/search/huber.h"
+#include "registration/carry/point_carrier.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace mammotwin {
+namespace {
+
+constexpr double kOutlineSd_mm = 2;       // of the model's outline, found over synthetic patients
+constexpr double kPiece_mm = 30;          // of outline that counts as one observation
+constexpr double kBehind_mm = 8;          // nearer to the detector's edge no outline is compared
+constexpr double kBorder_mm = 3;          // of the image: an outline there is the image's end
+constexpr double kMarker_mm = 3, kProfile_mm = 8;  // sd of a nipple found by either
+constexpr double kPatternSd = 0.7;        // of normalised patterns of the same breast
+constexpr double kPatternPiece_mm = 15;
+constexpr double kHuber = 2;              // standard deviations beyond which outliers count less
+
+/// Share of an independent piece of outline that lies between two rays.
+double piece(double radius_mm) {
+  return std::min(1.0, radius_mm * 3 * M_PI / 180 / kPiece_mm);  // rays every 3 degrees
+}
+
+/// Where the nipple goes: with its nearest tissue, its offset as it lies in the computed view.
+struct CarriedNipple {
+  MeshPoint point;
+  Eigen::Vector3d offset;
+};
+CarriedNipple carried(const ReducedView& view, const HermiteMesh& prone,
+                      const Eigen::Vector3d& nipple_in_lps) {
+  const HermiteMesh compressed(view.base, view.elements);
+  const CarriedPoint found = PointCarrier(prone, compressed).carry(nipple_in_lps);
+  return {found.point, found.in_lps - compressed.position(found.point)};
+}
+
+Eigen::Vector2d edge_centre(const std::vector<Eigen::Vector2d>& outline) {
+  double low = 1e30, high = -1e30;
+  for (const Eigen::Vector2d& x : outline) {
+    low = std::min(low, x.y());
+    high = std::max(high, x.y());
+  }
+  return {0, (low + high) / 2};
+}
+
+}  // namespace
+
+ViewEvidence view_evidence(const MammogramImage& image, const MammogramFindings& findings,
+                           const Detector& detector, const std::optional<Eigen::Vector2d>& nipple) {
+  ViewEvidence evidence;
+  std::vector<Eigen::Vector2d> whole;
+  const double border = kBorder_mm / detector.pixels->spacing_mm;
+  for (const Eigen::Vector2d& pixel : findings.outline) {
+    whole.push_back(detector.detector_from_image(pixel));
+    if (pixel.y() > border && pixel.y() < image.rows - 1 - border)
+      evidence.outline.push_back(whole.back());
+  }
+  if (evidence.outline.size() < 2) throw std::runtime_error("the mammogram shows no outline");
+  evidence.nipple = detector.detector_from_image(nipple.value_or(findings.nipple));
+  const bool sure = nipple || findings.evidence == NippleEvidence::marker;
+  evidence.nipple_sd_mm = sure ? kMarker_mm : kProfile_mm;
+  evidence.grid = density_grid(whole);
+  evidence.pattern = pattern(evidence.grid, grey_in_cells(evidence.grid, image, detector));
+  return evidence;
+}
+
+ViewMatch::ViewMatch(ReducedView view, const std::vector<FaceLabels>& faces,
+                     const HermiteMesh& prone, const Volume<Fractions>* fractions,
+                     const Eigen::Vector3d& nipple_in_lps, const Detector& detector,
+                     ViewEvidence evidence)
+    : view_(std::move(view)),
+      detector_(detector),
+      evidence_(std::move(evidence)),
+      centre_(edge_centre(evidence_.outline)),
+      seen_(distances_along_rays(evidence_.outline, centre_)),
+      silhouette_(view_, faces),
+      nipple_([&] {
+        const CarriedNipple nipple = carried(view_, prone, nipple_in_lps);
+        return ViewSamples(view_, {nipple.point}, {nipple.offset});
+      }()) {
+  for (int ray = 0; ray < kRays; ++ray)
+    if (seen_[ray] && *seen_[ray] * ray_direction(ray).x() < kBehind_mm) seen_[ray].reset();
+  if (fractions) tissue_ = std::make_shared<DenseTissue>(view_, prone, *fractions);
+}
+
+void ViewMatch::renew(ReducedView view) {
+  view_ = std::move(view);
+  silhouette_.renew(view_);
+  nipple_.renew(view_);
+  if (tissue_) tissue_->renew(view_);
+}
+
+Eigen::VectorXd ViewMatch::residuals(const ViewState& z, bool with_pattern) const {
+  const bool patterned = with_pattern && tissue_ && evidence_.pattern.size() > 0;
+  Eigen::VectorXd r = Eigen::VectorXd::Zero(kRays + 2 + (patterned ? evidence_.pattern.size() : 0));
+  const RayDistances found = silhouette_.at(view_, z, detector_, centre_);
+  for (int ray = 0; ray < kRays; ++ray) {
+    if (!seen_[ray] || !found[ray]) continue;
+    r[ray] = std::sqrt(piece(*seen_[ray])) * huber((*found[ray] - *seen_[ray]) / kOutlineSd_mm, kHuber);
+  }
+  if (evidence_.nipple) {
+    const Eigen::Vector2d miss =
+        (detector_.project(nipple_.at(view_, z).col(0)) - *evidence_.nipple) / evidence_.nipple_sd_mm;
+    r[kRays] = huber(miss.x(), kHuber);
+    r[kRays + 1] = huber(miss.y(), kHuber);
+  }
+  if (patterned) {
+    const double share = evidence_.grid.cell_mm / kPatternPiece_mm;
+    r.tail(evidence_.pattern.size()) =
+        (pattern(evidence_.grid, tissue_->in_cells(evidence_.grid, view_, z, detector_)) -
+         evidence_.pattern) * (share / kPatternSd);
+  }
+  return r;
+}
+
+double ViewMatch::observations(bool with_pattern) const {
+  double count = evidence_.nipple ? 2 : 0;
+  for (const auto& radius : seen_)
+    if (radius) count += piece(*radius);
+  if (with_pattern && tissue_)
+    count += evidence_.pattern.size() * std::pow(evidence_.grid.cell_mm / kPatternPiece_mm, 2);
+  return count;
+}
+
+MatchFigures ViewMatch::figures(const ViewState& z) const {
+  MatchFigures figures;
+  const RayDistances found = silhouette_.at(view_, z, detector_, centre_);
+  int count = 0;
+  for (int ray = 0; ray < kRays; ++ray)
+    if (seen_[ray] && found[ray]) {
+      figures.outline_rms_mm += std::pow(*found[ray] - *seen_[ray], 2);
+      ++count;
+    }
+  figures.outline_rms_mm = std::sqrt(figures.outline_rms_mm / std::max(1, count));
+  if (evidence_.nipple)
+    figures.nipple_mm =
+        (detector_.project(nipple_.at(view_, z).col(0)) - *evidence_.nipple).norm();
+  if (tissue_ && evidence_.pattern.size() > 0)
+    figures.pattern_correlation =
+        pattern(evidence_.grid, tissue_->in_cells(evidence_.grid, view_, z, detector_))
+            .dot(evidence_.pattern) / evidence_.pattern.size();
+  return figures;
+}
+
+}  // namespace mammotwin

@@ -1,0 +1,66 @@
+#pragma once
+
+#include "registration/search/density_map.h"
+#include "registration/mammogram/mammogram_findings.h"
+#include "registration/search/silhouette.h"
+
+#include <memory>
+
+namespace mammotwin {
+
+/// What a mammogram shows of the breast, on the detector [mm].
+struct ViewEvidence {
+  std::vector<Eigen::Vector2d> outline;  ///< (u, v), without what lies on the image's border
+  std::optional<Eigen::Vector2d> nipple;
+  double nipple_sd_mm = 3;
+  DensityGrid grid;
+  Eigen::VectorXd pattern;               ///< of dense tissue (density_map.h)
+};
+
+/// `nipple`: (column, row) where somebody said it; else what was found. Throws std::logic_error
+/// without a pixel grid.
+ViewEvidence view_evidence(const MammogramImage& image, const MammogramFindings& findings,
+                           const Detector& detector,
+                           const std::optional<Eigen::Vector2d>& nipple = {});
+
+struct MatchFigures {
+  double outline_rms_mm = 0;
+  std::optional<double> nipple_mm;
+  double pattern_correlation = 0;
+};
+
+/// How far a view in state z is from its mammogram.
+class ViewMatch {
+ public:
+  /// Without `fractions` the dense pattern is not compared (the baseline's match).
+  ViewMatch(ReducedView view, const std::vector<FaceLabels>& faces, const HermiteMesh& prone,
+            const Volume<Fractions>* fractions, const Eigen::Vector3d& nipple_in_lps,
+            const Detector& detector, ViewEvidence evidence);
+
+  /// Differences over their standard deviations: outline, nipple and, if asked, pattern. Neighbours
+  /// along the outline or in the pattern tell the same tale, so each counts as the share that it
+  /// has in an independent piece (30 mm of outline; 15 mm x 15 mm of pattern).
+  Eigen::VectorXd residuals(const ViewState& z, bool with_pattern) const;
+
+  /// How many independent observations the residuals stand for.
+  double observations(bool with_pattern) const;
+
+  MatchFigures figures(const ViewState& z) const;
+  const ReducedView& view() const { return view_; }
+  const Detector& detector() const { return detector_; }
+
+  /// Goes on with another reduced model of the same view.
+  void renew(ReducedView view);
+
+ private:
+  ReducedView view_;
+  Detector detector_;
+  ViewEvidence evidence_;
+  Eigen::Vector2d centre_;
+  RayDistances seen_;
+  Silhouette silhouette_;
+  ViewSamples nipple_;
+  std::shared_ptr<DenseTissue> tissue_;
+};
+
+}  // namespace mammotwin

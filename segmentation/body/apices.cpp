@@ -1,0 +1,67 @@
+#include "segmentation/body/apices.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace mammotwin {
+namespace {
+
+constexpr double least_prominence_mm = 10;
+constexpr double least_distance_mm = 60;
+constexpr double plateau_mm = 2;  // the valley's floor: as deep as this
+
+struct Second {
+  int at = -1;
+  double prominence = 0;
+};
+
+/// Best second apex on one side of the first (direction +1 or -1).
+Second second_apex(const std::vector<double>& front, int first, int direction, double step) {
+  Second best;
+  double lowest = front[first];
+  for (int i = first; i >= 0 && i < static_cast<int>(front.size()); i += direction) {
+    if (!std::isfinite(front[i])) break;
+    lowest = std::min(lowest, front[i]);
+    const double prominence = front[i] - lowest;
+    if (std::abs(i - first) * step >= least_distance_mm && prominence > best.prominence)
+      best = {i, prominence};
+  }
+  return best;
+}
+
+}  // namespace
+
+std::optional<Apices> find_apices(const std::vector<double>& front, double step) {
+  if (front.empty()) return std::nullopt;
+  const int first = static_cast<int>(std::max_element(front.begin(), front.end()) - front.begin());
+  if (!std::isfinite(front[first])) return std::nullopt;
+  const Second up = second_apex(front, first, +1, step);
+  const Second down = second_apex(front, first, -1, step);
+  const Second& best = up.prominence >= down.prominence ? up : down;
+  if (best.prominence < least_prominence_mm) return std::nullopt;
+  const auto finite = [](double value) { return std::isfinite(value); };
+  const auto begin = std::find_if(front.begin(), front.end(), finite) - front.begin();
+  const auto end = front.rend() - std::find_if(front.rbegin(), front.rend(), finite);
+  Apices apices;
+  apices.right = std::min(first, best.at);
+  apices.left = std::max(first, best.at);
+  apices.valley = valley_between(front, apices.right, apices.left);
+  const double along =
+      static_cast<double>(apices.valley - begin) / static_cast<double>(end - begin);
+  if (along < 1.0 / 3 || along > 2.0 / 3) return std::nullopt;  // a breast and an arm
+  return apices;
+}
+
+int valley_between(const std::vector<double>& front, int low, int high) {
+  double floor = std::numeric_limits<double>::infinity();
+  for (int i = low; i <= high; ++i)
+    if (std::isfinite(front[i])) floor = std::min(floor, front[i]);
+  double sum = 0;
+  int count = 0;
+  for (int i = low; i <= high; ++i)
+    if (std::isfinite(front[i]) && front[i] <= floor + plateau_mm) sum += i, ++count;
+  return count > 0 ? static_cast<int>(std::lround(sum / count)) : low;
+}
+
+}  // namespace mammotwin

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "segmentation/body/breast_frame.h"
+#include "segmentation/shading/contrast.h"
+#include "segmentation/segment_quality.h"
+#include "segmentation/image/volume.h"
+
+namespace mammotwin {
+
+/// The outline of the patient and what it tells, on the part of the image around the breasts.
+struct BodyStage {
+  Volume<float> image;  ///< cropped in front of the breasts and far behind the chest
+  Volume<float> clean;  ///< the same, denoised
+  Volume<std::uint8_t> body;
+  Volume<float> depth;        ///< below the skin [mm]
+  Volume<float> pre;          ///< before contrast agent, on the same grid; may be empty
+  Volume<float> enhancement;  ///< relative_enhancement; empty without `pre`
+  double noise = 0;           ///< standard deviation between voxels beside each other [image units]
+  double noise_at_distance = 0;  ///< between voxels whose noise is not correlated; no less
+  BreastFrame frame;
+  Contrast contrast;
+};
+
+/// Finds them. Throws std::runtime_error, without the file's name, if the image holds no breast or
+/// only a part of one; doubts go to `quality`.
+BodyStage find_body(const Volume<float>& image, std::optional<bool> fat_suppressed,
+                    SegmentQuality& quality);
+
+}  // namespace mammotwin

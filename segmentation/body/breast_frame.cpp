@@ -1,0 +1,116 @@
+#include "segmentation/body/breast_frame.h"
+
+#include <algorithm>
+#include <limits>
+#include <stdexcept>
+#include <vector>
+
+#include "segmentation/body/apices.h"
+
+namespace mammotwin {
+namespace {
+
+constexpr double least_height_mm = 20;  // over the skin between the breasts
+
+/// First body voxel of each column, i fastest; the number of rows where there is none.
+std::vector<int> front_rows(const Volume<std::uint8_t>& body) {
+  std::vector<int> rows;
+  for (int k = 0; k < body.size.z(); ++k)
+    for (int i = 0; i < body.size.x(); ++i) {
+      int j = 0;
+      while (j < body.size.y() && !body(i, j, k)) ++j;
+      rows.push_back(j);
+    }
+  return rows;
+}
+
+Eigen::Vector3d most_anterior(const Volume<std::uint8_t>& body, const std::vector<int>& rows,
+                              int low, int high) {
+  Eigen::Vector3i best(low, body.size.y(), 0);
+  for (int k = 0; k < body.size.z(); ++k)
+    for (int i = low; i <= high; ++i)
+      if (const int j = rows[static_cast<std::size_t>(k) * body.size.x() + i]; j < best.y())
+        best = {i, j, k};
+  return body.position(best.x(), std::min(best.y(), body.size.y() - 1), best.z());
+}
+
+/// How far forward the skin reaches in each column of x, over slices `low` to `high`.
+std::vector<double> front_profile(const Volume<std::uint8_t>& body, const std::vector<int>& rows,
+                                  int low, int high) {
+  std::vector<double> front(body.size.x(), -std::numeric_limits<double>::infinity());
+  for (int k = low; k <= high; ++k)
+    for (int i = 0; i < body.size.x(); ++i) {
+      const int j = rows[static_cast<std::size_t>(k) * body.size.x() + i];
+      if (j < body.size.y()) front[i] = std::max(front[i], -body.position(i, j, k).y());
+    }
+  return front;
+}
+
+/// The valley at the height of the apices: above and below, the chest lies further forward than
+/// there, and not in its middle.
+double valley_x(const Volume<std::uint8_t>& body, const std::vector<int>& rows,
+                const BreastFrame& frame) {
+  constexpr double reach_mm = 10;
+  const auto slice = [&](double z) {
+    return std::clamp(static_cast<int>(std::lround((z - body.origin.z()) / body.spacing.z())), 0,
+                      body.size.z() - 1);
+  };
+  const auto column = [&](const Eigen::Vector3d& x) {
+    return static_cast<int>(std::lround((x.x() - body.origin.x()) / body.spacing.x()));
+  };
+  const double height = (frame.left_apex.z() + frame.right_apex.z()) / 2;
+  const std::vector<double> front =
+      front_profile(body, rows, slice(height - reach_mm), slice(height + reach_mm));
+  const int valley = valley_between(front, column(frame.right_apex), column(frame.left_apex));
+  return body.position(valley, 0, 0).x();
+}
+
+/// Slices in which some column stands out enough, as an unbroken run around the apices.
+void find_slices(const Volume<std::uint8_t>& body, const std::vector<int>& rows,
+                 BreastFrame& frame) {
+  constexpr double least_mm = 12, least_share = 0.25;
+  const double height = frame.sternal_y - frame.front_y;
+  const double needed = std::max(least_mm, least_share * height);
+  std::vector<bool> stands(body.size.z(), false);
+  for (int k = 0; k < body.size.z(); ++k) {
+    const auto first = rows.begin() + static_cast<std::ptrdiff_t>(k) * body.size.x();
+    const int row = *std::min_element(first, first + body.size.x());
+    stands[k] = row < body.size.y() && frame.sternal_y - body.position(0, row, 0).y() > needed;
+  }
+  const auto slice = [&](const Eigen::Vector3d& x) {
+    return static_cast<int>((x.z() - body.origin.z()) / body.spacing.z() + 0.5);
+  };
+  int low = std::min(slice(frame.left_apex), slice(frame.right_apex));
+  int high = std::max(slice(frame.left_apex), slice(frame.right_apex));
+  while (low > 0 && stands[low - 1]) --low;
+  while (high + 1 < body.size.z() && stands[high + 1]) ++high;
+  frame.z_low = body.position(0, 0, low).z();
+  frame.z_high = body.position(0, 0, high).z();
+}
+
+}  // namespace
+
+BreastFrame find_breast_frame(const Volume<std::uint8_t>& body) {
+  const std::vector<int> rows = front_rows(body);
+  const std::vector<double> front = front_profile(body, rows, 0, body.size.z() - 1);
+  const auto apices = find_apices(front, body.spacing.x());
+  if (!apices)
+    throw std::runtime_error(
+        "no breast found: the outline of the body has no two breasts with a valley between them; "
+        "expected a prone MRI of both breasts (is the patient supine, or the image a part of one "
+        "breast?)");
+  BreastFrame frame;
+  frame.sternal_y = -*std::min_element(front.begin() + apices->right, front.begin() + apices->left);
+  frame.right_apex = most_anterior(body, rows, 0, apices->valley);
+  frame.left_apex = most_anterior(body, rows, apices->valley, body.size.x() - 1);
+  frame.midline_x = valley_x(body, rows, frame);
+  frame.front_y = std::min(frame.left_apex.y(), frame.right_apex.y());
+  if (frame.sternal_y - frame.front_y < least_height_mm)
+    throw std::runtime_error(
+        "no breast found: nothing stands 20 mm or more out from the skin at "
+        "the middle; expected a prone breast MRI");
+  find_slices(body, rows, frame);
+  return frame;
+}
+
+}  // namespace mammotwin

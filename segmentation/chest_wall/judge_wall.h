@@ -1,0 +1,16 @@
+#pragma once
+
+#include "segmentation/body/half_breast.h"
+#include "segmentation/segment_quality.h"
+
+namespace mammotwin {
+
+/// Doubts a wall that the image does not support, or that has fat rather than muscle behind it.
+void judge_wall(const BodyStage& body, const WallStage& wall, Side side, SegmentQuality& quality);
+
+/// Doubts a wall on which a lesion lies over more than 3 cm2: a wall in front of a part of the
+/// lesion looks the same. `lesions` is 0 outside the lesions, on the grid of `half`.
+void judge_lesions_on_wall(const HalfBreast& half, const Volume<std::uint8_t>& lesions,
+                           SegmentQuality& quality);
+
+}  // namespace mammotwin

@@ -1,0 +1,105 @@
+#include "segmentation/chest_wall/wall_stage.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "segmentation/shading/em_bias.h"
+#include "segmentation/body/half_body.h"
+#include "segmentation/image/smoothing.h"
+
+namespace mammotwin {
+namespace {
+
+constexpr int num_classes = 4;  // lung and noise, fat, muscle and gland, vessels and skin
+
+/// Muscle over fat: the class nearest to what the study saw (1.4 to 2.0, 0.4), if in range.
+double muscle_over_fat(const BiasEstimate& bias, double log_fat, bool fat_suppressed) {
+  const double usual = fat_suppressed ? 1.55 : 0.40;
+  const double low = fat_suppressed ? 1.25 : 0.25, high = fat_suppressed ? 2.0 : 0.65;
+  double best = usual, nearest = 1e9;
+  for (const IntensityClass& c : bias.classes) {
+    const double ratio = std::exp(c.mean - log_fat);
+    if (ratio < low || ratio > high || std::abs(std::log(ratio / usual)) > nearest) continue;
+    nearest = std::abs(std::log(ratio / usual));
+    best = ratio;
+  }
+  return best;
+}
+
+/// The body with its thorax closed: where a flank is too dim to be seen, the lung passes for air,
+/// and rays would end in it. From 20 mm behind the skin between the breasts on, a row is body
+/// between the outermost body voxels of itself and the rows in front of it.
+Volume<std::uint8_t> with_closed_thorax(const BodyStage& stage) {
+  constexpr double behind_mm = 20;
+  Volume<std::uint8_t> body = stage.body;
+  const int first = static_cast<int>(
+      std::ceil((stage.frame.sternal_y + behind_mm - body.origin.y()) / body.spacing.y()));
+  for (int k = 0; k < body.size.z(); ++k) {
+    int low = body.size.x(), high = -1;
+    for (int j = std::max(0, first); j < body.size.y(); ++j) {
+      for (int i = 0; i < body.size.x(); ++i)
+        if (body(i, j, k)) low = std::min(low, i), high = std::max(high, i);
+      for (int i = low; i <= high; ++i) body(i, j, k) = 1;
+    }
+  }
+  return body;
+}
+
+Volume<float> corrected(Volume<float> image, const BiasEstimate& bias) {
+  tbb::parallel_for(0, image.size.z(), [&](int k) {
+    for (int j = 0; j < image.size.y(); ++j)
+      for (int i = 0; i < image.size.x(); ++i)
+        image(i, j, k) *= bias.correction(image.position(i, j, k));
+  });
+  return image;
+}
+
+/// Compares the images before and after contrast agent in front of the wall, on one side.
+PreMatch match_breast(const BodyStage& body, const PectoralWall& wall, Side side) {
+  auto breast = body.body;
+  tbb::parallel_for(0, breast.size.z(), [&](int k) {
+    for (int j = 0; j < breast.size.y(); ++j)
+      for (int i = 0; i < breast.size.x(); ++i) {
+        if (!breast(i, j, k)) continue;
+        const Eigen::Vector3d x = breast.position(i, j, k);
+        breast(i, j, k) = is_on_side(x.x(), body.frame.midline_x, side) && !wall.is_behind(x);
+      }
+  });
+  constexpr int margin = 8;  // voxels: more than smoothing reaches
+  const auto [low, high] = labelled_box(breast, margin);
+  const Volume<float> after = cropped(body.image, low, high);
+  return match_pre(after, cropped(body.pre, low, high),
+                   after.like<float>(static_cast<float>(body.noise)), cropped(breast, low, high));
+}
+
+}  // namespace
+
+WallStage find_wall(const BodyStage& body, Side side, double stiffness) {
+  const BiasEstimate bias = estimate_bias(body.image, body.body, num_classes);
+  WallStage stage;
+  stage.wide_log_bias = bias.wide_log_bias;
+  stage.corrected = corrected(body.image, bias);
+  const auto fat_of = [&](const Volume<float>& image) {
+    return subcutaneous_fat(image, body.depth, body.frame, body.contrast.fat_suppressed);
+  };
+  const double fat = fat_of(stage.corrected);
+  for (float& value : stage.corrected.values) value /= static_cast<float>(fat);
+  stage.contrast.muscle = muscle_over_fat(bias, std::log(fat), body.contrast.fat_suppressed);
+  const Volume<std::uint8_t> closed = with_closed_thorax(body);
+  const auto found_in = [&](Volume<float> image) {
+    constexpr double ray_smoothing_mm = 0.8;  // about a voxel: noise falls, the edge stays
+    return find_pectoral_wall(gaussian_smoothed(std::move(image), ray_smoothing_mm), closed,
+                              body.frame, stage.contrast, stiffness);
+  };
+  stage.wall = found_in(stage.corrected);
+  if (body.pre.values.empty()) return stage;
+  stage.pre_match = match_breast(body, stage.wall, side);
+  if (stage.pre_match->moved()) return stage;
+  const Volume<float> before = corrected(body.pre, bias);
+  stage.wall = found_in(mean_with_pre(stage.corrected, before, 1 / fat_of(before)));
+  return stage;
+}
+
+}  // namespace mammotwin

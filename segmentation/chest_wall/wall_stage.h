@@ -1,0 +1,23 @@
+#pragma once
+
+#include "segmentation/body/body_stage.h"
+#include "segmentation/chest_wall/pectoral_wall.h"
+#include "segmentation/contrast_agent/pre_match.h"
+
+namespace mammotwin {
+
+/// Image with coarse bias correction, fat at 1, and the chest wall.
+struct WallStage {
+  Volume<float> corrected;
+  Volume<float> wide_log_bias;  ///< the 60 mm part of the bias only: leaves local faults in
+  WallContrast contrast;
+  PectoralWall wall;
+  std::optional<PreMatch> pre_match;  ///< of `body.pre` in front of the wall
+};
+
+/// Finds it in the image; then again in its mean with the image before contrast agent, if there is
+/// one and the patient did not move in between: there the heart is as dark as muscle when fat is
+/// not suppressed, and noise is less. `side`: whose breast is compared for movement.
+WallStage find_wall(const BodyStage& body, Side side, double stiffness);
+
+}  // namespace mammotwin

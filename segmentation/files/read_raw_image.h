@@ -1,0 +1,21 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+
+#include "segmentation/files/raw_image.h"
+
+namespace mammotwin {
+
+/// True for the extensions of NIfTI, NRRD and MetaImage.
+bool is_image_file_name(const std::filesystem::path& path);
+
+/// Reads a three-dimensional scalar image of one of those formats; four dimensions only where the
+/// fourth is 1. `components` values a voxel are expected, and lie together. `keys`, where given,
+/// receives the header's key/value pairs. Throws std::runtime_error without the path, which the
+/// caller adds.
+RawImage read_raw_image(const std::filesystem::path& path,
+                        std::map<std::string, std::string>* keys = nullptr, int components = 1);
+
+}  // namespace mammotwin

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+
+#include "segmentation/segmentation.h"
+#include "segmentation/image/volume.h"
+
+namespace mammotwin {
+
+/// What a value of a label map made elsewhere means.
+enum class ForeignTissue { air, skin, fat, fibroglandular, transition, muscle, lesion };
+
+/// The word used in patient.toml: "air", "skin", ... "transition" (half fat, half fibroglandular).
+std::string to_string(ForeignTissue tissue);
+/// Throws std::invalid_argument listing the words where `word` is none of them.
+ForeignTissue foreign_tissue(const std::string& word);
+
+/// From the values of a label map to tissues. Every value in the map must be named (0 is air
+/// where nothing else is said). Connected parts of values named `lesion` are one lesion
+/// each.
+using LabelValues = std::map<std::uint16_t, ForeignTissue>;
+
+/// Values of the project's own maps (tissue.h).
+LabelValues own_label_values();
+
+/// All of a voxel to the tissue of its label (skin counts as fat); nothing outside the breast.
+Fractions pure_fractions(std::uint8_t value);
+
+/// Labels as in tissue.h, and fractions, from a foreign map.
+struct MappedLabels {
+  Volume<std::uint8_t> labels;
+  Volume<Fractions> fractions;
+};
+
+/// Lesion parts of at least `least_lesion_ml` get labels from `label::lesion` up, the largest
+/// first; smaller ones become fibroglandular. Transition voxels are labelled fibroglandular where
+/// most neighbours that are not transition are, else fat, and have the fraction one half.
+/// Throws std::invalid_argument if the map holds a value that is not named.
+MappedLabels map_labels(const Volume<std::uint16_t>& foreign, const LabelValues& values,
+                        double least_lesion_ml = 0.02);
+
+}  // namespace mammotwin

@@ -1,0 +1,159 @@
+#include "segmentation/lesion/lesion_stage.h"
+
+#include <cmath>
+#include <numbers>
+#include <sstream>
+#include <stdexcept>
+
+#include "segmentation/image/distance.h"
+#include "segmentation/body/half_body.h"
+#include "segmentation/lesion/lesion.h"
+#include "segmentation/image/restored_scan.h"
+
+namespace mammotwin {
+namespace {
+
+constexpr double outside_tolerance_mm = 4;  // a click on the edge is no error
+constexpr double least_agreement = 0.5, least_contrast = 1.3;
+
+std::string text(const Eigen::Vector3d& x) {
+  std::ostringstream out;
+  out.setf(std::ios::fixed);
+  out.precision(1);
+  out << "[" << x.x() << ", " << x.y() << ", " << x.z() << "]";
+  return out.str();
+}
+
+void check_inside(const HalfBreast& half, const Volume<float>& to_inside, const PlacedSeed& seed) {
+  const Eigen::Vector3i v = half.inside.index(seed.point_in_lps).array().round().cast<int>();
+  const bool on_grid = half.inside.contains(v.x(), v.y(), v.z());
+  const double off = on_grid ? to_inside(v.x(), v.y(), v.z()) : INFINITY;
+  if (off <= outside_tolerance_mm) return;
+  std::ostringstream message;
+  message << "lesion " << seed.id << " at " << text(seed.point_in_lps) << " mm lies ";
+  if (std::isfinite(off)) {
+    message.precision(2);
+    message << off << " mm ";
+  }
+  message << "outside the " << to_string(half.side) << " breast"
+          << (on_grid && half.body(v.x(), v.y(), v.z()) ? ", behind the chest wall" : "")
+          << "; expected a point between its skin and chest wall in LPS [mm] (is it in RAS, or of "
+             "the other side?)";
+  throw std::runtime_error(message.str());
+}
+
+std::size_t paint_given(const PlacedSeed& seed, std::uint8_t value, const HalfBreast& half,
+                        Volume<std::uint8_t>& lesions) {
+  std::size_t painted = 0;
+  for (int k = 0; k < lesions.size.z(); ++k)
+    for (int j = 0; j < lesions.size.y(); ++j)
+      for (int i = 0; i < lesions.size.x(); ++i)
+        if (half.inside(i, j, k) && seed.holds(lesions.position(i, j, k)))
+          lesions(i, j, k) = value, ++painted;
+  return painted;
+}
+
+/// What contrast agent adds, bias corrected. A voxel's part of it is the lesion's part in the
+/// voxel, which is not so of the ratio to the image before: fat is twice as bright there as a
+/// lesion.
+Volume<float> subtraction(const HalfBreast& half) {
+  Volume<float> added = half.image;
+  for (std::size_t v = 0; v < added.values.size(); ++v)
+    added.values[v] *= half.enhancement.values[v] / (1 + half.enhancement.values[v]);
+  return added;
+}
+
+/// What lesions stand out in, restored: the scan, or what contrast agent added to it.
+SharpImage sharp_scan(const HalfBreast& half) {
+  if (half.pre.values.empty())
+    return [&half](const auto& low, const auto& high) {
+      return restored_scan(cropped(half.scan, low, high), cropped(half.noise, low, high));
+    };
+  return [&half](const auto& low, const auto& high) {
+    Volume<float> added = cropped(half.scan, low, high), noise = cropped(half.noise, low, high);
+    const Volume<float> before = cropped(half.pre, low, high);
+    for (std::size_t v = 0; v < added.values.size(); ++v) {
+      added.values[v] -= before.values[v];
+      noise.values[v] *= std::numbers::sqrt2_v<float>;
+    }
+    return restored_scan(added, noise);
+  };
+}
+
+void judge(const FoundLesion& found, const PlacedSeed& seed, bool brighter,
+           SegmentQuality& quality) {
+  quality.lesion_agreement.push_back(found.agreement);
+  if (found.is_sphere) {
+    quality.doubt(SegmentStatus::look,
+                  "lesion " + seed.id +
+                      " does not stand out from its surroundings: a ball of 5 mm "
+                      "round the point was taken; give radius_mm or a label map");
+    return;
+  }
+  if (!brighter)
+    quality.doubt(SegmentStatus::look,
+                  "lesion " + seed.id +
+                      " was outlined without fat suppression and contrast agent, "
+                      "where it looks like gland: its extent rests on the fat around it; give "
+                      "radius_mm or a label map if it lies in gland");
+  if (brighter && found.contrast() < least_contrast)
+    quality.doubt(SegmentStatus::look, "lesion " + seed.id +
+                                           " is less than 1.3 times as bright as "
+                                           "its surroundings: its edge is uncertain");
+  if (found.is_cut)
+    quality.doubt(SegmentStatus::look, "lesion " + seed.id +
+                                           " goes on where the search for it ends: raise "
+                                           "segment.lesion_reach_mm, or give a label map");
+  if (found.agreement < least_agreement)
+    quality.doubt(SegmentStatus::look,
+                  "two methods disagree on the extent of lesion " + seed.id + " (Dice under 0.5)");
+}
+
+}  // namespace
+
+void check_seeds(const HalfBreast& half, const std::vector<PlacedSeed>& seeds) {
+  if (seeds.empty()) return;
+  const Volume<float> to_inside = distance_to(half.inside);
+  for (const PlacedSeed& seed : seeds) check_inside(half, to_inside, seed);
+}
+
+Volume<std::uint8_t> find_lesions(const HalfBreast& half, const std::vector<PlacedSeed>& seeds,
+                                  bool fat_suppressed, const SegmentOptions& options,
+                                  SegmentQuality& quality) {
+  const bool by_enhancement = !half.enhancement.values.empty();
+  const bool brighter = fat_suppressed || by_enhancement;
+  const Volume<float> uptake = by_enhancement ? subtraction(half) : Volume<float>();
+  const SharpImage sharp = sharp_scan(half);
+  auto lesions = half.body.like<std::uint8_t>(0);
+  constexpr double below_skin_mm = 2.5;  // skin is as bright as a lesion
+  auto allowed = half.inside;
+  for (std::size_t v = 0; v < allowed.values.size(); ++v)
+    allowed.values[v] &= half.depth.values[v] > below_skin_mm;
+
+  for (std::size_t n = 0; n < seeds.size(); ++n) {
+    const PlacedSeed& seed = seeds[n];
+    const auto value = static_cast<std::uint8_t>(label::lesion + n);
+    if (seed.radius_mm || seed.mask) {
+      if (paint_given(seed, value, half, lesions) == 0)
+        throw std::runtime_error("lesion " + seed.id +
+                                 " holds no voxel of the breast; expected a "
+                                 "larger radius or another label map");
+      continue;
+    }
+    LesionSearch search;
+    search.reach_mm = options.lesion_reach_mm;
+    search.brighter = brighter;
+    search.random_walker = options.lesion_method == LesionMethod::random_walker;
+    const FoundLesion found = find_lesion(by_enhancement ? uptake : half.image, sharp, allowed,
+                                          seed.point_in_lps, search);
+    judge(found, seed, brighter, quality);
+    for (int k = 0; k < found.mask.size.z(); ++k)
+      for (int j = 0; j < found.mask.size.y(); ++j)
+        for (int i = 0; i < found.mask.size.x(); ++i)
+          if (found.mask(i, j, k))
+            lesions(found.low.x() + i, found.low.y() + j, found.low.z() + k) = value;
+  }
+  return lesions;
+}
+
+}  // namespace mammotwin

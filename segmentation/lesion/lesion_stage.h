@@ -1,0 +1,20 @@
+#pragma once
+
+#include <vector>
+
+#include "segmentation/body/half_breast.h"
+#include "segmentation/lesion/lesion_seed.h"
+#include "segmentation/segment.h"
+
+namespace mammotwin {
+
+/// Throws std::runtime_error, naming the lesion, if a seed lies outside the breast.
+void check_seeds(const HalfBreast& half, const std::vector<PlacedSeed>& seeds);
+
+/// Label per voxel of one half: 0, or `label::lesion` + n for seed n. Throws std::runtime_error if
+/// a ball or a map holds no voxel of the breast. Doubts go to `quality`.
+Volume<std::uint8_t> find_lesions(const HalfBreast& half, const std::vector<PlacedSeed>& seeds,
+                                  bool fat_suppressed, const SegmentOptions& options,
+                                  SegmentQuality& quality);
+
+}  // namespace mammotwin

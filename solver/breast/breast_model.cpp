@@ -1,0 +1,198 @@
+#include "solver/breast/breast_model.h"
+
+#include "solver/element/skin_membrane.h"
+#include "solver/load/spring_bed.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace mammotwin {
+
+namespace {
+
+using Faces = std::vector<std::pair<int, int>>;
+
+constexpr int kContactPoints = 12;  // a face of 27 mm passes 3 mm through an edge between 5 x 5 points
+constexpr double kWallPenalty = 1000;  // x modulus/size: 10 kPa moves the wall by about 0.05 mm
+
+void check(bool good, const std::string& message) {
+  if (!good) throw std::invalid_argument(message);
+}
+
+void check_problem(const CompressionProblem& p) {
+  check(static_cast<int>(p.mesh.faces.size()) == p.mesh.mesh.num_elements(),
+        "the mesh has face labels for " + std::to_string(p.mesh.faces.size()) + " of its " +
+            std::to_string(p.mesh.mesh.num_elements()) + " elements; expected all");
+  check(static_cast<bool>(p.tissue), "no tissue fractions were given");
+  check(p.prone.empty() || static_cast<int>(p.prone.size()) == p.mesh.mesh.num_nodes(),
+        "the prone shape has " + std::to_string(p.prone.size()) + " nodes; expected " +
+            std::to_string(p.mesh.mesh.num_nodes()) + ", as the mesh has");
+  const auto& b = p.boundary;
+  check(std::isfinite(b.chest_wall_spring) && b.chest_wall_spring >= 0,
+        "chest-wall spring is " + std::to_string(b.chest_wall_spring) +
+            " kPa/mm; expected at least 0");
+  check(std::isfinite(b.cut_face_depth) && b.cut_face_depth > 0,
+        "cut-face depth is " + std::to_string(b.cut_face_depth) + " mm; expected a positive length");
+  check(std::isfinite(p.density) && p.density > 0 && p.gravity.allFinite(),
+        "density must be positive and gravity finite");
+}
+
+Faces faces_labelled(const MeshFile& mesh, FaceLabel label) {
+  Faces faces;
+  for (int e = 0; e < mesh.mesh.num_elements(); ++e)
+    for (int face = 0; face < 6; ++face)
+      if (mesh.faces[e][face] == label) faces.push_back({e, face});
+  return faces;
+}
+
+HermiteMesh prone_mesh(const CompressionProblem& problem) {
+  return problem.prone.empty() ? problem.mesh.mesh
+                               : HermiteMesh(problem.prone, problem.mesh.mesh.elements());
+}
+
+SolidElement prone_element(const HermiteMesh& mesh, int e) {
+  SolidElement::Coefficients x;
+  for (int a = 0; a < kFunctions; ++a)
+    x.row(a) = mesh.node(mesh.corners(e)[corner_of_function(a)])
+                   .col(parameter_of_function(a))
+                   .transpose();
+  return SolidElement(x);
+}
+
+/// The breast as imaged: what is read at quadrature points must not depend on the shape that is the
+/// reference, or unloading and loading would not meet.
+struct ProneTissue {
+  std::vector<std::shared_ptr<const Material>> materials;  ///< in the order in which a Model asks
+  double volume = 0;                                       ///< [mm³]
+};
+
+ProneTissue prone_tissue(const CompressionProblem& problem, const HermiteMesh& mesh) {
+  ProneTissue tissue;
+  for (int e = 0; e < mesh.num_elements(); ++e) {
+    const SolidElement element = prone_element(mesh, e);
+    tissue.volume += element.volume();
+    for (int q = 0; q < kPoints; ++q)
+      tissue.materials.push_back(
+          mix(problem.laws.mixing,
+              problem.tissue(element.point_position(q), element.point_weight(q)),
+              problem.laws.laws));
+  }
+  return tissue;
+}
+
+Model::MaterialField in_turn(std::vector<std::shared_ptr<const Material>> materials) {
+  return [materials = std::move(materials), next = std::size_t{0}](
+             const Eigen::Vector3d&, double) mutable { return materials[next++]; };
+}
+
+void hold_clamped(const HermiteMesh& mesh, const Faces& faces, DofMap& dofs) {
+  for (const auto& [e, face] : faces)
+    for (int i = 0; i < 3; ++i)
+      for (int dof : face_dofs(mesh, e, face, i)) dofs.prescribe(dof);
+}
+
+double mean_modulus(const SolidElement& element) {
+  double sum = 0;
+  for (int q = 0; q < kPoints; ++q) sum += element.material(q).shear_modulus();
+  return sum / kPoints;
+}
+
+void add_skin(const CompressionProblem& problem, Model& model) {
+  if (!problem.skin.on) return;
+  const auto skin = std::make_shared<SkinMembrane>(problem.skin.c1, problem.skin.thickness);
+  for (const auto& [e, face] : faces_labelled(problem.mesh, FaceLabel::skin))
+    model.add_surface_potential(e, face, skin);
+}
+
+void hold_chest_wall(const CompressionProblem& problem, const HermiteMesh& prone,
+                     BreastModel& breast) {
+  const auto& options = problem.boundary;
+  if (options.chest_wall == ChestWall::clamped)
+    return hold_clamped(problem.mesh.mesh, breast.wall_faces, *breast.dofs);
+  breast.wall = std::make_shared<WallSurface>(prone, breast.wall_faces);
+  const auto hold = std::make_shared<WallHold>(
+      breast.wall, kWallPenalty * breast.penalty_unit(),
+      problem.prone.empty() ? WallRest::on_wall : WallRest::as_reference);
+  const auto springs = std::make_shared<SpringBed>(options.chest_wall_spring);
+  for (const auto& [e, face] : breast.wall_faces) {
+    breast.model->add_surface_potential(e, face, hold);
+    if (options.chest_wall == ChestWall::sliding)
+      breast.model->add_surface_potential(e, face, springs);
+  }
+}
+
+void hold_cut_faces(const CompressionProblem& problem, BreastModel& breast) {
+  const auto& options = problem.boundary;
+  const Faces faces = faces_labelled(problem.mesh, FaceLabel::cut);
+  if (options.cut_faces == CutFaces::clamped)
+    return hold_clamped(problem.mesh.mesh, faces, *breast.dofs);
+  if (options.cut_faces == CutFaces::free) return;
+  for (const auto& [e, face] : faces) {
+    const double k = mean_modulus(breast.model->element(e)) / options.cut_face_depth;
+    breast.model->add_surface_potential(e, face, std::make_shared<SpringBed>(k));
+  }
+}
+
+void add_contact(const CompressionProblem& problem, BreastModel& breast) {
+  breast.contact = std::make_shared<PlateContact>();
+  breast.contact->points1d = kContactPoints;
+  breast.contact_faces = faces_labelled(problem.mesh, FaceLabel::skin);
+  const Faces cut = faces_labelled(problem.mesh, FaceLabel::cut);
+  breast.contact_faces.insert(breast.contact_faces.end(), cut.begin(), cut.end());
+  for (const auto& [e, face] : breast.contact_faces)
+    breast.model->add_surface_potential(e, face, breast.contact, breast.contact->points1d);
+}
+
+void add_friction(const CompressionProblem& problem, BreastModel& breast) {
+  const auto& options = problem.friction;
+  if (options.coefficient == 0) return;
+  breast.friction =
+      std::make_shared<PlateFriction>(breast.contact, options.coefficient, options.slip);
+  for (const auto& [e, face] : breast.contact_faces)
+    breast.model->add_surface_potential(e, face, breast.friction, breast.contact->points1d);
+}
+
+void tie_nodes(const MeshFile& mesh, DofMap& dofs) {
+  for (const ParameterTie& tie : mesh.ties)
+    for (int i = 0; i < 3; ++i)
+      dofs.tie(dof_index(tie.node, tie.parameter, i), dof_index(tie.to_node, tie.to_parameter, i),
+               tie.factor);
+}
+
+}  // namespace
+
+BreastModel make_breast_model(const CompressionProblem& problem, const SolidOptions& solid) {
+  check_problem(problem);
+  BreastModel breast;
+  const HermiteMesh& mesh = problem.mesh.mesh;
+  breast.wall_faces = faces_labelled(problem.mesh, FaceLabel::chest_wall);
+  check(!breast.wall_faces.empty(),
+        "nothing holds the breast: no face of the mesh is labelled chest_wall");
+  const HermiteMesh prone = prone_mesh(problem);
+  const ProneTissue tissue = prone_tissue(problem, prone);
+  breast.model = std::make_unique<Model>(mesh, in_turn(tissue.materials), solid);
+  if (!problem.gravity.isZero())
+    breast.model->set_body_force(
+        [weight = (problem.density * problem.gravity).eval()](const Eigen::Vector3d&) {
+          return weight;
+        });
+  for (int e = 0; e < mesh.num_elements(); ++e)
+    for (int q = 0; q < kPoints; ++q)
+      breast.largest_modulus = std::max(
+          breast.largest_modulus, breast.model->element(e).material(q).shear_modulus());
+  breast.element_size = std::cbrt(tissue.volume / mesh.num_elements());
+  breast.dofs = std::make_unique<DofMap>(mesh);
+  tie_nodes(problem.mesh, *breast.dofs);
+  add_skin(problem, *breast.model);
+  hold_chest_wall(problem, prone, breast);
+  hold_cut_faces(problem, breast);
+  add_contact(problem, breast);
+  add_friction(problem, breast);
+  breast.dofs->number(mesh);
+  return breast;
+}
+
+}  // namespace mammotwin

@@ -1,0 +1,67 @@
+#pragma once
+
+#include "solver/breast/breast_model.h"
+#include "solver/load/load_stepping.h"
+#include "solver/gravity/general_matrix.h"
+
+#include <memory>
+#include <vector>
+
+namespace mammotwin {
+
+/// Equilibrium written on the known deformed shape x: which reference shape X makes
+///
+///     residual(x; X, p) = 0,   ∫ ψ (J − 1 − p/κ) dV = 0
+///
+/// where the residuals are those of the forward problem, bit for bit, and so a solution meets them
+/// whatever the mesh (inverse finite deformation: Govindjee and Mihalic, Comput. Methods Appl.
+/// Mech. Engrg. 136 (1996) 47-57, there for the continuum). Newton on (X, p) with the exact
+/// tangent, which is not symmetric.
+class InverseEquilibrium {
+ public:
+  /// problem.mesh is the deformed shape; problem.prone is not looked at. Throws as
+  /// make_breast_model does.
+  InverseEquilibrium(const CompressionProblem& problem, const SolidOptions& solid);
+
+  /// The deformed shape as its own reference, without pressure: the solution without a load.
+  State start() const;
+
+  int num_equations() const { return pattern_.num_columns(); }
+
+  /// Brings `reference` (its x is X) to equilibrium under a constant body force [mN/mm³]. On
+  /// failure it is the last iterate.
+  NewtonReport solve(State& reference, const Eigen::Vector3d& body_force, double tolerance,
+                     int max_iterations);
+
+ private:
+  struct Evaluation {
+    bool valid = false;         ///< neither X nor x is folded
+    BreastModel breast;         ///< of which X is the reference
+    Eigen::VectorXd residual;   ///< per equation [mN]
+    Eigen::MatrixXd pressure_residual;  ///< 8 x elements [mm³]
+    double flow = 0;            ///< √Σ|element residual|², at least that of a small strain [mN]
+    double largest_volume_error = 0;    ///< relative to the element's volume
+  };
+  struct Elimination {          ///< of one element's pressures
+    Eigen::MatrixXd coupling, pressure_tangent, stiffness;
+  };
+  struct Step {
+    std::vector<HermiteMesh::Node> nodes;
+    std::vector<double> pressure;
+  };
+  Evaluation evaluate(const State& reference, const Eigen::Vector3d& body_force) const;
+  bool folded(const std::vector<HermiteMesh::Node>& X) const;
+  bool linearise(const State& reference, const Evaluation& here, const Eigen::Vector3d& body_force);
+  Eigen::VectorXd correction(const Evaluation& here) const;
+  Step step_of(const Eigen::VectorXd& correction, const Evaluation& here) const;
+  bool search(State& reference, Evaluation& here, const Eigen::Vector3d& body_force) const;
+
+  CompressionProblem problem_;  ///< its tissue is remembered: every reference has the same
+  SolidOptions solid_;
+  BreastModel prone_;
+  SparsePattern pattern_;
+  std::unique_ptr<GeneralMatrix> matrix_;
+  std::vector<Elimination> eliminations_;
+};
+
+}  // namespace mammotwin

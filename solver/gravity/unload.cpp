@@ -1,0 +1,192 @@
+#include "solver/gravity/unload.h"
+
+#include "solver/gravity/inverse_equilibrium.h"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+namespace mammotwin {
+
+namespace {
+
+using Nodes = std::vector<HermiteMesh::Node>;
+
+std::string percent(double share) {
+  return std::to_string(static_cast<int>(std::lround(100 * share))) + " %";
+}
+
+/// Strain from the unloaded to the prone shape at the quadrature points.
+void measure_strain(const CompressionProblem& hanging, const SolidOptions& solid,
+                    UnloadReport& report) {
+  const BreastModel breast = make_breast_model(hanging, solid);
+  std::vector<double> stretches;
+  report.min_J = report.max_J = 1;
+  for (int e = 0; e < breast.model->num_elements(); ++e)
+    for (const auto& F : breast.model->element(e).deformation_gradients(
+             breast.model->coefficients(hanging.prone, e))) {
+      const Eigen::Matrix3d C = F.transpose() * F;
+      const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> squares(C, Eigen::EigenvaluesOnly);
+      stretches.push_back(std::sqrt(squares.eigenvalues()[2]));
+      report.min_J = std::min(report.min_J, F.determinant());
+      report.max_J = std::max(report.max_J, F.determinant());
+    }
+  std::sort(stretches.begin(), stretches.end());
+  report.stretch_p95 = stretches[stretches.size() * 95 / 100];
+  report.stretch_max = stretches.back();
+}
+
+/// One unloading under way.
+class Unloading {
+ public:
+  Unloading(const CompressionProblem& problem, const UnloadOptions& options,
+            const Progress& progress)
+      : problem_(problem), options_(options), progress_(progress),
+        inverse_(problem, options.solid) {}
+  UnloadResult run();
+
+ private:
+  LoadSteppingReport take_off(double share, Nodes& unloaded);
+  HangOptions reload_options() const;
+  struct Reload {
+    std::optional<double> error_mm;  ///< empty where the breast does not come to rest
+    std::string reason;
+    bool back_within(double tolerance) const { return error_mm && *error_mm < tolerance; }
+  };
+  Reload reload(const Nodes& unloaded, double share) const;
+  std::optional<double> naive_error() const;
+  void find_largest_share(UnloadResult& result);
+  void check(UnloadResult& result);
+  void say(double fraction, const std::string& what) const {
+    if (progress_) progress_(fraction, what);
+  }
+
+  const CompressionProblem& problem_;
+  const UnloadOptions& options_;
+  const Progress& progress_;
+  InverseEquilibrium inverse_;
+};
+
+/// Solves for a share of the gravity, from the prone shape on.
+LoadSteppingReport Unloading::take_off(double share, Nodes& unloaded) {
+  const Eigen::Vector3d weight = share * problem_.density * problem_.gravity;
+  State reference = inverse_.start();
+  LoadSteppingReport load = step_load(
+      reference, options_.load,
+      [&](double fraction, State& trial) {
+        return inverse_.solve(trial, fraction * weight, options_.tolerance,
+                              options_.max_iterations);
+      },
+      [&](const LoadSteppingReport& so_far, const State&, const NewtonReport&) {
+        say(0.5 * so_far.reached, "gravity taken off");
+      });
+  unloaded = std::move(reference.x);
+  return load;
+}
+
+HangOptions Unloading::reload_options() const {
+  HangOptions options;
+  options.solid = options_.solid;
+  options.tolerance = options_.tolerance;
+  options.load.smallest_step = 1.0 / 16;  // a shape that hangs back does so in one to three steps
+  options.load.max_iterations = 150;
+  return options;
+}
+
+/// Where an unloaded shape hangs to, beside the prone one.
+Unloading::Reload Unloading::reload(const Nodes& unloaded, double share) const {
+  CompressionProblem hanging = from_unloaded(problem_, unloaded);
+  hanging.gravity *= share;
+  const HangResult again = hang(hanging, reload_options());
+  if (!again.report.usable())
+    return {std::nullopt, "it stops at " + percent(again.report.gravity_fraction) +
+                              " of the gravity: " + again.report.reason};
+  return {largest_distance(again.deformed, hanging.prone), "it comes to rest elsewhere"};
+}
+
+/// What many do: solve the prone shape with gravity reversed and call that unloaded.
+std::optional<double> Unloading::naive_error() const {
+  CompressionProblem reversed = problem_;
+  reversed.prone.clear();
+  reversed.gravity = -problem_.gravity;
+  const HangResult naive = hang(reversed, reload_options());
+  if (!naive.report.usable()) return std::nullopt;
+  return reload(naive.deformed, 1).error_mm;
+}
+
+/// An unloaded shape that balances may yet fall elsewhere when it is loaded. Bisection for the share
+/// of the gravity up to which it does not.
+void Unloading::find_largest_share(UnloadResult& result) {
+  constexpr int trials = 4;  // to a sixteenth
+  double low = 0, high = result.report.gravity_fraction;
+  Nodes best = problem_.mesh.mesh.nodes();
+  for (int trial = 0; trial < trials; ++trial) {
+    const double share = (low + high) / 2;
+    say(0.5 + 0.1 * trial, "looking for the largest gravity that works");
+    Nodes unloaded;
+    const LoadSteppingReport load = take_off(share, unloaded);
+    result.report.newton_iterations += load.iterations;
+    const bool works =
+        load.complete() && reload(unloaded, share).back_within(options_.round_trip_tolerance);
+    (works ? low : high) = share;
+    if (works) best = std::move(unloaded);
+  }
+  result.report.gravity_fraction = low;
+  result.unloaded = std::move(best);
+}
+
+void Unloading::check(UnloadResult& result) {
+  UnloadReport& report = result.report;
+  say(0.5, "loading again");
+  const Reload again = reload(result.unloaded, report.gravity_fraction);
+  if (again.back_within(options_.round_trip_tolerance)) {
+    report.round_trip_max_mm = *again.error_mm;
+    if (report.usable()) report.naive_reversal_error_mm = naive_error();
+    return;
+  }
+  report.converged = false;
+  report.reason = "the unloaded shape, loaded again, does not come to rest in the imaged one; " +
+                  again.reason;
+  find_largest_share(result);
+}
+
+UnloadResult Unloading::run() {
+  const auto begin = std::chrono::steady_clock::now();
+  UnloadResult result;
+  UnloadReport& report = result.report;
+  const LoadSteppingReport load = take_off(1, result.unloaded);
+  report.converged = load.complete();
+  report.reason = load.reason;
+  report.gravity_fraction = load.reached;
+  report.steps = load.steps;
+  report.cutbacks = load.cutbacks;
+  report.newton_iterations = load.iterations;
+  report.dof = inverse_.num_equations();
+  report.seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  const bool loaded = !problem_.gravity.isZero() && report.gravity_fraction > 0;
+  if (options_.check && loaded) check(result);
+  report.sag_max_mm = largest_distance(result.unloaded, problem_.mesh.mesh.nodes());
+  measure_strain(from_unloaded(problem_, result.unloaded), options_.solid, report);
+  say(1, "unloaded");
+  return result;
+}
+
+}  // namespace
+
+CompressionProblem from_unloaded(const CompressionProblem& prone, const Nodes& unloaded) {
+  CompressionProblem problem = prone;
+  problem.prone = prone.mesh.mesh.nodes();
+  problem.mesh.mesh = HermiteMesh(unloaded, prone.mesh.mesh.elements());
+  return problem;
+}
+
+UnloadResult unload(const CompressionProblem& problem, const UnloadOptions& options,
+                    const Progress& progress) {
+  return Unloading(problem, options, progress).run();
+}
+
+}  // namespace mammotwin

@@ -1,0 +1,55 @@
+#pragma once
+
+#include "solver/gravity/hang.h"
+
+namespace mammotwin {
+
+struct UnloadOptions {
+  SolidOptions solid;
+  double tolerance = 1e-10;  ///< of both balances, relative: 1e-7 mm in position
+  LoadSteppingOptions load;  ///< parts of the gravity
+  int max_iterations = 12;   ///< Newton iterations a step: a good step needs 4 to 6
+  bool check = true;         ///< loads the result again, and the naive reversal beside it
+  double round_trip_tolerance = 1e-3;  ///< farther off [mm], the breast fell elsewhere
+};
+
+struct UnloadReport {
+  bool converged = false;
+  std::string reason;           ///< why not
+  /// Largest part of the gravity that could be taken off and, where checked, put on again.
+  double gravity_fraction = 0;
+  int steps = 0, cutbacks = 0, newton_iterations = 0;
+  double sag_max_mm = 0;        ///< largest way of a node from unloaded to prone
+  double stretch_p95 = 1, stretch_max = 1;  ///< largest principal stretch at quadrature points
+  double min_J = 1, max_J = 1;
+  double round_trip_max_mm = 0;  ///< nodes: unloaded, loaded again, against prone
+  /// The same for the prone shape solved with gravity reversed; empty where that does not converge.
+  std::optional<double> naive_reversal_error_mm;
+  double seconds = 0;            ///< without the checks
+  int dof = 0;
+  bool usable() const { return converged; }
+
+  /// All stiffnesses (tissue, skin, springs) times this would do: only the ratio of gravity to
+  /// stiffness counts. Infinite where no part of the gravity worked.
+  double sufficient_stiffness_factor() const { return 1 / gravity_fraction; }
+};
+
+struct UnloadResult {
+  std::vector<HermiteMesh::Node> unloaded;  ///< at the last good part of the gravity
+  UnloadReport report;
+};
+
+/// The shape free of stress that `problem.gravity` turns into `problem.mesh`, which is the breast as
+/// imaged (`problem.prone` is not looked at; plates neither).
+///
+/// Springs are taken to be relaxed, and the skin unstressed, in the unloaded shape; the chest wall
+/// stands where the prone one does, and tissue slides on it.
+/// Throws std::invalid_argument as `compress` does.
+UnloadResult unload(const CompressionProblem& problem, const UnloadOptions& options,
+                    const Progress& progress = {});
+
+/// The problem whose mesh is the unloaded shape and which remembers the prone one.
+CompressionProblem from_unloaded(const CompressionProblem& prone,
+                                 const std::vector<HermiteMesh::Node>& unloaded);
+
+}  // namespace mammotwin

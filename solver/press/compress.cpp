@@ -1,0 +1,335 @@
+#include "solver/press/compress.h"
+
+#include "fitting/mesh/jacobian_bound.h"
+#include "solver/gravity/hang.h"
+#include "solver/load/load_stepping.h"
+#include "solver/material/neo_hookean.h"
+#include "solver/press/checkpoint.h"
+#include "solver/press/compression_figures.h"
+#include "solver/press/finish.h"
+#include "solver/press/plate_way.h"
+#include "solver/press/press.h"
+#include "solver/press/solution_fields.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+namespace mammotwin {
+
+namespace {
+
+constexpr double kStepGrowth = 1.5;
+
+State extrapolated(const State& now, const State& before, double ahead) {
+  State then = now;
+  for (std::size_t i = 0; i < now.x.size(); ++i) then.x[i] += ahead * (now.x[i] - before.x[i]);
+  for (std::size_t i = 0; i < now.pressure.size(); ++i)
+    then.pressure[i] += ahead * (now.pressure[i] - before.pressure[i]);
+  return then;
+}
+
+void check_finite(const HermiteMesh& mesh) {
+  for (int node = 0; node < mesh.num_nodes(); ++node)
+    if (!mesh.node(node).allFinite())
+      throw std::invalid_argument("node " + std::to_string(node) +
+                                  " of the mesh has a parameter that is not a finite number");
+}
+
+/// The imaged shape, in which points are sought, must be valid everywhere. A shape that was computed from
+/// it need only be so at the quadrature points, which the elements check.
+void check_shape(const CompressionProblem& problem) {
+  check_finite(problem.mesh.mesh);
+  const HermiteMesh imaged = problem.prone.empty()
+                                 ? problem.mesh.mesh
+                                 : HermiteMesh(problem.prone, problem.mesh.mesh.elements());
+  check_finite(imaged);
+  if (!proved_valid(imaged))
+    throw std::invalid_argument("the mesh is folded: det dX/dxi is not positive everywhere");
+}
+
+/// One compression under way: the load steps along the plates' way.
+class Compression {
+ public:
+  Compression(const CompressionProblem& problem, const CompressionOptions& options,
+              const Progress& progress, const CompressionRestart& restart);
+  CompressionResult run();
+  CompressionResult run_from(const CompressionResult& near);
+
+ private:
+  bool begin(State& state);
+  bool settle(State& state);
+  void place(double fraction);
+  NewtonReport balance_tilt(NewtonReport report, State& state);
+  NewtonReport equilibrate(double fraction, State& state);
+  void record(const LoadSteppingReport& load, const State& state, const NewtonReport& newton);
+  LoadSteppingReport close_plates(State& state);
+  void judge(const LoadSteppingReport& load);
+  void count(const NewtonReport& newton);
+
+  const CompressionProblem& problem_;
+  const CompressionOptions& options_;
+  const Progress progress_;
+  const CompressionRestart restart_;
+  Press press_;
+  const PlateWay way_;
+  CompressionCheckpoint good_;  ///< the last good step
+  bool lost_ = false;           ///< the breast has slipped out
+  CompressionReport report_;
+};
+
+Compression::Compression(const CompressionProblem& problem, const CompressionOptions& options,
+                         const Progress& progress, const CompressionRestart& restart)
+    : problem_(problem),
+      options_(options),
+      progress_(progress),
+      restart_(restart),
+      press_(problem, options),
+      way_(press_.frame(), problem, options.moving) {
+  good_.tilt = problem.plates.paddle_tilt;
+  report_.target_thickness_mm = problem.plates.thickness;
+  report_.free_thickness_mm = press_.frame().extent(problem.mesh.mesh.nodes());
+  report_.dof = press_.breast().dofs->num_equations();
+}
+
+void Compression::place(double fraction) { press_.put(way_.at(fraction, good_.tilt)); }
+
+/// Turns the paddle by the secant method until its spring and the breast are in balance.
+NewtonReport Compression::balance_tilt(NewtonReport report, State& state) {
+  constexpr int most_rounds = 10;
+  constexpr double most_turn = 4, most_tilt = 30;  // [deg]
+  constexpr double least_slope = -0.5;
+  double slope = kTiltSlope;
+  for (int round = 0; report.usable() && round < most_rounds; ++round) {
+    const double error = press_.tilt_error(state), tilt = press_.placed().paddle_tilt;
+    if (std::abs(error) <= kTiltTolerance) return report;
+    const double turn = std::clamp(-error / slope, -most_turn, most_turn);
+    if (std::abs(tilt + turn) > most_tilt) break;
+    press_.move_paddle(press_.placed().paddle_height, tilt + turn);
+    report = then(report, press_.squeeze(state, good_.penalty));
+    slope = std::min((press_.tilt_error(state) - error) / turn, least_slope);
+  }
+  if (report.usable()) report.reason = "the paddle's tilt finds no balance with its spring";
+  report.converged = false;
+  return report;
+}
+
+/// From the last two steps extrapolated, else from the last.
+NewtonReport Compression::equilibrate(double fraction, State& state) {
+  if (lost_) return {};  // pressing on what is left would tell nothing
+  const auto attempt = [&](State& trial) {
+    place(fraction);
+    press_.restore_friction(good_.sticking);
+    return balance_tilt(press_.squeeze(trial, good_.penalty), trial);
+  };
+  NewtonReport tried;
+  const double last = good_.reached.fraction - good_.before.fraction;
+  if (last > 0) {
+    State trial =
+        extrapolated(state, good_.before.state, (fraction - good_.reached.fraction) / last);
+    tried = attempt(trial);
+    if (tried.usable()) {
+      state = std::move(trial);
+      return tried;
+    }
+  }
+  return then(tried, attempt(state));
+}
+
+void Compression::count(const NewtonReport& newton) {
+  report_.newton_iterations += newton.iterations;
+  report_.indefinite_matrices += newton.indefinite;
+}
+
+void Compression::record(const LoadSteppingReport& load, const State& state,
+                         const NewtonReport& newton) {
+  const Balance balance = press_.newton().balance(state);
+  report_.history.push_back({press_.thickness(state), press_.paddle_force(state),
+                             newton.iterations, press_.penalty(), balance.min_J, balance.max_J,
+                             state.x});
+  good_.load = load;
+  good_.before = std::exchange(good_.reached, {load.reached, state});
+  good_.tilt = press_.placed().paddle_tilt;
+  good_.penalty = press_.penalty();
+  good_.sticking = press_.commit_friction(state);
+  good_.report = report_;
+  good_.friction = problem_.friction.coefficient;
+  lost_ = slipped_out(press_, state);
+  if (restart_.keep) restart_.keep(good_);
+  if (progress_)
+    progress_(0.95 * load.reached, "compressed to " + in_mm(report_.history.back().thickness_mm));
+}
+
+void Compression::judge(const LoadSteppingReport& load) {
+  constexpr double most_error = 0.1, most_penetration = 0.1;  // [mm]: what "reached" means
+  const double error = std::abs(report_.thickness_mm - problem_.plates.thickness);
+  const double apart = press_.placed().paddle_height - press_.placed().support_height;
+  if (report_.slipped_out)
+    report_.reason = "the breast slipped out backwards: the plates stand " + in_mm(apart) +
+                     " apart (stiffer chest-wall springs or more friction would hold it)";
+  else if (!load.complete())
+    report_.reason = load.reason;
+  else if (error > std::max(most_error, options_.thickness_tolerance))
+    report_.reason = "the thickness stays " + in_mm(error) + " off";
+  else if (report_.max_penetration_mm > std::max(most_penetration, options_.gap_tolerance))
+    report_.reason = "a point stays " + in_mm(report_.max_penetration_mm) + " inside a plate";
+  else
+    report_.status = CompressionStatus::converged;
+  if (!report_.usable())
+    report_.reason = "stopped at " + in_mm(report_.thickness_mm) + " of " +
+                     in_mm(problem_.plates.thickness) + ": " + report_.reason;
+}
+
+/// Brings the breast to rest under gravity, the plates away; false where it does not come to rest.
+bool Compression::settle(State& state) {
+  press_.put(way_.start());
+  press_.take_plates_away();
+  if (problem_.gravity.isZero()) return true;
+  const LoadSteppingReport load = raise_body_force(
+      press_.breast(), press_.newton(), problem_.density * problem_.gravity, {}, state);
+  report_.newton_iterations += load.iterations;
+  report_.indefinite_matrices += load.indefinite;
+  if (!load.complete()) report_.reason = "does not come to rest under gravity: " + load.reason;
+  return load.complete();
+}
+
+/// The state from which the plates close: at rest, or that of a checkpoint.
+bool Compression::begin(State& state) {
+  state = press_.model().rest();
+  if (!restart_.from) {
+    if (!settle(state)) return false;
+    place(0);
+    good_.reached = {0, state};
+    good_.sticking = press_.commit_friction(state);
+    return true;
+  }
+  good_ = *restart_.from;
+  const State& reached = good_.reached.state;
+  if (reached.x.size() != state.x.size() || reached.pressure.size() != state.pressure.size())
+    throw std::invalid_argument("the checkpoint is of another mesh");
+  state = reached;
+  report_.history = good_.report.history;
+  report_.newton_iterations = good_.report.newton_iterations;
+  report_.indefinite_matrices = good_.report.indefinite_matrices;
+  if (!problem_.gravity.isZero())
+    press_.breast().model->set_body_force(
+        [force = (problem_.density * problem_.gravity).eval()](const Eigen::Vector3d&) {
+          return force;
+        });
+  place(good_.reached.fraction);
+  press_.set_penalty(good_.penalty);
+  press_.restore_friction(good_.sticking);
+  lost_ = slipped_out(press_, state);
+  return true;
+}
+
+LoadSteppingReport Compression::close_plates(State& state) {
+  const double longest = std::min(1.0, options_.longest_move / way_.longest());
+  const LoadSteppingReport load = step_load(
+      state,
+      {std::min(longest, options_.first_step), longest * options_.smallest_step,
+       options_.max_iterations, kStepGrowth, longest},
+      [&](double fraction, State& s) { return equilibrate(fraction, s); },
+      [&](const LoadSteppingReport& so_far, const State& s, const NewtonReport& n) {
+        record(so_far, s, n);
+      },
+      good_.load);
+  report_.steps = load.steps;
+  report_.cutbacks = load.cutbacks;
+  report_.newton_iterations += load.iterations;
+  report_.indefinite_matrices += load.indefinite;
+  if (load.complete() && !lost_)
+    count(finish_compression(press_, good_.penalty, state));
+  else
+    place(load.reached);
+  return load;
+}
+
+CompressionResult Compression::run() {
+  const auto start = std::chrono::steady_clock::now();
+  State state;
+  if (!begin(state)) return {state.x, state.pressure, press_.placed(), 0, {}, report_};
+  const LoadSteppingReport load = close_plates(state);
+  measure_compression(press_, state, report_);
+  judge(load);
+  if (report_.usable()) report_.energy_force_N = force_from_energy(press_, state);
+  report_.seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  if (progress_) progress_(1, "compressed to " + in_mm(report_.thickness_mm));
+  CompressionResult result{state.x, state.pressure, press_.placed(), press_.penalty(), {}, report_};
+  if (report_.usable()) result.fields = solution_fields(press_, state);
+  return result;
+}
+
+/// The plates go at once to their new places, as far apart beyond the thickness as they were.
+CompressionResult Compression::run_from(const CompressionResult& near) {
+  State state = press_.model().rest();
+  if (near.deformed.size() != state.x.size() || near.pressure.size() != state.pressure.size())
+    throw std::invalid_argument("the result to start from belongs to another mesh");
+  state.x = near.deformed;
+  state.pressure = near.pressure;
+  const double apart = near.plates.paddle_height - near.plates.support_height;
+  place(1);
+  press_.move_paddle(press_.placed().support_height + problem_.plates.thickness + apart -
+                         near.report.target_thickness_mm,
+                     good_.tilt);
+  NewtonReport newton = press_.squeeze(state, near.penalty);
+  if (newton.usable()) newton = then(newton, press_.resettle(state));
+  count(newton);
+  LoadSteppingReport load;
+  load.reached = newton.usable() ? 1 : 0;
+  load.reason = newton.reason;
+  if (load.complete()) count(finish_compression(press_, press_.penalty(), state));
+  measure_compression(press_, state, report_);
+  judge(load);
+  return {state.x, state.pressure, press_.placed(), press_.penalty(), {}, report_};
+}
+
+/// Those to try one after the other until one holds the breast.
+std::vector<double> friction_coefficients(const CompressionProblem& problem,
+                                          const CompressionOptions& options) {
+  const double own = problem.friction.coefficient, holding = options.holding_friction;
+  if (own > 0 || holding == 0) return {own};
+  return {0, holding, std::min(1.0, 2 * holding)};
+}
+
+}  // namespace
+
+TissueLaws TissueLaws::defaults() {
+  return {{std::make_shared<NeoHookean>(0.75), std::make_shared<NeoHookean>(2.5),
+           std::make_shared<NeoHookean>(3.3)},
+          Mixing::geometric};
+}
+
+CompressionResult compress(const CompressionProblem& problem, const CompressionOptions& options,
+                           const Progress& progress, const CompressionRestart& restart) {
+  check_shape(problem);
+  const std::vector<double> coefficients = friction_coefficients(problem, options);
+  CompressionProblem posed = problem;
+  CompressionRestart from_here = restart;
+  std::size_t attempt = 0;
+  if (restart.from)
+    while (attempt + 1 < coefficients.size() && coefficients[attempt] < restart.from->friction)
+      ++attempt;
+  for (;; ++attempt) {
+    posed.friction.coefficient = coefficients[attempt];
+    CompressionResult result = Compression(posed, options, progress, from_here).run();
+    result.report.held_by_friction = attempt > 0 ? coefficients[attempt] : 0;
+    if (result.report.usable() || attempt + 1 == coefficients.size()) return result;
+    if (progress)
+      progress(0, std::string(result.report.slipped_out ? "slipped out" : "no equilibrium") +
+                      "; once more with more friction");
+    from_here.from = nullptr;
+  }
+}
+
+CompressionResult compress_from(const CompressionResult& near, const CompressionProblem& problem,
+                                const CompressionOptions& options) {
+  check_shape(problem);
+  return Compression(problem, options, {}, {}).run_from(near);
+}
+
+}  // namespace mammotwin

@@ -1,0 +1,53 @@
+#include "fitting/surface/flatten.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numeric>
+#include <random>
+
+namespace mammotwin {
+namespace {
+
+const BreastRegion region{Side::left, -2, 3, 10, 14};
+
+/// A height field over the region on a grid, its triangles and vertices in a random order.
+TriangleSurface shuffled_hill(int seed) {
+  constexpr int nx = 6, nz = 5;
+  std::mt19937 random(seed);
+  std::vector<int> place(nx * nz);
+  std::iota(place.begin(), place.end(), 0);
+  std::shuffle(place.begin(), place.end(), random);
+  TriangleSurface surface;
+  surface.vertices.resize(nx * nz);
+  for (int k = 0; k < nz; ++k)
+    for (int i = 0; i < nx; ++i)
+      surface.vertices[place[i + nx * k]] = {region.x_min + i, -0.3 * i * k, region.z_min + k};
+  for (int k = 0; k + 1 < nz; ++k)
+    for (int i = 0; i + 1 < nx; ++i) {
+      const int a = i + nx * k;
+      surface.triangles.push_back({place[a], place[a + 1], place[a + nx + 1]});
+      surface.triangles.push_back({place[a], place[a + nx + 1], place[a + nx]});
+    }
+  std::shuffle(surface.triangles.begin(), surface.triangles.end(), random);
+  return surface;
+}
+
+// The border may begin anywhere; the library lays the first corner that it meets at (0, 0).
+TEST(Flatten, LaysXAlongUAndZAlongVWhereverTheBorderBegins) {
+  for (int seed = 0; seed < 20; ++seed) {
+    const TriangleSurface hill = shuffled_hill(seed);
+    const FlatSkin flat = flatten(hill, region);
+    for (std::size_t v = 0; v < hill.vertices.size(); ++v) {
+      const double u = (hill.vertices[v].x() - region.x_min) / 5;
+      const double w = (hill.vertices[v].z() - region.z_min) / 4;
+      EXPECT_EQ(u == 0, flat.uv[v].x() == 0) << "seed " << seed;
+      EXPECT_EQ(u == 1, flat.uv[v].x() == 1) << "seed " << seed;
+      EXPECT_EQ(w == 0, flat.uv[v].y() == 0) << "seed " << seed;
+      EXPECT_EQ(w == 1, flat.uv[v].y() == 1) << "seed " << seed;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace mammotwin

@@ -1,0 +1,26 @@
+#include "pipeline/frame/settings_table.h"
+
+#include "pipeline/patient/patient.h"
+#include "tests/pipeline/scratch_folder.h"
+
+namespace mammotwin {
+namespace {
+
+using SettingsTableTest = ScratchFolder;
+
+TEST_F(SettingsTableTest, IsTheOneInTheReadme) {
+  const std::string readme = text_of(MAMMOTWIN_SOURCE_DIR "/pipeline/README.md");
+  const std::string begin = "--list-settings` -->\n", end = "<!-- end of settings -->";
+  const std::size_t from = readme.find(begin), to = readme.find(end);
+  ASSERT_NE(from, std::string::npos);
+  ASSERT_NE(to, std::string::npos);
+  Patient patient;
+  Settings settings;
+  patient.declare(settings);
+  EXPECT_EQ(readme.substr(from + begin.size(), to - from - begin.size()),
+            settings_table(settings.all()))
+      << "put the output of `mammotwin-segment --list-settings` there";
+}
+
+}  // namespace
+}  // namespace mammotwin

@@ -1,0 +1,101 @@
+// The page in Chromium: what a person can do with it, and that it keeps to itself.
+
+#include "pipeline/report/page_data.h"
+#include "pipeline/report/page_template.h"
+#include "tests/pipeline/report/report_fake_results.h"
+#include "tests/pipeline/report/browser.h"
+#include "tests/pipeline/scratch_folder.h"
+
+#include <sstream>
+
+namespace mammotwin {
+namespace {
+
+class ReportInABrowser : public ScratchFolder {
+ protected:
+  void SetUp() override {
+    if (Browser::program().empty()) GTEST_SKIP() << "there is no Chromium (package chromium)";
+    browser_.emplace(folder_ / "profile");
+    browser_->open(write("report.html", render_page(page_data(results_, "0.1.0"))));
+    ASSERT_TRUE(browser_->wait_until("document.getElementById('planes').dataset.ready"));
+  }
+  void TearDown() override { browser_.reset(); }
+
+  std::string at_the_cross() { return browser_->evaluate("document.getElementById('planes-status').textContent"); }
+  /// Pixels of a plane (0: axial, 1: sagittal, 2: coronal), as text.
+  std::string picture_of(int plane) {
+    return browser_->evaluate("document.querySelectorAll('#planes canvas')[" + std::to_string(plane) + "].toDataURL()");
+  }
+  Eigen::Vector3d lesion_in_3d() {
+    std::istringstream text(browser_->evaluate("document.getElementById('viewer').dataset.lesion").get<std::string>());
+    Eigen::Vector3d x;
+    text >> x.x() >> x.y() >> x.z();
+    return x;
+  }
+
+  void go_through_slices_by_keyboard() {
+    EXPECT_TRUE(browser_->has_accessible("slider", "Axial"));
+    browser_->evaluate("document.querySelector('#planes figure input').focus()");
+    browser_->press("ArrowRight");
+    EXPECT_NE(at_the_cross().find("S −10.0 mm"), std::string::npos) << at_the_cross();
+    EXPECT_EQ(browser_->evaluate("document.querySelector('#planes figure input').getAttribute('aria-valuetext')"),
+              "S −10.0 mm");
+  }
+  void print_the_stills() {
+    const auto pdf = browser_->call("Page.printToPDF", {{"printBackground", true}});
+    EXPECT_EQ(pdf["data"].get<std::string>().substr(0, 4), "JVBE");  // %PDF in base64
+    const std::string open = "document.querySelector('details.stills').open";
+    EXPECT_EQ(browser_->evaluate(open), false);  // as before
+    browser_->evaluate("window.dispatchEvent(new Event('beforeprint'))");
+    EXPECT_EQ(browser_->evaluate(open), true);
+  }
+
+  PatientResults results_ = fake_results(Side::left);
+  std::optional<Browser> browser_;
+};
+
+// Lesion 2 of the made-up breast has its centroid at (65, -52, -12); voxels are 2 mm.
+TEST_F(ReportInABrowser, FindsALesionByItsLabelAndMovesThePlanes) {
+  EXPECT_TRUE(browser_->has_accessible("button", "Lesion 2"));
+  browser_->click("#planes-places button:nth-child(2)");
+  EXPECT_EQ(at_the_cross(), "L 65.0, P −52.0, S −12.0 mm: lesion 2");
+  const std::string axial = picture_of(0), sagittal = picture_of(1), coronal = picture_of(2);
+  browser_->click("#planes figure:nth-child(1) canvas", 0.2, 0.1);  // in the axial plane
+  EXPECT_NE(picture_of(1), sagittal);
+  EXPECT_NE(picture_of(2), coronal);
+  EXPECT_EQ(at_the_cross().find("L 65.0"), std::string::npos);
+  EXPECT_NE(at_the_cross().find("S −12.0 mm"), std::string::npos);  // that plane itself stays
+  EXPECT_NE(picture_of(0), axial);                                   // but for its cross
+  go_through_slices_by_keyboard();
+}
+
+// The unloaded shape of the made-up breast is the prone one.
+TEST_F(ReportInABrowser, CompressesWithTheSlider) {
+  const Landmark lesion = results_.lesions()[0];
+  const PointCarrier carrier(results_.prone->mesh, results_.view("cc")->file.mesh);
+  const Eigen::Vector3d squeezed = carrier.carry(lesion.prone_in_lps).in_lps;
+  EXPECT_LT((lesion_in_3d() - squeezed).norm(), 0.02);  // two decimals
+  EXPECT_GT((lesion.prone_in_lps - squeezed).norm(), 1);
+  browser_->evaluate("document.getElementById('viewer-compression').focus()");
+  browser_->press("Home");
+  EXPECT_LT((lesion_in_3d() - lesion.prone_in_lps).norm(), 0.02);
+  browser_->press("End");
+  EXPECT_LT((lesion_in_3d() - squeezed).norm(), 0.02);
+  for (const char* shape : {"Prone", "Unloaded", "CC", "MLO"}) EXPECT_TRUE(browser_->has_accessible("radio", shape)) << shape;
+}
+
+TEST_F(ReportInABrowser, PrintsAsksForNothingAndComplainsOfNothing) {
+  print_the_stills();
+  ASSERT_TRUE(browser_->wait_until("document.getElementById('viewer').dataset.lesion"));
+  for (const std::string& url : browser_->requests())
+    EXPECT_TRUE(url.starts_with("file://" + folder_.string()) || url.starts_with("data:") || url.starts_with("blob:")) << url;
+  EXPECT_GE(browser_->requests().size(), 1u);  // the page itself: the count works
+  for (const std::string& complaint : browser_->complaints()) ADD_FAILURE() << complaint;
+  // Time to the first picture, to be read and not to be judged on a machine that does other things.
+  const auto first = browser_->evaluate("performance.getEntriesByName('first-contentful-paint')[0]?.startTime");
+  RecordProperty("first_contentful_paint_ms", first.dump());
+  RecordProperty("planes_ms", browser_->evaluate("document.getElementById('planes').dataset.ready").get<std::string>());
+}
+
+}  // namespace
+}  // namespace mammotwin

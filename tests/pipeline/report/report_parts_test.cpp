@@ -1,0 +1,171 @@
+#include "pipeline/report/base64.h"
+#include "pipeline/report/depth_image.h"
+#include "pipeline/report/fit_course_figure.h"
+#include "pipeline/report/fit_error.h"
+#include "pipeline/report/mammogram_raster.h"
+#include "pipeline/report/mesh_field.h"
+#include "pipeline/report/mesh_surface.h"
+#include "pipeline/report/palette.h"
+#include "pipeline/report/quality_limit.h"
+#include "pipeline/report/quality_table.h"
+#include "pipeline/report/section.h"
+#include "pipeline/report/verdict.h"
+#include "tests/pipeline/report/report_fake_results.h"
+
+#include "fitting/mesh/block_mesh.h"
+
+#include <Eigen/Geometry>
+#include <gtest/gtest.h>
+
+namespace mammotwin {
+namespace {
+
+MeshFile block() { return {block_mesh({0, 0, 0}, {2, 3, 4}, {2, 1, 2}), {}, {}, {}, {}, {}}; }
+
+TEST(MeshSurface, CountsEveryFaceOnce) {
+  // 2 x 1 x 2 elements: 3*1*2 + 2*2*2 + 2*1*3 = 20 faces, of which 4 lie between two elements.
+  EXPECT_EQ(all_faces(block()).size(), 20u);
+  EXPECT_EQ(outer_faces(block()).size(), 16u);
+}
+
+TEST(MeshSurface, TrianglesLookOutwards) {
+  const MeshFile file = block();
+  const FaceTriangles s = triangulate(file.mesh, outer_faces(file), 3);
+  double volume = 0;  // divergence theorem: a sum of signed tetrahedra
+  for (const auto& [a, b, c] : s.triangles)
+    volume += s.points[a].dot(s.points[b].cross(s.points[c])) / 6;
+  EXPECT_NEAR(volume, 24, 1e-12);
+}
+
+TEST(MeshSurface, PlaneCutsABlockAlongItsOutlineAndItsInnerFaces) {
+  const MeshFile file = block();
+  double outline = 0, all = 0;
+  for (const auto& [a, b] : cut_by_plane(file.mesh, outer_faces(file), 2, 1.1)) outline += (b - a).norm();
+  for (const auto& [a, b] : cut_by_plane(file.mesh, all_faces(file), 2, 1.1)) all += (b - a).norm();
+  EXPECT_NEAR(outline, 2 * (2 + 3), 1e-12);
+  EXPECT_NEAR(all, outline + 3, 1e-12);
+}
+
+TEST(Section, TurnsAxesAndBack) {
+  Section s;
+  s.normal = 0;
+  s.at = 5;
+  s.right = {1};
+  s.down = {2, true};
+  s.window = Eigen::AlignedBox3d(Eigen::Vector3d(0, -10, -20), Eigen::Vector3d(1, 30, 40));
+  EXPECT_EQ(s.on_paper({5, -10, 40}), Eigen::Vector2d(0, 0));
+  const Eigen::Vector3d x(5, 12, -3);
+  EXPECT_LT((s.in_space(s.on_paper(x)) - x).norm(), 1e-12);
+}
+
+TEST(DepthImage, KeepsWhatIsNearest) {
+  const Colour red{1, 0, 0}, blue{0, 0, 1};
+  const auto triangle = [](double z) {
+    return std::array<Eigen::Vector3d, 3>{{{-9, -9, z}, {20, -9, z}, {-9, 20, z}}};
+  };
+  for (const bool near_first : {true, false}) {
+    DepthImage image(4, 4, {0, 0}, 1);
+    image.triangle(triangle(near_first ? 2 : 1), near_first ? red : blue);
+    image.triangle(triangle(near_first ? 1 : 2), near_first ? blue : red);
+    EXPECT_EQ(image.raster().pixels[5].red, 1);
+  }
+}
+
+TEST(QualityTable, NamesUnitsAndUnfoldsLists) {
+  const auto figures = quality_figures(nlohmann::json::parse(
+      R"({"force_N": 86.41234, "min_J": null, "nipple_lps_mm": [1.5, -2, 3],
+          "lesions": [{"id": "2a", "volume_ml": 0.4}], "history": [{"force_N": 1}]})"));
+  ASSERT_EQ(figures.size(), 4u);
+  EXPECT_EQ(figures[0].name + "|" + figures[0].value + "|" + figures[0].unit, "force|86.41|N");
+  EXPECT_EQ(figures[1].name + "|" + figures[1].value + "|" + figures[1].unit, "lesions 2a, volume|0.4|ml");
+  EXPECT_EQ(figures[2].value, "not known");
+  EXPECT_EQ(figures[3].value + figures[3].unit, "(1.5, -2, 3)mm");
+}
+
+TEST(Verdict, IsTheWorstOfTheStages) {
+  PatientResults results = fake_results(Side::left);
+  EXPECT_EQ(verdict_data(results)["status"], "ok");
+  results.stages[1].sidecar["status"] = "look";
+  EXPECT_EQ(verdict_data(results)["status"], "look");
+  results.stages[2].sidecar["status"] = "not_converged";
+  results.stages[0].sidecar["status"] = "refused";
+  EXPECT_EQ(verdict_data(results)["status"], "refused");
+  results = fake_results(Side::left);
+  results.stages.pop_back();
+  EXPECT_EQ(verdict_data(results)["status"], "incomplete");
+}
+
+TEST(Base64, PadsAsOthersRead) {
+  EXPECT_EQ(base64("", 0), "");
+  EXPECT_EQ(base64("f", 1), "Zg==");  // RFC 4648, section 10
+  EXPECT_EQ(base64("foobar", 6), "Zm9vYmFy");
+}
+
+// The made-up error is 0.01 z over |z| <= 60 mm.
+TEST(FitFigure, SaysTheRangeOfTheErrorThatItPaints) {
+  const auto figure = fit_figure(fake_results(Side::left));
+  ASSERT_TRUE(figure);
+  EXPECT_NE(figure->caption.find("from -0.60 mm (inside) to 0.60 mm (outside)"), std::string::npos);
+}
+
+TEST(FitFigure, GrowsRedderOutsideAndBluerInside) {
+  EXPECT_GT(fit_error_colour(0.5).red, fit_error_colour(0.5).blue);
+  EXPECT_LT(fit_error_colour(-0.5).red, fit_error_colour(-0.5).blue);
+  EXPECT_EQ(fit_error_colour(1).green, fit_error_colour(7).green);  // ends at 1 mm
+}
+
+TEST(FitCourseFigure, ShowsWhatTheFitLeftOfItsIterations) {
+  PatientResults results = fake_results(Side::left);
+  EXPECT_FALSE(fit_course_figure(results));
+  for (StageRecord& stage : results.stages)
+    if (stage.product == "prone.vtu")
+      stage.sidecar["quality"]["skin_rms_by_iteration_mm"] = {2.5, 0.61, 0.3, 0.24};
+  const auto figure = fit_course_figure(results);
+  ASSERT_TRUE(figure);
+  EXPECT_NE(figure->alt.find("from 2.50 to 0.24 mm RMS in 3 iterations"), std::string::npos) << figure->alt;
+}
+
+// A field that is linear in position is its own cubic interpolant.
+TEST(MeshField, ReadsWhatWasInterpolated) {
+  const HermiteMesh mesh = block_mesh({0, 0, 0}, {2, 3, 4}, {2, 1, 2});
+  const auto linear = [&](const MeshPoint& p) {
+    return mesh.position(p).dot(Eigen::Vector3d(1, -2, 0.5));
+  };
+  const MeshField field(mesh, interpolate_field(mesh, linear));
+  for (const Eigen::Vector3d& xi : {Eigen::Vector3d(0.1, 0.7, 0.4), Eigen::Vector3d(1, 0, 0.9)})
+    EXPECT_NEAR(field.at({3, xi}), linear({3, xi}), 1e-12);
+  EXPECT_THROW(MeshField(mesh, PointField{1, {1.0, 2.0}}), std::invalid_argument);
+}
+
+// Pixels of 0.5 mm from the edge: columns 0 to 9 are dark, the rest bright.
+TEST(MammogramRaster, PutsPixelsWhereTheDetectorHasThem) {
+  RealMammogram real{"cc", {20, 20, std::vector<float>(400, 100)}, Detector{}};
+  real.detector.pixels = PixelGrid{0.5, 20, 20, ImageEdge::left, true};
+  for (int row = 0; row < 20; ++row)
+    for (int column = 0; column < 10; ++column) real.image.grey[row * 20 + column] = 0;
+  const Section section{2, 0, {0}, {1, true},
+                        Eigen::AlignedBox3d(Eigen::Vector3d(-2, -4, 0), Eigen::Vector3d(14, 4, 0))};
+  Raster raster = mammogram_raster(real, section, 1);
+  EXPECT_EQ(raster(1, 4).red, palette::grid.red);  // behind the edge
+  EXPECT_EQ(raster(4, 4).red, 0);                  // u = 2.5 mm
+  EXPECT_EQ(raster(9, 4).red, 1);                  // u = 7.5 mm
+  EXPECT_EQ(raster(15, 4).red, palette::grid.red); // past the image
+}
+
+TEST(QualityLimit, SaysWhatIsExpectedAndWhetherItHolds) {
+  const nlohmann::json quality = {{"volume_change", -0.03}, {"thickness_mm", 50.05},
+                                  {"target_thickness_mm", 50.0}, {"force_N", 80}};
+  const auto volume = expectation("cc.vtu", "volume_change", quality);
+  ASSERT_TRUE(volume);
+  EXPECT_EQ(volume->words, "within ± 0.01");
+  EXPECT_FALSE(volume->held);
+  const auto thickness = expectation("mlo.vtu", "thickness_mm", quality);
+  ASSERT_TRUE(thickness);
+  EXPECT_EQ(thickness->words, "50.00 ± 0.10 mm");
+  EXPECT_TRUE(thickness->held);
+  EXPECT_FALSE(expectation("cc.vtu", "force_N", quality));
+  EXPECT_FALSE(expectation("prone.vtu", "volume_change", quality));
+}
+
+}  // namespace
+}  // namespace mammotwin

@@ -1,0 +1,148 @@
+#include "pipeline/report/report.h"
+
+#include "pipeline/report/overview_picture.h"
+#include "pipeline/report/page_data.h"
+#include "pipeline/report/page_template.h"
+#include "tests/pipeline/report/report_fake_results.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+namespace mammotwin {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path scratch(const std::string& name) {
+  const fs::path path = fs::path(testing::TempDir()) / name;
+  fs::remove_all(path);
+  return path;
+}
+
+void write_text(const fs::path& path, const std::string& text) { std::ofstream(path) << text; }
+
+std::string text_of(const fs::path& path) {
+  std::ostringstream text;
+  text << std::ifstream(path).rdbuf();
+  return text.str();
+}
+
+std::size_t count(const std::string& text, const std::string& part) {
+  std::size_t n = 0;
+  for (std::size_t i = text.find(part); i != std::string::npos; i = text.find(part, i + 1)) ++n;
+  return n;
+}
+
+const std::string& whole_page() {
+  static const std::string page = render_page(page_data(fake_results(Side::left), "0.1.0"));
+  return page;
+}
+
+TEST(ReportPage, ShowsEveryFigureOfAFinishedChain) {
+  // Two lesions: an MRI figure each, two cuts each; two detectors; prone, unloaded and two views; fit; force;
+  // convergence; frames. (What planes.js makes is not in the text as "<figure".)
+  EXPECT_EQ(count(whole_page(), "<figure"), 2u + 4u + 2u + 4u + 1u + 1u + 1u + 1u);
+  EXPECT_NE(whole_page().find("OK: every stage passed"), std::string::npos);
+  EXPECT_NE(whole_page().find("not a medical device"), std::string::npos);
+}
+
+TEST(ReportPage, TellsInTheOrderInWhichItIsRead) {
+  std::size_t last = 0;
+  for (const char* id : {"verdict", "lesions", "mri", "breast", "fit", "course", "quality", "provenance", "files"}) {
+    const std::size_t at = whole_page().find("<section id=\"" + std::string(id) + "\"");
+    ASSERT_NE(at, std::string::npos) << id;
+    EXPECT_GT(at, last) << id;
+    last = at;
+  }
+  EXPECT_EQ(count(whole_page(), "<a href=\"cc.vtu\">"), 1u);  // files that a person opens, and no others
+  EXPECT_EQ(whole_page().find("href=\"cc.vtu.json\""), std::string::npos);
+}
+
+// 11 to 16 iterations in six steps, 81 in all, and 20 at the end of each view.
+TEST(ReportPage, DrawsConvergence) {
+  EXPECT_NE(whole_page().find("CC: 101 in all. MLO: 101 in all."), std::string::npos);
+}
+
+TEST(ReportPage, SaysHowTheBreastHung) {
+  EXPECT_NE(whole_page().find("Imaged prone, the breast sags by up to 7.2 mm"), std::string::npos);
+  PatientResults off = fake_results(Side::left);
+  off.views.clear();
+  for (StageRecord& stage : off.stages)
+    if (stage.product == "unloaded.vtu") stage.sidecar["quality"]["gravity"] = "none";
+  EXPECT_NE(render_page(page_data(off, "0.1.0")).find("Gravity was not taken off"),
+            std::string::npos);
+}
+
+TEST(ReportPage, GivesEveryPictureWordsAndReachesForNothingOutside) {
+  const std::string& page = whole_page();
+  EXPECT_EQ(count(page, "<img "), count(page, "alt=\""));
+  EXPECT_EQ(page.find("alt=\"\""), std::string::npos);
+  for (const char* outside : {"src=\"http", "href=\"http", "@import", "src=\"//"})
+    EXPECT_EQ(page.find(outside), std::string::npos) << outside;
+  EXPECT_NE(page.find("default-src 'none'"), std::string::npos);  // three.js can fetch; it may not
+  EXPECT_LT(page.size(), 20u << 20);  // the page's limit
+}
+
+TEST(ReportPage, SaysTheSameTwice) {
+  EXPECT_EQ(render_page(page_data(fake_results(Side::left), "0.1.0")), whole_page());
+}
+
+TEST(ReportPage, EscapesWhatComesFromOutside) {
+  PatientResults results = fake_results(Side::right);
+  results.views.clear();
+  results.rows[0].lesion = "<script>alert(1)</script>";
+  results.segmentation->lesions[0].id = "</script><b>";
+  const std::string page = render_page(page_data(results, "0.1.0"));
+  EXPECT_EQ(page.find("<script>alert(1)"), std::string::npos);
+  EXPECT_EQ(page.find("</script><b>"), std::string::npos);
+}
+
+TEST(ReportPage, IsWrittenWhenTheFirstStageRefused) {
+  const fs::path folder = scratch("refused");
+  fs::create_directories(folder);
+  write_text(folder / "segmentation.seg.nrrd.json",
+             R"({"status": "refused", "stage": "segment", "version": "0.1.0",
+                 "reasons": ["the 100.8 mm hole between slices 40 and 41"]})");
+  write_report(read_patient_results(folder), folder / "report.html", "0.1.0");
+  const std::string page = text_of(folder / "report.html");
+  EXPECT_NE(page.find("Refused"), std::string::npos);
+  EXPECT_NE(page.find("the 100.8 mm hole between slices 40 and 41"), std::string::npos);
+  EXPECT_EQ(page.find("id=\"viewer\""), std::string::npos);
+  EXPECT_NE(page.find("<h1>Patient refused</h1>"), std::string::npos);  // of a side nothing is known
+}
+
+TEST(ReportPage, NotesAProductThatCannotBeRead) {
+  const fs::path folder = scratch("broken");
+  fs::create_directories(folder);
+  write_text(folder / "prone.vtu", "not a mesh");
+  const PatientResults results = read_patient_results(folder);
+  ASSERT_EQ(results.notes.size(), 1u);
+  EXPECT_NE(results.notes[0].find("prone.vtu could not be read"), std::string::npos);
+  EXPECT_THROW(read_patient_results(scratch("absent")), std::runtime_error);
+}
+
+TEST(ReportPage, StopsAtTheViewThatDidNotConverge) {
+  PatientResults results = fake_results(Side::left);
+  results.views.pop_back();
+  results.rows.clear();
+  results.stages.pop_back();
+  results.stages.back().sidecar["status"] = "not_converged";
+  results.stages.back().sidecar["reasons"] = {"stopped at 71.3 mm"};
+  const std::string page = render_page(page_data(results, "0.1.0"));
+  EXPECT_NE(page.find("Not converged"), std::string::npos);
+  EXPECT_NE(page.find("stopped at 71.3 mm"), std::string::npos);
+  EXPECT_NE(page.find("L-CC on the detector"), std::string::npos);
+}
+
+TEST(ReportPicture, IsAPngWithoutAnXServer) {
+  const fs::path png = scratch("overview.png");
+  overview_picture(fake_results(Side::left)).write_png(png, 1);
+  EXPECT_EQ(text_of(png).substr(1, 3), "PNG");
+  EXPECT_GT(fs::file_size(png), 50000u);  // a blank sheet of its size takes a few thousand bytes
+}
+
+}  // namespace
+}  // namespace mammotwin

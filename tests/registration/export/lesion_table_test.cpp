@@ -1,0 +1,110 @@
+#include "registration/export/lesion_table.h"
+
+#include "tests/registration/squeezed_box.h"
+#include "registration/view/breast_position.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+namespace mammotwin {
+namespace {
+
+std::filesystem::path scratch(const std::string& name) {
+  return std::filesystem::path(testing::TempDir()) / name;
+}
+
+std::string text_of(const std::filesystem::path& path) {
+  std::ostringstream text;
+  text << std::ifstream(path).rdbuf();
+  return text.str();
+}
+
+TEST(BreastPosition, ReadsTheClockFacingThePatient) {
+  const Eigen::Vector3d nipple(0, 0, 0);
+  const auto at = [&](Side side, double left, double up) {
+    const BreastPosition p = breast_position(side, {left, 0, up}, nipple);
+    return p.quadrant + " " + p.clock;
+  };
+  EXPECT_EQ(at(Side::left, 20, 20), "upper outer 2");    // atan2(20, 20) = 45 deg: 1.5 -> 2
+  EXPECT_EQ(at(Side::left, 30, 1), "upper outer 3");
+  EXPECT_EQ(at(Side::right, 30, 1), "upper inner 3");
+  EXPECT_EQ(at(Side::right, -30, -1), "lower outer 9");
+  EXPECT_EQ(at(Side::left, -1, 30), "upper inner 12");
+  EXPECT_EQ(at(Side::left, 1, -30), "lower outer 6");
+  EXPECT_EQ(at(Side::left, -4, 30), "upper inner 12");   // 352 deg rounds up to a full turn
+  EXPECT_EQ(at(Side::left, 3, 4), "central ");
+}
+
+TEST(LesionTable, HasTheColumnsThatOthersRead) {
+  const auto path = scratch("columns.csv");
+  write_lesion_table(path, {});
+  EXPECT_EQ(text_of(path),
+            "patient,lesion,view,mri_l_mm,mri_p_mm,mri_s_mm,depth_mm,lateral_mm,height_mm,"
+            "detector_u_mm,detector_v_mm,pixel_column,pixel_row,ellipse_major_mm,ellipse_minor_mm,"
+            "ellipse_angle_deg,picture_ellipse_major_mm,picture_ellipse_minor_mm,"
+            "picture_ellipse_angle_deg,baseline_u_mm,baseline_v_mm,behind_nipple_mm,"
+            "lateral_of_nipple_mm,above_nipple_mm,nipple_distance_mm,quadrant,clock\n");
+}
+
+TEST(LesionTable, ComesBackAsItWasWritten) {
+  LesionRow row;
+  row.patient = "042";
+  row.lesion = "mass, \"A\"";
+  row.view = "cc";
+  row.mri_l_mm = -12.3456;
+  row.height_mm = -1e-9;  // must not become -0.000
+  const auto path = scratch("round.csv");
+  write_lesion_table(path, {row});
+  EXPECT_NE(text_of(path).find("042,\"mass, \"\"A\"\"\",cc,-12.346,,,,,0.000,"), std::string::npos);
+  const LesionRow read = read_lesion_table(path).at(0);
+  EXPECT_EQ(read.lesion, row.lesion);
+  EXPECT_EQ(read.mri_l_mm, -12.346);
+  EXPECT_FALSE(read.mri_p_mm.has_value());
+}
+
+TEST(LesionTable, NamesTheCellThatCannotBeRead) {
+  const auto path = scratch("bad.csv");
+  write_lesion_table(path, {});
+  std::ofstream(path, std::ios::app) << "042,1,cc,twelve" << std::string(23, ',') << "\n";
+  try {
+    read_lesion_table(path);
+    FAIL();
+  } catch (const std::runtime_error& error) {
+    EXPECT_NE(std::string(error.what()).find("line 2: column mri_l_mm is \"twelve\""),
+              std::string::npos)
+        << error.what();
+  }
+}
+
+TEST(LesionRows, MeasureFromTheNippleInTheImagePlane) {
+  for (const Side side : {Side::left, Side::right}) {
+    const double out = side == Side::left ? 1 : -1;
+    const Landmark lesion{"1", {out * 80, -30, 10}}, nipple{"nipple", {out * 70, -60, 0}};
+    const SqueezedBox cc = squeezed_box(side, 0, 0.5);
+    const ViewProjection p(cc.prone, cc.compressed, cc.view, Detector{});
+    const LesionRow row = view_row("042", cc.view, p.project(lesion), p.project(nipple));
+    EXPECT_GT(*row.behind_nipple_mm, 0);
+    EXPECT_GT(*row.lateral_of_nipple_mm, 0);  // 10 mm outer in the MRI
+    EXPECT_FALSE(row.above_nipple_mm.has_value());
+    EXPECT_NEAR(*row.nipple_distance_mm,
+                std::hypot(*row.behind_nipple_mm, *row.lateral_of_nipple_mm), 1e-9);
+
+    const SqueezedBox mlo = squeezed_box(side, 45, 0.5);
+    const ViewProjection q(mlo.prone, mlo.compressed, mlo.view, Detector{});
+    const LesionRow oblique = view_row("042", mlo.view, q.project(lesion), q.project(nipple));
+    EXPECT_FALSE(oblique.lateral_of_nipple_mm.has_value());
+    EXPECT_GT(*oblique.above_nipple_mm, 0);
+
+    const LesionRow mri = mri_row("042", side, lesion, nipple.prone_in_lps);
+    EXPECT_NEAR(*mri.behind_nipple_mm, 30, 1e-12);
+    EXPECT_NEAR(*mri.lateral_of_nipple_mm, 10, 1e-12);
+    EXPECT_NEAR(*mri.above_nipple_mm, 10, 1e-12);
+    EXPECT_EQ(mri.quadrant, "upper outer");
+  }
+}
+
+}  // namespace
+}  // namespace mammotwin

@@ -1,0 +1,127 @@
+#include "registration/export/markups.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <map>
+
+namespace mammotwin {
+namespace {
+
+std::filesystem::path scratch(const std::string& name) {
+  return std::filesystem::path(testing::TempDir()) / name;
+}
+
+std::filesystem::path write_text(const std::string& name, const std::string& text) {
+  const auto path = scratch(name);
+  std::ofstream(path) << text;
+  return path;
+}
+
+TEST(Markups, ComeBackAsTheyWereWritten) {
+  const auto path = scratch("points.mrk.json");
+  write_markups(path, {{"lesion 1", {12.25, -3.5, 1.0 / 3}}, {"nipple", {0, -60, 0}}});
+  const auto points = read_markups(path);
+  ASSERT_EQ(points.size(), 2u);
+  EXPECT_EQ(points[0].label, "lesion 1");
+  EXPECT_EQ(points[0].x_in_lps, Eigen::Vector3d(12.25, -3.5, 1.0 / 3));
+}
+
+TEST(Markups, SayTheirFrameUnitAndSchema) {
+  const auto path = scratch("frame.mrk.json");
+  write_markups(path, {{"1", {1, 2, 3}}});
+  const auto file = nlohmann::json::parse(std::ifstream(path));
+  EXPECT_NE(file.at("@schema").get<std::string>().find("markups-schema-v1.0.3.json#"),
+            std::string::npos);
+  EXPECT_EQ(file["markups"][0]["type"], "Fiducial");
+  EXPECT_EQ(file["markups"][0]["coordinateSystem"], "LPS");
+  EXPECT_EQ(file["markups"][0]["coordinateUnits"], "mm");
+}
+
+TEST(Markups, ACurveIsClosedAndNamed) {
+  const auto path = scratch("curve.mrk.json");
+  write_closed_curve(path, "L1 in cc", {{1, 2, 3}, {4, 5, 6}, {7, 8, 10}});
+  const auto markup = nlohmann::json::parse(std::ifstream(path)).at("markups").at(0);
+  EXPECT_EQ(markup["type"], "ClosedCurve");
+  EXPECT_EQ(markup["name"], "L1 in cc");
+  EXPECT_EQ(markup["coordinateSystem"], "LPS");
+  EXPECT_EQ(read_markups(path).at(2).x_in_lps, Eigen::Vector3d(7, 8, 10));
+}
+
+/// Types of 3D Slicer's schema of markups (version 1.0.3), of what may stand in each object.
+using Types = std::map<std::string, std::string>;
+const Types kMarkup = {{"type", "Fiducial|Line|Angle|Curve|ClosedCurve|Plane|ROI"},
+                       {"name", "string"},         {"coordinateSystem", "LPS|RAS"},
+                       {"coordinateUnits", "mm|um"}, {"locked", "boolean"},
+                       {"labelFormat", "string"},  {"controlPoints", "objects"}};
+const Types kControlPoint = {{"id", "string"},          {"label", "string"},
+                             {"description", "string"}, {"associatedNodeID", "string"},
+                             {"position", "3"},         {"orientation", "9"},
+                             {"selected", "boolean"},   {"locked", "boolean"},
+                             {"visibility", "boolean"},
+                             {"positionStatus", "undefined|preview|defined"}};
+
+bool is(const nlohmann::json& value, const std::string& type) {
+  if (type == "string") return value.is_string();
+  if (type == "boolean") return value.is_boolean();
+  if (type == "objects") return value.is_array();
+  if (type == "3" || type == "9")
+    return value.is_array() && value.size() == std::stoul(type) &&
+           std::all_of(value.begin(), value.end(), [](const auto& v) { return v.is_number(); });
+  if (!value.is_string()) return false;
+  return ("|" + type + "|").find("|" + value.get<std::string>() + "|") != std::string::npos;
+}
+
+void expect_types(const nlohmann::json& object, const Types& types) {
+  for (const auto& [key, value] : object.items()) {
+    ASSERT_TRUE(types.count(key)) << key;
+    EXPECT_TRUE(is(value, types.at(key))) << key << " is " << value;
+  }
+}
+
+TEST(Markups, HaveTheTypesOfSlicersSchema) {
+  const auto points = scratch("points.mrk.json"), curve = scratch("curve.mrk.json");
+  write_markups(points, {{"1", {1, 2, 3}}, {"nipple", {0, -60, 0}}});
+  write_closed_curve(curve, "L1 in cc", {{1, 2, 3}, {4, 5, 6}, {7, 8, 10}});
+  for (const auto& path : {points, curve}) {
+    const auto file = nlohmann::json::parse(std::ifstream(path));
+    EXPECT_TRUE(file.at("@schema").is_string());
+    for (const auto& markup : file.at("markups")) {
+      EXPECT_TRUE(markup.contains("type"));
+      expect_types(markup, kMarkup);
+      for (const auto& point : markup.at("controlPoints")) expect_types(point, kControlPoint);
+    }
+  }
+}
+
+TEST(Markups, AreTurnedFromRasToLps) {
+  const auto path = write_text("ras.mrk.json", R"({"markups": [{"type": "Fiducial",
+      "coordinateSystem": "RAS",
+      "controlPoints": [{"label": "F-1", "position": [10.0, 20.0, 30.0]},
+                        {"label": "F-2", "position": [0, 0, 0], "positionStatus": "undefined"}]}]})");
+  const auto points = read_markups(path);
+  ASSERT_EQ(points.size(), 1u);
+  EXPECT_EQ(points[0].x_in_lps, Eigen::Vector3d(-10, -20, 30));
+}
+
+TEST(Markups, NameWhatIsWrongWithAFile) {
+  const auto message = [](const std::filesystem::path& path) {
+    try {
+      read_markups(path);
+    } catch (const std::runtime_error& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_NE(message(scratch("absent.mrk.json")).find("cannot be opened"), std::string::npos);
+  EXPECT_NE(message(write_text("ijk.mrk.json", R"({"markups": [{"coordinateSystem": "IJK",
+      "controlPoints": []}]})")).find("\"IJK\"; expected LPS or RAS"), std::string::npos);
+  EXPECT_NE(message(write_text("none.mrk.json", R"({"markups": [{"type": "Fiducial"}]})"))
+                .find("controlPoints"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace mammotwin

@@ -1,0 +1,30 @@
+#include "registration/mammogram/mammogram_findings.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+namespace mammotwin {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Centres of the markers, measured once in the images by eye and by their saturated discs' extent.
+TEST(MammogramFindings, RealViewsHaveTheirNippleAndMuscle) {
+  const fs::path folder = fs::path(MAMMOTWIN_CASES) / "mammograms";
+  if (!fs::exists(folder)) GTEST_SKIP() << folder << " is absent";
+  const std::pair<const char*, Eigen::Vector2d> views[] = {
+      {"R-CC", {1120, 1521}}, {"L-CC", {1302, 1550}}, {"R-MLO", {1131, 2201}}, {"L-MLO", {1344, 2148}}};
+  for (const auto& [name, marker] : views) {
+    const bool oblique = std::string(name).find("MLO") != std::string::npos;
+    const MammogramFindings found = find_breast(
+        read_mammogram_png(folder / (std::string(name) + ".png")), oblique);
+    EXPECT_EQ(found.chest_wall, ImageEdge::left) << name;
+    EXPECT_LT((found.nipple - marker).norm(), 3) << name;
+    EXPECT_EQ(found.pectoral.has_value(), oblique) << name;
+    EXPECT_GT(found.outline.size(), 2000u) << name;
+  }
+}
+
+}  // namespace
+}  // namespace mammotwin

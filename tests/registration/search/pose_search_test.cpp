@@ -1,0 +1,157 @@
+#include "registration/carry/point_carrier.h"
+#include "registration/search/pose_search.h"
+#include "registration/search/search_ellipse.h"
+#include "tests/registration/squeezed_box.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+
+#include <cmath>
+#include <random>
+
+namespace mammotwin {
+namespace {
+
+/// All outer faces of the box are skin but the one on the chest wall.
+std::vector<FaceLabels> skin_of(const HermiteMesh& box) {
+  FaceLabels skin;
+  skin.fill(FaceLabel::skin);
+  skin[3] = FaceLabel::chest_wall;  // y = 0
+  return std::vector<FaceLabels>(box.num_elements(), skin);
+}
+
+/// The squeezed box as a view that gets wider by 5 % a standard deviation of `kThickness`.
+struct BoxView {
+  SqueezedBox box = squeezed_box(Side::left, 0, 0.5);
+  ReducedView view;
+  Detector detector;
+  BoxView() {
+    view.elements = box.compressed.elements();
+    view.base = in_view(box.compressed.nodes(), box.view.frame);
+    ReducedView::Mode& mode = view.modes[kThickness];
+    mode.linear = view.base;
+    for (HermiteMesh::Node& node : mode.linear)
+      node = (Eigen::Vector3d(0.05, 0.05, 0).asDiagonal() * node).eval();
+    mode.quadratic.assign(view.base.size(), HermiteMesh::Node::Zero());
+  }
+  Eigen::Vector3d nipple() const { return {70, -60, 0}; }  // middle of the front
+
+  /// What a mammogram of state z would show.
+  ViewEvidence evidence(const ViewState& z) const {
+    const Eigen::Vector2d centre(0, 0);
+    const RayDistances seen = Silhouette(view, skin_of(box.prone)).at(view, z, detector, centre);
+    ViewEvidence e;
+    for (int ray = 0; ray < kRays; ++ray)
+      if (seen[ray]) e.outline.push_back(*seen[ray] * ray_direction(ray));
+    const PointCarrier carrier(box.prone, HermiteMesh(view.base, view.elements));
+    const ViewSamples sample(view, {carrier.carry(nipple()).point});
+    e.nipple = detector.project(sample.at(view, z).col(0));
+    return e;
+  }
+  ViewMatch match(const ViewState& z) const {
+    return ViewMatch(view, skin_of(box.prone), box.prone, nullptr, nipple(), detector, evidence(z));
+  }
+};
+
+TEST(PoseSearch, FindsTurnAndShiftThatMadeTheOutline) {
+  const BoxView box;
+  ViewState truth = ViewState::Zero();
+  truth[kTurn] = 0.8;
+  truth[kShiftDepth] = -0.7;
+  truth[kShiftLateral] = 0.6;
+  const ViewMatch match = box.match(truth);
+  const PoseEstimate found = search_pose({&match}, {ViewState::Zero()}, true);
+  EXPECT_GT(match.figures(ViewState::Zero()).outline_rms_mm, 2);
+  // The prior pulls towards 0 by what the evidence does not know.
+  for (const int i : {kTurn, kShiftDepth, kShiftLateral})
+    EXPECT_NEAR(found.states[0][i], truth[i], 2 * std::sqrt(found.covariances[0](i, i))) << i;
+  EXPECT_LT(match.figures(found.states[0]).outline_rms_mm, 0.7);
+  EXPECT_EQ(found.states[0][kThickness], 0);
+}
+
+// 24 mm, six of its standard deviations, as an edge behind the chest wall asks for. The prior's pull
+// beyond two is 2, so that it moves the optimum by 2 c, c the variance left (0.03): 0.07. A Gaussian's
+// pull of 6 would move it by 0.2.
+TEST(PoseSearch, FollowsAnEdgeThatStandsCentimetresOff) {
+  const BoxView box;
+  ViewState truth = ViewState::Zero();
+  truth[kShiftDepth] = -6;
+  const ViewMatch match = box.match(truth);
+  const PoseEstimate found = search_pose({&match}, {ViewState::Zero()}, true);
+  const double left = found.covariances[0](kShiftDepth, kShiftDepth);
+  EXPECT_NEAR(found.states[0][kShiftDepth], -6 + 2 * left, 0.01);
+  EXPECT_LT(left, 0.05);
+}
+
+TEST(PoseSearch, FindsAMechanicalNumberAndKnowsWhatItDoesNot) {
+  const BoxView box;
+  ViewState truth = ViewState::Zero();
+  truth[kThickness] = 1.2;
+  const ViewMatch match = box.match(truth);
+  const PoseEstimate found = search_pose({&match}, {ViewState::Zero()});
+  EXPECT_NEAR(found.states[0][kThickness], 1.2, 0.5);
+  EXPECT_LT(found.covariances[0](kThickness, kThickness), 0.5);
+  EXPECT_NEAR(found.covariances[0](kTilt, kTilt), 1, 1e-6);  // has no effect here: the prior stays
+  EXPECT_LT(match.figures(found.states[0]).outline_rms_mm,
+            0.5 * match.figures(ViewState::Zero()).outline_rms_mm);
+}
+
+// Variances 4 and 1 along axes turned by 30 degrees; chi-square with 2 degrees of freedom reaches
+// -2 ln(1 - p) with probability p.
+TEST(SearchEllipse, HoldsTheProbabilityThatItStates) {
+  const Eigen::Matrix2d turn = Eigen::Rotation2Dd(M_PI / 6).toRotationMatrix();
+  const Eigen::Matrix2d covariance = turn * Eigen::Vector2d(4, 1).asDiagonal() * turn.transpose();
+  const SearchEllipse ninety = search_ellipse(covariance, 0.9), half = search_ellipse(covariance, 0.5);
+  EXPECT_NEAR(ninety.major_mm, 2 * std::sqrt(2 * std::log(10)), 1e-12);
+  EXPECT_NEAR(ninety.minor_mm, std::sqrt(2 * std::log(10)), 1e-12);
+  EXPECT_NEAR(ninety.angle_deg, 30, 1e-9);
+  std::mt19937 random(7);
+  std::normal_distribution<double> normal;
+  int in_ninety = 0, in_half = 0;
+  constexpr int draws = 4000;
+  for (int n = 0; n < draws; ++n) {
+    const Eigen::Vector2d off = turn * Eigen::Vector2d(2 * normal(random), normal(random));
+    in_ninety += contains(ninety, off);
+    in_half += contains(half, off);
+  }
+  EXPECT_NEAR(in_ninety / double(draws), 0.9, 0.02);  // four standard deviations of 4000 draws
+  EXPECT_NEAR(in_half / double(draws), 0.5, 0.032);
+}
+
+TEST(SearchEllipse, ItsRimPartsInsideFromOutside) {
+  const SearchEllipse ellipse{8, 3, 25};
+  for (const Eigen::Vector2d& off : rim(ellipse, 36)) {
+    EXPECT_TRUE(contains(ellipse, 0.999 * off));
+    EXPECT_FALSE(contains(ellipse, 1.001 * off));
+  }
+}
+
+TEST(SearchEllipse, GrowsWithWhatIsNotKnown) {
+  const BoxView box;
+  CompressedView view = box.box.view;
+  ViewUncertainty uncertainty;
+  uncertainty.covariance.setZero();
+  const MeshPoint point{0, {0.5, 0.5, 0.5}};
+  const auto at = [&] {
+    return detector_covariance(uncertainty, box.box.compressed, view, box.detector, point);
+  };
+  EXPECT_NEAR(at().trace(), 2 * kModelSd_mm * kModelSd_mm, 1e-12);
+  uncertainty.covariance(kShiftLateral, kShiftLateral) = 1;
+  // A shift of sd at height h moves the shadow by sd D / (D - h).
+  const double height = view.frame.view_from_lps(box.box.compressed.position(point)).z();
+  const double shadow = uncertainty.sd[kShiftLateral] * 660 / (660 - height);
+  EXPECT_NEAR(at()(1, 1), kModelSd_mm * kModelSd_mm + shadow * shadow, 1e-9);
+  EXPECT_NEAR(at()(0, 0), kModelSd_mm * kModelSd_mm, 1e-9);
+  uncertainty = without_placement(uncertainty);
+  EXPECT_NEAR(at().trace(), 2 * kModelSd_mm * kModelSd_mm, 1e-12);
+  uncertainty.covariance(kThickness, kThickness) = 1;
+  uncertainty.varied[kThickness] = combined(1.1, box.box.compressed.nodes(), 0, box.box.compressed.nodes());
+  const double thickness = at().trace();
+  EXPECT_GT(thickness, 2 * kModelSd_mm * kModelSd_mm + 0.1);
+  uncertainty = without_placement(uncertainty);
+  EXPECT_EQ(at().trace(), thickness);
+}
+
+}  // namespace
+}  // namespace mammotwin

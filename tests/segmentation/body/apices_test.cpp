@@ -1,0 +1,42 @@
+#include "segmentation/body/apices.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace mammotwin {
+namespace {
+
+/// Two bumps of 40 and 30 mm at -70 and 80 mm on a flat chest, 2 mm columns from -150 mm.
+std::vector<double> two_breasts(double second = 30) {
+  std::vector<double> front;
+  for (int i = 0; i <= 150; ++i) {
+    const double x = -150 + 2 * i;
+    const auto bump = [&](double c, double h) {
+      return h * std::max(0.0, 1 - std::pow((x - c) / 50, 2));
+    };
+    front.push_back(bump(-70, 40) + bump(80, second));
+  }
+  return front;
+}
+
+TEST(Apices, AreTheBumpsAndTheMiddleOfThePlateauBetween) {
+  const auto apices = find_apices(two_breasts(), 2);
+  ASSERT_TRUE(apices);
+  EXPECT_EQ(apices->right, 40);
+  EXPECT_EQ(apices->left, 115);
+  // The floor is flat from -20 to 30 mm, and 2 mm up the bumps: its middle is near 5 mm.
+  EXPECT_NEAR(-150 + 2 * apices->valley, 5, 2);
+}
+
+TEST(Apices, OneBreastHasNoValley) { EXPECT_FALSE(find_apices(two_breasts(0), 2)); }
+
+TEST(Apices, ALowSecondBumpIsNoBreast) { EXPECT_FALSE(find_apices(two_breasts(8), 2)); }
+
+TEST(Apices, NothingAtAllIsNoBreast) {
+  EXPECT_FALSE(find_apices({}, 2));
+  EXPECT_FALSE(find_apices(std::vector<double>(50, -INFINITY), 2));
+}
+
+}  // namespace
+}  // namespace mammotwin

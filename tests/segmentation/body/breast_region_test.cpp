@@ -1,0 +1,113 @@
+#include "segmentation/body/breast_region.h"
+
+#include <cmath>
+
+#include "tests/segmentation/message.h"
+
+namespace mammotwin {
+namespace {
+
+constexpr double chest_front = 60;  // y of the flat muscle front [mm]
+constexpr double coat = 10;         // tissue over the chest everywhere [mm]
+
+/// Two paraboloid breasts of 60 and 50 mm height and 60 mm radius at x = -75 and 85, z = 0, over a
+/// chest with 10 mm of fat; 2 mm voxels.
+Volume<std::uint8_t> two_breasts() {
+  Volume<std::uint8_t> labels({160, 70, 100}, Eigen::Vector3d::Constant(2), {-159, -51, -99},
+                              label::air);
+  for (int k = 0; k < labels.size.z(); ++k)
+    for (int j = 0; j < labels.size.y(); ++j)
+      for (int i = 0; i < labels.size.x(); ++i) {
+        const Eigen::Vector3d x = labels.position(i, j, k);
+        const auto bump = [&](double c, double h) {
+          return h * std::max(0.0, 1 - (std::pow(x.x() - c, 2) + x.z() * x.z()) / 3600);
+        };
+        const double skin = chest_front - coat - bump(-75, 60) - bump(85, 50);
+        if (x.y() > chest_front)
+          labels(i, j, k) = label::muscle;
+        else if (x.y() > skin)
+          labels(i, j, k) = label::fat;
+      }
+  return labels;
+}
+
+/// Tissue is thicker than 0.35 (10 + h) within r = 60 sqrt(1 - (0.35 (10 + h) - 10) / h).
+double thick_radius(double h) { return 60 * std::sqrt(1 - (0.35 * (10 + h) - 10) / h); }
+
+TEST(BreastRegion, ReachesFifteenMmBeyondTheThickPart) {
+  const BreastRegion left = find_breast_region(two_breasts(), Side::left);
+  const double r = thick_radius(50);
+  // Voxels of 2 mm, and their outer faces.
+  EXPECT_NEAR(left.x_max, 85 + r + 15, 3);
+  EXPECT_NEAR(left.z_min, -r - 15, 3);
+  EXPECT_NEAR(left.z_max, r + 15, 3);
+  EXPECT_NEAR(left.x_min, 5, 3) << "the valley between -15 and 25";
+  const BreastRegion right = find_breast_region(two_breasts(), Side::right);
+  EXPECT_NEAR(right.x_max, 5, 3);
+  EXPECT_NEAR(right.x_min, -75 - thick_radius(60) - 15, 3);
+}
+
+TEST(BreastRegion, OfOneHalfIsTheSameAsOfBoth) {
+  auto half = two_breasts();
+  const BreastRegion both = find_breast_region(half, Side::left);
+  for (int k = 0; k < half.size.z(); ++k)
+    for (int j = 0; j < half.size.y(); ++j)
+      for (int i = 0; i < half.size.x(); ++i)
+        if (half.position(i, j, k).x() < both.x_min) half(i, j, k) = label::air;
+  const BreastRegion one = find_breast_region(half, Side::left);
+  EXPECT_DOUBLE_EQ(one.x_min, both.x_min);
+  EXPECT_DOUBLE_EQ(one.x_max, both.x_max);
+  EXPECT_DOUBLE_EQ(one.z_min, both.z_min);
+  EXPECT_DOUBLE_EQ(one.z_max, both.z_max);
+}
+
+TEST(BreastRegion, IsPulledInWhereTissueIsThin) {
+  auto labels = two_breasts();
+  for (int k = 0; k < labels.size.z(); ++k)
+    for (int j = 0; j < labels.size.y(); ++j)
+      for (int i = 0; i < labels.size.x(); ++i) {
+        const Eigen::Vector3d x = labels.position(i, j, k);
+        // 6 mm of tissue beyond x = 135: enough elsewhere, too little for the lateral edge.
+        if (x.x() > 135 && x.y() < chest_front - 6) labels(i, j, k) = label::air;
+      }
+  const BreastRegion region = find_breast_region(labels, Side::left);
+  EXPECT_NEAR(region.x_max, 135, 2);
+}
+
+TEST(BreastRegion, AWingedGapInACornerCostsTheUpperEdgeAndNotTheBreast) {
+  auto labels = two_breasts();
+  const double top = thick_radius(50) + 15;
+  for (int k = 0; k < labels.size.z(); ++k)
+    for (int j = 0; j < labels.size.y(); ++j)
+      for (int i = 0; i < labels.size.x(); ++i) {
+        const Eigen::Vector3d x = labels.position(i, j, k);
+        // 15 mm of the upper edge are poor and 20 mm of the medial one, which would therefore be
+        // pulled in first, and then 55 mm, past the wing.
+        const bool corner = x.z() > top - 20 && x.x() < 5 + 15;
+        const bool wing = x.z() > top - 20 && x.z() < top - 15 && x.x() < 5 + 55;
+        if ((corner || wing) && x.x() > 0) labels(i, j, k) = label::air;
+      }
+  const BreastRegion region = find_breast_region(labels, Side::left);
+  EXPECT_NEAR(region.x_min, 5, 3);
+  EXPECT_NEAR(region.z_max, top - 20, 3);
+}
+
+TEST(BreastRegion, HoldsEveryLesionOfItsSide) {
+  auto labels = two_breasts();
+  const Eigen::Vector3i far = labels.index({85, 55, 88}).array().round().cast<int>();
+  labels(far.x(), far.y(), far.z()) = label::lesion;
+  const BreastRegion left = find_breast_region(labels, Side::left);
+  EXPECT_TRUE(left.contains(labels.position(far.x(), far.y(), far.z())));
+  EXPECT_NEAR(find_breast_region(labels, Side::right).z_max, thick_radius(60) + 15, 3);
+}
+
+TEST(BreastRegion, RefusesASideWithoutABreast) {
+  Volume<std::uint8_t> flat({100, 40, 60}, Eigen::Vector3d::Constant(2), {-99, 0, 0}, label::air);
+  for (int k = 0; k < flat.size.z(); ++k)
+    for (int i = 0; i < flat.size.x(); ++i) flat(i, 30, k) = label::fat;
+  expect_mentions(message_of([&] { find_breast_region(flat, Side::right); }),
+                  {"right side", "2 mm", "15 mm"});
+}
+
+}  // namespace
+}  // namespace mammotwin

@@ -1,0 +1,112 @@
+#include "tests/solver/potential_laws.h"
+#include "tests/solver/test_meshes.h"
+
+#include "solver/contact/plate_friction.h"
+#include "solver/material/neo_hookean.h"
+
+#include <Eigen/Eigenvalues>
+#include <gtest/gtest.h>
+
+namespace mammotwin {
+namespace {
+
+constexpr double kCoefficient = 0.3, kSlip = 0.1;
+
+/// A block of 10 mm whose underside is 0.05 mm inside an endless plate.
+struct PressedBlock {
+  HermiteMesh mesh = box_mesh({10, 10, 10}, {1, 1, 1});
+  Model model{mesh, uniform(std::make_shared<NeoHookean>(3)), {PressureSpace::trilinear, 1e4, 0}};
+  std::shared_ptr<PlateContact> contact = std::make_shared<PlateContact>();
+  std::shared_ptr<PlateFriction> friction =
+      std::make_shared<PlateFriction>(contact, kCoefficient, kSlip);
+  std::vector<std::pair<int, int>> faces{{0, 4}};
+  State state = model.rest();
+
+  PressedBlock() {
+    contact->penalty = 20;  // pressure 1 kPa
+    contact->plates = {Plate{{0, 0, 0.05}, {0, 0, 1}, {0, 1, 0}, 0, true}};
+    model.add_surface_potential(0, 4, contact);
+    model.add_surface_potential(0, 4, friction);
+    friction->commit(model, state, faces);
+  }
+  void slide(double x, double y) {
+    for (auto& node : state.x) node.col(0) += Eigen::Vector3d(x, y, 0);
+  }
+  Eigen::Vector3d force() const {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (const Face& face : model.faces(0))
+      for (int q = 0; q < face.num_points(); ++q)
+        sum += face.point(q).area *
+               friction->traction(face.deformed(model.coefficients(state.x, 0), q).head<3>(),
+                                  face.point(q), 0);
+    return sum;
+  }
+};
+
+// 1 kPa on 100 mm²: at most μ t A = 30 mN, in proportion below the slip δ.
+TEST(PlateFriction, GrowsWithSlipUpToTheCoulombLimit) {
+  PressedBlock block;
+  block.slide(0.04, 0);
+  EXPECT_NEAR((block.force() - Eigen::Vector3d(-12, 0, 0)).norm(), 0, 1e-9);
+  block.slide(0.26, 0.4);
+  EXPECT_NEAR((block.force() - Eigen::Vector3d(-18, -24, 0)).norm(), 0, 1e-9);
+}
+
+TEST(PlateFriction, KeepsItsForceOverACommitAndTurnsBackFromThere) {
+  PressedBlock block;
+  block.slide(0.5, 0);
+  block.friction->commit(block.model, block.state, block.faces);
+  EXPECT_NEAR(block.force().x(), -30, 1e-9);
+  block.slide(-0.15, 0);  // 0.1 mm unloads the elastic slip, 0.05 mm more goes the other way
+  EXPECT_NEAR(block.force().x(), 15, 1e-9);
+}
+
+TEST(PlateFriction, APlateThatMovesSidewaysTakesTheBlockAlong) {
+  PressedBlock block;
+  block.contact->plates[0].point += Eigen::Vector3d(0.05, 0, 0);
+  EXPECT_NEAR(block.force().x(), 15, 1e-9);
+}
+
+TEST(PlateFriction, HistoryBringsAStepBack) {
+  PressedBlock block;
+  const auto before = block.friction->history();
+  block.slide(1, 2);
+  block.friction->commit(block.model, block.state, block.faces);
+  block.slide(-1, -2);
+  block.friction->restore(before);
+  EXPECT_EQ(block.force(), Eigen::Vector3d::Zero());
+}
+
+TEST(PlateFriction, ForgetsWhereAPointStoodThatLeftThePlate) {
+  PressedBlock block;
+  block.slide(0.5, 0);
+  for (auto& node : block.state.x) node.col(0).z() += 1;
+  block.friction->commit(block.model, block.state, block.faces);
+  for (auto& node : block.state.x) node.col(0).z() -= 1;
+  block.friction->track(block.model, block.state, block.faces);
+  EXPECT_NEAR(block.force().norm(), 0, 1e-12);
+}
+
+TEST(PlateFriction, GradientAndHessianAreDerivativesSymmetricAndSemidefinite) {
+  PressedBlock block;
+  SurfacePoint point = block.model.faces(0)[0].point(7);
+  for (const Eigen::Vector3d slip : {Eigen::Vector3d(0.03, -0.05, 0), Eigen::Vector3d(0.4, 0.3, 0)}) {
+    Eigen::Matrix<double, 9, 1> y = Eigen::Matrix<double, 9, 1>::Zero();
+    y.head<3>() = point.X + slip;
+    expect_consistent(*block.friction, y, point);
+    SurfaceResponse response;
+    ASSERT_TRUE(block.friction->respond(y, point, 2, response));
+    const Eigen::Matrix3d H = response.hessian.topLeftCorner<3, 3>();
+    EXPECT_GE(H.selfadjointView<Eigen::Lower>().eigenvalues().minCoeff(), -1e-12);
+  }
+}
+
+TEST(PlateFriction, RefusesACoefficientOrASlipOutOfRange) {
+  const auto contact = std::make_shared<PlateContact>();
+  EXPECT_THROW(PlateFriction(contact, -0.1, 0.1), std::invalid_argument);
+  EXPECT_THROW(PlateFriction(contact, 1.1, 0.1), std::invalid_argument);
+  EXPECT_THROW(PlateFriction(contact, 0.3, 0), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace mammotwin

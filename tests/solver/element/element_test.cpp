@@ -1,0 +1,160 @@
+#include "tests/solver/test_meshes.h"
+
+#include "solver/element/face.h"
+#include "solver/element/gauss.h"
+#include "solver/element/skin_membrane.h"
+#include "solver/element/tensor_kernels.h"
+#include "tests/verification/follower_pressure.h"
+#include "solver/material/mooney_rivlin.h"
+
+#include <gtest/gtest.h>
+
+namespace mammotwin {
+namespace {
+
+using Coefficients = SolidElement::Coefficients;
+
+/// A distorted element of about 10 mm, and a deformed shape of it.
+struct OneElement {
+  HermiteMesh mesh = distorted(box_mesh({10, 12, 9}, {1, 1, 1}), 0.4, 1);
+  Model model;
+  State state;
+  explicit OneElement(PressureSpace space = PressureSpace::trilinear)
+      : model(mesh, uniform(std::make_shared<MooneyRivlin>(0.8, 0.2)), {space, 50, 5}) {
+    state = model.rest();
+    state.x = distorted(mesh, 0.5, 2).nodes();
+    for (int m = 0; m < 8; ++m) state.pressure[m] = 0.3 - 0.1 * m;
+  }
+};
+
+double& unknown(State& state, const HermiteMesh& mesh, int k) {
+  const int a = k % kFunctions;
+  return state.x[mesh.corners(0)[corner_of_function(a)]](k / kFunctions, parameter_of_function(a));
+}
+
+/// Residual and tangent against central differences of energy and residual, all components. The
+/// residual's own size is about 100 mN; differences at h = 1e-5 mm are good to 1e-7 of that.
+void expect_consistent(OneElement& one) {
+  constexpr double h = 1e-5;
+  ElementSystem exact, plus, minus;
+  one.model.evaluate(0, one.state, true, exact);
+  const double scale = exact.tangent.cwiseAbs().maxCoeff();
+  for (int k = 0; k < kUnknowns; ++k) {
+    double& x = unknown(one.state, one.mesh, k);
+    const double kept = x;
+    x = kept + h;
+    one.model.evaluate(0, one.state, false, plus);
+    x = kept - h;
+    one.model.evaluate(0, one.state, false, minus);
+    x = kept;
+    EXPECT_NEAR((plus.energy - minus.energy) / (2 * h), exact.residual[k], 1e-6 * scale) << k;
+    const auto difference = ((plus.residual - minus.residual) / (2 * h)).eval();
+    for (int r = k; r < kUnknowns; ++r)
+      EXPECT_NEAR(difference[r], exact.tangent(r, k), 1e-7 * scale) << r << "," << k;
+    const auto volume = ((plus.pressure_residual - minus.pressure_residual) / (2 * h)).eval();
+    const int n = one.model.element(0).num_pressures();
+    EXPECT_NEAR((volume.head(n) - exact.coupling.row(k).head(n).transpose()).norm(), 0, 1e-6 * scale);
+  }
+}
+
+TEST(Gauss, IntegratesPolynomialsExactly) {
+  const auto rule = gauss_rule(4);
+  for (int degree = 0; degree <= 7; ++degree) {
+    double sum = 0;
+    for (int q = 0; q < 4; ++q) sum += rule.weights[q] * std::pow(rule.points[q], degree);
+    EXPECT_NEAR(sum, 1.0 / (degree + 1), 1e-14) << degree;
+  }
+}
+
+TEST(TensorKernels, GradientIsTheMeshsJacobian) {
+  const OneElement one;
+  const Coefficients x = one.model.coefficients(one.state.x, 0);
+  double gradient[3 * kPoints];
+  const auto& t = hermite_table().points;
+  const HermiteMesh deformed(one.state.x, one.mesh.elements());
+  for (int i = 0; i < 3; ++i) {
+    gradient_at_points(x.col(i).data(), gradient);
+    for (int q = 0; q < kPoints; ++q) {
+      const auto expected = deformed.jacobian({0, {t[q & 3], t[q >> 2 & 3], t[q >> 4]}});
+      for (int J = 0; J < 3; ++J) EXPECT_NEAR(gradient[64 * J + q], expected(i, J), 1e-12);
+    }
+  }
+}
+
+TEST(SolidElement, ResidualAndTangentAreDerivatives) {
+  for (auto space : {PressureSpace::constant, PressureSpace::linear, PressureSpace::trilinear}) {
+    OneElement one(space);
+    expect_consistent(one);
+  }
+}
+
+TEST(SolidElement, PressureResidualIsDerivativeOfEnergy) {
+  OneElement one;
+  ElementSystem exact, plus, minus;
+  one.model.evaluate(0, one.state, false, exact);
+  for (int m = 0; m < 8; ++m) {  // the energy is quadratic in p: differences are exact to rounding
+    State other = one.state;
+    other.pressure[m] += 0.5;
+    one.model.evaluate(0, other, false, plus);
+    other.pressure[m] -= 1;
+    one.model.evaluate(0, other, false, minus);
+    EXPECT_NEAR(plus.energy - minus.energy, exact.pressure_residual[m], 1e-9);
+  }
+}
+
+TEST(SolidElement, VolumeOfADistortedElementIsItsFacesFlux) {
+  // Divergence theorem: V = ∮ X·N/3 dA; both rules integrate these polynomials of degree 8 along
+  // each direction only to their own order, so a mild distortion leaves about 1e-6.
+  const OneElement one;
+  double flux = 0;
+  for (int face = 0; face < 6; ++face) {
+    const Face f(0, face, one.model.coefficients(one.mesh.nodes(), 0), 5);
+    for (int q = 0; q < f.num_points(); ++q)
+      flux += f.point(q).X.dot(f.point(q).normal) * f.point(q).area / 3;
+  }
+  EXPECT_NEAR(flux, one.model.volume(), 1e-6 * one.model.volume());
+}
+
+TEST(SolidElement, RefusesAFoldedMesh) {
+  auto nodes = box_mesh({10, 10, 10}, {1, 1, 1}).nodes();
+  std::swap(nodes[0], nodes[1]);
+  const HermiteMesh folded(nodes, {HermiteMesh::Corners{0, 1, 2, 3, 4, 5, 6, 7}});
+  EXPECT_THROW(Model(folded, uniform(std::make_shared<MooneyRivlin>(1, 0)), {}),
+               std::invalid_argument);
+}
+
+TEST(SkinMembrane, ResidualAndTangentAreDerivatives) {
+  for (int face = 0; face < 6; ++face) {
+    OneElement one;
+    one.model.add_surface_potential(0, face, std::make_shared<SkinMembrane>(3.3, 1.5));
+    expect_consistent(one);
+  }
+}
+
+TEST(FollowerPressure, ResidualAndTangentAreDerivatives) {
+  for (int face = 0; face < 6; ++face) {
+    OneElement one;
+    auto pressure = std::make_shared<FollowerPressure>();
+    pressure->pressure = 2;
+    pressure->axis = Eigen::Vector3d(0.6, 0, 0.8);
+    one.model.add_surface_potential(0, face, pressure);
+    expect_consistent(one);
+  }
+}
+
+// A flat membrane stretched by λ in both directions thins by λ⁻²: energy h c₁ (2λ² + λ⁻⁴ − 3) per
+// reference area.
+TEST(SkinMembrane, EnergyOfEquibiaxialStretch) {
+  const SkinMembrane skin(3.3, 1.5);
+  const SurfacePoint point{{}, {10, 0, 0}, {0, 8, 0}, {0, 0, 1}, 80};
+  Eigen::Matrix<double, 9, 1> y;
+  const double stretch = 1.3;
+  y << 0, 0, 0, 0, stretch * 10, 0, 0, 0, stretch * 8;  // turned out of its plane as well
+  SurfaceResponse response;
+  skin.respond(y, point, 0, response);
+  EXPECT_NEAR(response.energy,
+              1.5 * 3.3 * (2 * stretch * stretch + std::pow(stretch, -4) - 3), 1e-12);
+}
+
+}  // namespace
+}  // namespace mammotwin
