@@ -1,11 +1,5 @@
 #include "fitting/fit_breast.h"
 
-#include "fitting/solve/fit_course.h"
-#include "fitting/fit_limits.h"
-#include "fitting/fit_quality.h"
-#include "fitting/mesh/jacobian_bound.h"
-#include "fitting/surface/skin_to_fit.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -13,6 +7,12 @@
 #include <numeric>
 #include <optional>
 #include <stdexcept>
+
+#include "fitting/fit_limits.h"
+#include "fitting/fit_quality.h"
+#include "fitting/mesh/jacobian_bound.h"
+#include "fitting/solve/fit_course.h"
+#include "fitting/surface/skin_to_fit.h"
 
 namespace mammotwin {
 
@@ -50,16 +50,15 @@ double smoothing_for(double noise_mm) {
 }
 
 /// A surface rounded to voxels is uniformly wrong by up to half of one.
-double noise_of_labels(const Segmentation& s) {
-  return s.labels.spacing.mean() / std::sqrt(12.0);
-}
+double noise_of_labels(const Segmentation& s) { return s.labels.spacing.mean() / std::sqrt(12.0); }
 
 void require_breast(const Segmentation& s) {
   long voxels = 0;
   for (int k = 0; k < s.labels.size.z(); ++k)
     for (int j = 0; j < s.labels.size.y(); ++j)
       for (int i = 0; i < s.labels.size.x(); ++i)
-        voxels += label::is_breast(s.labels(i, j, k)) && s.region.contains(s.labels.position(i, j, k));
+        voxels +=
+            label::is_breast(s.labels(i, j, k)) && s.region.contains(s.labels.position(i, j, k));
   if (voxels < smallest_breast_voxels)
     throw std::runtime_error("fit: the breast's region holds " + std::to_string(voxels) +
                              " voxels of tissue; expected at least " +
@@ -73,9 +72,11 @@ void judge(FitReport& r) {
   };
   look(std::max(r.skin_rms_mesh_to_data_mm, r.skin_rms_data_to_mesh_mm) > limits::skin_rms_mm,
        "The mesh's skin is more than 1 mm (RMS) off the labels'.");
-  look(r.covered_fraction < limits::covered_breast, "Less than 97 % of the breast's voxels lie in the mesh.");
+  look(r.covered_fraction < limits::covered_breast,
+       "Less than 97 % of the breast's voxels lie in the mesh.");
   look(r.covered_lesions < limits::covered_lesions, "Part of a lesion lies outside the mesh.");
-  look(r.chest_wall_rms_mm > limits::chest_wall_rms_mm, "The mesh's chest wall is more than 2 mm (RMS) off the muscle.");
+  look(r.chest_wall_rms_mm > limits::chest_wall_rms_mm,
+       "The mesh's chest wall is more than 2 mm (RMS) off the muscle.");
   r.status = r.reasons.empty() ? "ok" : "look";
 }
 
@@ -110,7 +111,10 @@ class BreastFit {
  public:
   BreastFit(const Segmentation& s, const FitOptions& options, const FitProgress& progress,
             const ScannedSkin* scan)
-      : s_(s), options_(options), progress_(progress), scan_(scan),
+      : s_(s),
+        options_(options),
+        progress_(progress),
+        scan_(scan),
         wall_(find_chest_wall(s.labels, s.region)),
         skin_(scan ? scanned_skin_to_fit(scan->surface, s.region) : find_skin_to_fit(s, wall_)),
         noise_mm_(scan ? scan->noise_mm : noise_of_labels(s)) {}
@@ -170,8 +174,9 @@ class BreastFit {
     if (!skin.doubt.empty()) report.reasons.push_back(skin.doubt);
     if (!course.valid) {
       report.status = "not_converged";
-      report.reasons.push_back("No mesh was found whose elements are all valid; look at the "
-                               "segmentation's skin and chest wall, or try other element counts.");
+      report.reasons.push_back(
+          "No mesh was found whose elements are all valid; look at the "
+          "segmentation's skin and chest wall, or try other element counts.");
       report.farthest_in_lps = most_folded(course.mesh);
       return result;
     }

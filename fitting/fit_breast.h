@@ -1,12 +1,12 @@
 #pragma once
 
-#include "fitting/mesh/mesh_file.h"
-#include "fitting/surface/triangle_surface.h"
-#include "segmentation/segmentation.h"
-
 #include <functional>
 #include <optional>
 #include <string>
+
+#include "fitting/mesh/mesh_file.h"
+#include "fitting/surface/triangle_surface.h"
+#include "segmentation/segmentation.h"
 
 namespace mammotwin {
 
@@ -50,9 +50,9 @@ struct FitReport {
   double nipple_error_mm = 0;     ///< largest within 15 mm of the nipple, both directions
   double chest_wall_rms_mm = 0;   ///< labelled muscle front to the mesh
   double min_jacobian_bound = 0;  ///< det(∂x/∂ξ) is at least this fraction of its mean, proved
-  double min_scaled_jacobian = 0; ///< smallest over 7³ points an element
-  double covered_fraction = 0;    ///< of the breast's voxels in the region
-  double covered_lesions = 1;     ///< of the lesions' voxels in the region
+  double min_scaled_jacobian = 0;  ///< smallest over 7³ points an element
+  double covered_fraction = 0;     ///< of the breast's voxels in the region
+  double covered_lesions = 1;      ///< of the lesions' voxels in the region
   int iterations = 0;
   std::vector<double> skin_rms_by_iteration_mm;  ///< to the smoothed surface, data to mesh
   Eigen::Vector3d farthest_in_lps = Eigen::Vector3d::Zero();  ///< where skin_max_mm was met

@@ -1,13 +1,13 @@
 #include "fitting/fit_quality.h"
 
-#include "fitting/surface/closest_point.h"
-#include "fitting/mesh/inverse_map.h"
-
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+
+#include "fitting/mesh/inverse_map.h"
+#include "fitting/surface/closest_point.h"
 
 namespace mammotwin {
 
@@ -61,8 +61,11 @@ SurfaceDistances surface_distances(const HermiteMesh& mesh, const std::vector<Fa
   const TriangleSurface own = face_mesh(mesh, faces, label, face_divisions).surface;
   const Distances to_data = distances(own, ClosestPoint(data));
   const Distances to_mesh = distances(data, ClosestPoint(own));
-  SurfaceDistances result{rms(to_data), rms(to_mesh),
-                          std::max(quantile(to_data, 0.95), quantile(to_mesh, 0.95)), 0, 0,
+  SurfaceDistances result{rms(to_data),
+                          rms(to_mesh),
+                          std::max(quantile(to_data, 0.95), quantile(to_mesh, 0.95)),
+                          0,
+                          0,
                           Eigen::Vector3d::Zero()};
   const auto consider = [&](const Distances& d, const TriangleSurface& surface) {
     for (std::size_t v = 0; v < d.values.size(); ++v)
@@ -88,8 +91,8 @@ PointField skin_distance_field(const MeshFile& file, const TriangleSurface& data
   });
 }
 
-double rms_to_faces(const HermiteMesh& mesh, const std::vector<FaceLabels>& faces,
-                    FaceLabel label, const std::vector<Eigen::Vector3d>& points) {
+double rms_to_faces(const HermiteMesh& mesh, const std::vector<FaceLabels>& faces, FaceLabel label,
+                    const std::vector<Eigen::Vector3d>& points) {
   if (points.empty()) return 0;
   const ClosestPoint closest(face_mesh(mesh, faces, label, face_divisions).surface);
   std::vector<double> squared(points.size());
@@ -120,7 +123,8 @@ Coverage coverage(const HermiteMesh& mesh, const Volume<std::uint8_t>& labels,
         const auto found = map.locate(labels.position(i, j, k), guess);
         if (found) {
           // Two in a row show where the next one is.
-          guess = {found->element, found->element == last.element ? 2 * found->xi - last.xi : found->xi};
+          guess = {found->element,
+                   found->element == last.element ? 2 * found->xi - last.xi : found->xi};
           last = *found;
         }
         ++count.breast;

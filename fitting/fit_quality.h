@@ -1,9 +1,9 @@
 #pragma once
 
+#include <optional>
+
 #include "fitting/surface/face_mesh.h"
 #include "segmentation/segmentation.h"
-
-#include <optional>
 
 namespace mammotwin {
 
@@ -26,8 +26,8 @@ SurfaceDistances surface_distances(const HermiteMesh& mesh, const std::vector<Fa
 PointField skin_distance_field(const MeshFile& file, const TriangleSurface& data);
 
 /// Root mean square distance [mm] of points to the mesh's faces of one label.
-double rms_to_faces(const HermiteMesh& mesh, const std::vector<FaceLabels>& faces,
-                    FaceLabel label, const std::vector<Eigen::Vector3d>& points);
+double rms_to_faces(const HermiteMesh& mesh, const std::vector<FaceLabels>& faces, FaceLabel label,
+                    const std::vector<Eigen::Vector3d>& points);
 
 /// Which voxels' centres lie in the mesh.
 struct Coverage {

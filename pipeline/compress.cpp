@@ -2,11 +2,11 @@
 
 #include "solver/press/compress.h"
 
+#include "pipeline/frame/stage.h"
+#include "pipeline/steps/breast_problem.h"
 #include "pipeline/steps/compression_course.h"
 #include "pipeline/steps/compression_quality.h"
-#include "pipeline/frame/stage.h"
 #include "pipeline/steps/view_header.h"
-#include "pipeline/steps/breast_problem.h"
 #include "pipeline/steps/view_problem.h"
 #include "registration/view/view_frame.h"
 #include "segmentation/files/segmentation_file.h"
@@ -100,10 +100,10 @@ Outcome run(const Arguments& args, StageRun& stage) {
   const CompressionResult result =
       compress_with_checkpoints(problem, patient.compression.options, stage);
   if (result.report.usable())
-    write_mesh_file(stage.products.write_main(),
-                    compressed_file(mesh, result,
-                                    view_of_plates(args.view, side, view.angle(),
-                                                   problem.plates, result)));
+    write_mesh_file(
+        stage.products.write_main(),
+        compressed_file(mesh, result,
+                        view_of_plates(args.view, side, view.angle(), problem.plates, result)));
   Outcome outcome = judge_compression(result.report, view.angle(), !view.thickness_mm);
   if (!remarks.empty()) outcome.quality["header"] = remarks;
   return outcome;

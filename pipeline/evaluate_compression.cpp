@@ -1,4 +1,5 @@
-// evaluate-compression: compresses a drawn population and patients' breasts, unattended -> one table.
+// evaluate-compression: compresses a drawn population and patients' breasts, unattended -> one
+// table.
 
 #include <atomic>
 #include <iostream>
@@ -24,22 +25,22 @@ struct Arguments {
 };
 
 void declare(CommandLine& command, Arguments& args) {
-  command.option("table", args.table,
-                 "compression.json to write; inputs and results of each breast go to the folder "
-                 "compression beside it")
+  command
+      .option("table", args.table,
+              "compression.json to write; inputs and results of each breast go to the folder "
+              "compression beside it")
       .required();
   command.option("--synthetic", args.synthetic, "breasts of the population, each in both views")
       .between(0, 10000)
       .with_default();
-  command.option("--first", args.first, "the first of them")
-      .between(0, 10000)
-      .with_default();
+  command.option("--first", args.first, "the first of them").between(0, 10000).with_default();
   command.option("--cases", args.cases, "folder with label_maps/*.nii.gz (none: no patients)");
   command.option("--only", args.only, "breasts whose name contains this (text)");
   command.option("--jobs", args.jobs, "breasts at a time, each on all cores [1 to 64]")
       .between(1, 64)
       .with_default();
-  command.option("--limit", args.most_cpu_seconds, "a compression is given up after this [s of CPU]")
+  command
+      .option("--limit", args.most_cpu_seconds, "a compression is given up after this [s of CPU]")
       .between(1, 1000000)
       .with_default();
   command.flag("--refit", args.refit, "segment and fit again what lies there already");
@@ -52,7 +53,8 @@ std::vector<EvaluatedBreast> breasts_of(const Arguments& args) {
     all.push_back({drawn.name, {}, drawn, {}});
   }
   for (const LabelMapBreast& breast : label_map_breasts(args.cases))
-    all.push_back({breast.exam + "-" + (breast.side == Side::left ? "left" : "right"), {}, {}, breast});
+    all.push_back(
+        {breast.exam + "-" + (breast.side == Side::left ? "left" : "right"), {}, {}, breast});
   std::erase_if(all, [&](const auto& b) { return b.name.find(args.only) == std::string::npos; });
   for (EvaluatedBreast& breast : all)
     breast.folder = fs::absolute(args.table).parent_path() / "compression" / breast.name;
@@ -111,7 +113,8 @@ int run(const Arguments& args) {
 
 int main(int argc, char** argv) {
   using namespace mammotwin;
-  return run_plain_command<Arguments>(argc, argv, "evaluate-compression",
-                                   "Compresses synthetic breasts and patients' label maps, and writes how each ended",
-                                   declare, run);
+  return run_plain_command<Arguments>(
+      argc, argv, "evaluate-compression",
+      "Compresses synthetic breasts and patients' label maps, and writes how each ended", declare,
+      run);
 }

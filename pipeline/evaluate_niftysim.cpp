@@ -23,8 +23,9 @@ void declare(CommandLine& command, Arguments& args) {
       .required()
       .existing_folder();
   command.option("table", args.table, "niftysim.json to write").required();
-  command.option("--core", args.options.elements.core,
-                 "elements along x and y in the mesh's core, even [2 to 12]")
+  command
+      .option("--core", args.options.elements.core,
+              "elements along x and y in the mesh's core, even [2 to 12]")
       .between(2, 12)
       .with_default();
   command.option("--shell", args.options.elements.shell, "elements from core to skin [1 to 6]")
@@ -54,7 +55,8 @@ int run(Arguments args) {
 
 int main(int argc, char** argv) {
   using namespace mammotwin;
-  return run_plain_command<Arguments>(argc, argv, "evaluate-niftysim",
-                                   "Compresses a breast as NiftySim did and compares the displacement of its nodes",
-                                   declare, run);
+  return run_plain_command<Arguments>(
+      argc, argv, "evaluate-niftysim",
+      "Compresses a breast as NiftySim did and compares the displacement of its nodes", declare,
+      run);
 }

@@ -24,15 +24,13 @@ struct Arguments {
 };
 
 void declare(CommandLine& command, Arguments& args) {
-  command.option("table", args.table,
-                 "registration.json to write; each patient's files go to the folder registration beside it")
+  command
+      .option("table", args.table,
+              "registration.json to write; each patient's files go to the folder registration "
+              "beside it")
       .required();
-  command.option("--synthetic", args.synthetic, "patients")
-      .between(1, 10000)
-      .with_default();
-  command.option("--first", args.first, "the first of them")
-      .between(0, 10000)
-      .with_default();
+  command.option("--synthetic", args.synthetic, "patients").between(1, 10000).with_default();
+  command.option("--first", args.first, "the first of them").between(0, 10000).with_default();
   command.option("--jobs", args.jobs, "patients at a time, each on all cores [1 to 64]")
       .between(1, 64)
       .with_default();
@@ -73,8 +71,7 @@ int run(const Arguments& args) {
   const auto work = [&] {
     for (int n; (n = next++) < args.synthetic;) {
       const int number = args.first + n;
-      json row =
-          evaluate(number, beside / ("synthetic-" + std::to_string(number)), args);
+      json row = evaluate(number, beside / ("synthetic-" + std::to_string(number)), args);
       const std::lock_guard lock(mutex);
       std::cerr << row["name"] << " " << row["reason"] << " CC " << row["tre_cc_mm"] << " MLO "
                 << row["tre_mlo_mm"] << " 3-D " << row["tre_3d_mm"] << " mm" << std::endl;
@@ -94,8 +91,8 @@ int run(const Arguments& args) {
 
 int main(int argc, char** argv) {
   using namespace mammotwin;
-  return run_plain_command<Arguments>(
-      argc, argv, "evaluate-registration",
-      "Registers synthetic patients with mammograms of another model, and writes how far off the marks are",
-      declare, run);
+  return run_plain_command<Arguments>(argc, argv, "evaluate-registration",
+                                      "Registers synthetic patients with mammograms of another "
+                                      "model, and writes how far off the marks are",
+                                      declare, run);
 }

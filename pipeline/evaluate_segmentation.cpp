@@ -54,8 +54,8 @@ nlohmann::json evaluate(const std::vector<SegmentationCase>& cases, const Argume
   std::vector<std::thread> workers;
   for (int job = 0; job < args.jobs; ++job)
     workers.emplace_back([&, job] {
-      const auto image = args.table.parent_path() / (args.table.stem().string() + "_mri_" +
-                                                     std::to_string(job) + ".nrrd");
+      const auto image = args.table.parent_path() /
+                         (args.table.stem().string() + "_mri_" + std::to_string(job) + ".nrrd");
       for (std::size_t n = next++; n < cases.size(); n = next++) {
         rows[n] = segmentation_row(cases[n], image, args.keep);
         const std::lock_guard lock(talk);
@@ -80,7 +80,7 @@ int run(const Arguments& args) {
 
 int main(int argc, char** argv) {
   using namespace mammotwin;
-  return run_plain_command<Arguments>(
-      argc, argv, "evaluate-segmentation",
-      "segments breasts whose truth is known and writes one table", declare, run);
+  return run_plain_command<Arguments>(argc, argv, "evaluate-segmentation",
+                                      "segments breasts whose truth is known and writes one table",
+                                      declare, run);
 }

@@ -27,9 +27,10 @@ void declare(CommandLine& command, Arguments& args) {
   command.option("cases", args.cases, "folder with label_maps/*.nii.gz and mimbcd_*/mri")
       .required()
       .existing_folder();
-  command.option("table", args.table,
-                 "unload.json to write; inputs of each breast go to the folder compression beside it, "
-                 "shared with evaluate-compression")
+  command
+      .option("table", args.table,
+              "unload.json to write; inputs of each breast go to the folder compression beside it, "
+              "shared with evaluate-compression")
       .required();
   command.option("--only", args.only, "breasts whose name contains this (text)");
   command.flag("--views", args.views, "compress with and without unloading, too");
@@ -42,13 +43,12 @@ void prepare_mri(const fs::path& patient, const fs::path& folder) {
   const auto radiologist = json::parse(std::ifstream(patient / "lesions_radiologist.json"));
   const json& lesion = radiologist.at("mri").at(0);
   std::ostringstream toml;
-  toml << "side = \"" << (lesion.at("side") == "L" ? "left" : "right") << "\"\n[mri]\npath = "
-       << json(fs::canonical(patient / "mri").string()) << "\n[[lesions]]\npoint_lps_mm = "
-       << lesion.at("centroid_lps_mm") << "\n";
+  toml << "side = \"" << (lesion.at("side") == "L" ? "left" : "right")
+       << "\"\n[mri]\npath = " << json(fs::canonical(patient / "mri").string())
+       << "\n[[lesions]]\npoint_lps_mm = " << lesion.at("centroid_lps_mm") << "\n";
   write_text_atomically(folder / "patient.toml", toml.str());
   const auto file = [&](const char* name) { return (folder / name).string(); };
-  run_stage_command("segment",
-                    {file("segmentation.seg.nrrd"), "--patient", file("patient.toml")},
+  run_stage_command("segment", {file("segmentation.seg.nrrd"), "--patient", file("patient.toml")},
                     folder / "segment.log", kMostCpuSeconds);
   run_stage_command("fit",
                     {file("segmentation.seg.nrrd"), file("fractions.nrrd"), file("prone.vtu")},
@@ -112,7 +112,8 @@ int run(const Arguments& args) {
 
 int main(int argc, char** argv) {
   using namespace mammotwin;
-  return run_plain_command<Arguments>(argc, argv, "evaluate-unload",
-                                   "Unloads patients' breasts with three stiffnesses and writes how well that went",
-                                   declare, run);
+  return run_plain_command<Arguments>(
+      argc, argv, "evaluate-unload",
+      "Unloads patients' breasts with three stiffnesses and writes how well that went", declare,
+      run);
 }

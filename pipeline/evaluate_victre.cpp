@@ -42,7 +42,7 @@ int run(const Arguments& args) {
 
 int main(int argc, char** argv) {
   using namespace mammotwin;
-  return run_plain_command<Arguments>(argc, argv, "evaluate-victre",
-                                   "Compresses VICTRE's phantom as FEBio did and compares tissue and outline",
-                                   declare, run);
+  return run_plain_command<Arguments>(
+      argc, argv, "evaluate-victre",
+      "Compresses VICTRE's phantom as FEBio did and compares tissue and outline", declare, run);
 }

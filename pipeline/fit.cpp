@@ -1,9 +1,8 @@
 // fit: tissue labels -> tri-cubic Hermite mesh of the breast.
 
 #include "fitting/fit_breast.h"
-
-#include "pipeline/steps/fit_quality.h"
 #include "pipeline/frame/stage.h"
+#include "pipeline/steps/fit_quality.h"
 #include "segmentation/files/segmentation_file.h"
 
 namespace mammotwin {

@@ -1,16 +1,17 @@
-// mark: marks on mammograms of a registered patient -> where they can be in MRI and in the other view.
+// mark: marks on mammograms of a registered patient -> where they can be in MRI and in the other
+// view.
+
+#include <chrono>
+#include <cmath>
+#include <iostream>
 
 #include "pipeline/frame/command_line.h"
 #include "pipeline/steps/registered_view.h"
 #include "pipeline/steps/view_header.h"
 #include "registration/carry/mark_curve.h"
 #include "registration/export/markups.h"
-#include "registration/view/simulated_mammogram.h"
 #include "registration/export/view_products.h"
-
-#include <chrono>
-#include <cmath>
-#include <iostream>
+#include "registration/view/simulated_mammogram.h"
 
 namespace mammotwin {
 namespace {
@@ -25,7 +26,8 @@ struct Arguments {
 };
 
 void declare(CommandLine& command, Arguments& args) {
-  command.option("results", args.results, "folder of a patient that mammotwin-register has finished")
+  command
+      .option("results", args.results, "folder of a patient that mammotwin-register has finished")
       .required()
       .existing_folder();
   command.option("--cc", args.cc, "mark on the CC view: column, row").values(2);
@@ -49,8 +51,9 @@ Eigen::Vector2d on_detector(const std::vector<double>& given, bool millimetres,
   const Eigen::Vector2d mark(given[0], given[1]);
   if (millimetres) return mark;
   if (!detector.pixels)
-    throw std::runtime_error("a mark in pixels needs views.*.detector.pixel_spacing_mm, columns and "
-                             "rows, or a DICOM mammogram, in the file of --patient; or give it with --mm");
+    throw std::runtime_error(
+        "a mark in pixels needs views.*.detector.pixel_spacing_mm, columns and "
+        "rows, or a DICOM mammogram, in the file of --patient; or give it with --mm");
   return detector.detector_from_image(mark);
 }
 
@@ -76,13 +79,13 @@ MarkCurve curve_of(const MarkedView& marked, const MarkedView& other) {
 }
 
 /// One mark: its curve through MRI, and seen from the other view with the ellipse at each point.
-json curve_json(const Eigen::Vector2d& mark, const MarkCurve& curve,
-                const Detector& other) {
+json curve_json(const Eigen::Vector2d& mark, const MarkCurve& curve, const Detector& other) {
   json points = json::array();
   for (std::size_t n = 0; n < curve.on_ray.size(); ++n) {
     const RayPoint& p = curve.on_ray[n];
     const auto& [uv, ellipse] = curve.in_other[n];
-    json point{{"height_mm", p.height_mm}, {"lps_mm", list_of(p.prone_in_lps)},
+    json point{{"height_mm", p.height_mm},
+               {"lps_mm", list_of(p.prone_in_lps)},
                {"other_view_mm", list_of(uv)}};
     if (other.pixels) point["other_view_pixel"] = list_of(other.image_from_detector(uv));
     if (ellipse)
@@ -135,11 +138,11 @@ std::vector<MarkupPoint> markups_of(const MarkedView& cc, const MarkedView& mlo,
 /// The other view as simulated (without tissue: outline and thickness), the curve in white.
 void draw(const fs::path& path, const MarkedView& marked, const MarkedView& other) {
   const RegisteredView& view = other.registered;
-  const SimulatedView simulated =
-      simulate_view(view.prone, view.compressed, nullptr, view.projection.view(),
-                    view.projection.detector());
+  const SimulatedView simulated = simulate_view(view.prone, view.compressed, nullptr,
+                                                view.projection.view(), view.projection.detector());
   DetectorImage shown = as_shown(simulated);
-  for (const Eigen::Vector2d& uv : curve_in_other_view(marked.rays, *marked.mark, other.rays, 0.2)) {
+  for (const Eigen::Vector2d& uv :
+       curve_in_other_view(marked.rays, *marked.mark, other.rays, 0.2)) {
     const Eigen::Vector2d at = (uv - shown.first) / shown.spacing_mm;
     const int i = static_cast<int>(std::lround(at.x())), j = static_cast<int>(std::lround(at.y()));
     for (int b = j - 1; b <= j + 1; ++b)
@@ -175,9 +178,9 @@ int run(const Arguments& args) {
 
 int main(int argc, char** argv) {
   using namespace mammotwin;
-  return run_plain_command<Arguments>(
-      argc, argv, "mark",
-      "Marks on mammograms of a registered patient: their curves through MRI and in the other view, and "
-      "from two marks the point in MRI",
-      declare, run);
+  return run_plain_command<Arguments>(argc, argv, "mark",
+                                      "Marks on mammograms of a registered patient: their curves "
+                                      "through MRI and in the other view, and "
+                                      "from two marks the point in MRI",
+                                      declare, run);
 }

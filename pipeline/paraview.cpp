@@ -1,7 +1,7 @@
 // paraview: a compressed mesh -> the breast after each load step, as a series that ParaView plays.
 
-#include "pipeline/steps/compression_course.h"
 #include "pipeline/frame/stage.h"
+#include "pipeline/steps/compression_course.h"
 
 namespace mammotwin {
 namespace {

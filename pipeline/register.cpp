@@ -1,17 +1,17 @@
 // register: compressed meshes + view geometry -> lesions on the CC and MLO detectors.
 
-#include "pipeline/steps/dicom_products.h"
-#include "pipeline/frame/stage.h"
-#include "pipeline/steps/searched_views.h"
-#include "pipeline/steps/view_header.h"
-#include "registration/export/lesion_table.h"
-#include "registration/export/markups.h"
-#include "registration/carry/point_carrier.h"
-#include "registration/carry/ray_curve.h"
-#include "segmentation/files/segmentation_file.h"
-
 #include <cstdio>
 #include <iostream>
+
+#include "pipeline/frame/stage.h"
+#include "pipeline/steps/dicom_products.h"
+#include "pipeline/steps/searched_views.h"
+#include "pipeline/steps/view_header.h"
+#include "registration/carry/point_carrier.h"
+#include "registration/carry/ray_curve.h"
+#include "registration/export/lesion_table.h"
+#include "registration/export/markups.h"
+#include "segmentation/files/segmentation_file.h"
 
 namespace mammotwin {
 namespace {
@@ -85,11 +85,12 @@ void set_picture_ellipse(const SearchEllipse& ellipse, LesionRow& row) {
 class Registration {
  public:
   Registration(const Segmentation& segmentation, StageRun& stage)
-      : stage_(stage), landmarks_(landmarks_of(segmentation)),
+      : stage_(stage),
+        landmarks_(landmarks_of(segmentation)),
         nipple_{"nipple", segmentation.nipple_in_lps} {
     for (const Landmark& lesion : landmarks_)
-      rows_.push_back(mri_row(stage.patient.name(), segmentation.region.side, lesion,
-                              nipple_.prone_in_lps));
+      rows_.push_back(
+          mri_row(stage.patient.name(), segmentation.region.side, lesion, nipple_.prone_in_lps));
     write_points("prone", [](const Landmark& landmark) { return landmark.prone_in_lps; });
     quality_["lesions"] = landmarks_.size();
   }
@@ -114,10 +115,11 @@ class Registration {
                                    kEllipseProbability);
           set_picture_ellipse(ellipse, rows_.back());
         }
-        write_closed_curve(
-            stage_.products.write("ellipse_" + view.view().name + "_" + std::to_string(++number) + ".mrk.json"),
-            landmark.id + " in " + view.view().name,
-            ellipse_in_prone(rays, lesion.on_detector, rim(ellipse, kRimPoints), lesion.in_view.z()));
+        write_closed_curve(stage_.products.write("ellipse_" + view.view().name + "_" +
+                                                 std::to_string(++number) + ".mrk.json"),
+                           landmark.id + " in " + view.view().name,
+                           ellipse_in_prone(rays, lesion.on_detector, rim(ellipse, kRimPoints),
+                                            lesion.in_view.z()));
       }
     }
     write_points(view.view().name,
@@ -191,12 +193,11 @@ Outcome run(const Arguments& args, StageRun& stage) {
   for (const RegisteredView& view : views) {
     stage.progress(done, view.projection.view().name);
     registration.add(view);
-    write_registered_view(
-        stage.products.write(view.projection.view().name + "_registered.vtu"), view);
+    write_registered_view(stage.products.write(view.projection.view().name + "_registered.vtu"),
+                          view);
     const DetectorImage shown =
         write_view_files(view, segmentation, mri, stage.products, registration.quality());
-    if (stage.patient.registration.dicom_export)
-      registration.export_dicom(view, shown);
+    if (stage.patient.registration.dicom_export) registration.export_dicom(view, shown);
     done += 0.1;
   }
   if (!args.landmarks.empty()) std::cout << landmark_errors(args.landmarks, views[0], views[1]);

@@ -15,21 +15,25 @@ struct Arguments {
 };
 
 void declare(StageDeclaration& stage, Arguments& args) {
-  stage.command().option("results", args.results, "folder with a patient's results")
+  stage.command()
+      .option("results", args.results, "folder with a patient's results")
       .required()
       .existing_folder();
   stage.product("page", args.page, "page to write (.html)");
-  stage.command().flag("--picture", args.picture, "write the figures as picture.png beside it, too");
+  stage.command().flag("--picture", args.picture,
+                       "write the figures as picture.png beside it, too");
 }
 
 /// A scene for 3D Slicer and series for ParaView repeat what the page shows.
 bool is_made_on_request(const std::string& name) {
-  return name.starts_with("scene") || name.find("_course") != std::string::npos || name == "picture.png";
+  return name.starts_with("scene") || name.find("_course") != std::string::npos ||
+         name == "picture.png";
 }
 
 bool is_input(const std::filesystem::path& file, const std::filesystem::path& page) {
   const std::string name = file.filename().string();
-  return name.front() != '.' && !is_made_on_request(name) && !name.starts_with(page.filename().string());
+  return name.front() != '.' && !is_made_on_request(name) &&
+         !name.starts_with(page.filename().string());
 }
 
 constexpr const char* kViews[] = {"cc", "mlo"};
@@ -38,7 +42,8 @@ constexpr const char* kViews[] = {"cc", "mlo"};
 StagePlan plan(const Arguments& args, const Patient& patient) {
   StagePlan plan{{}, {"views."}};
   for (const char* view : kViews)
-    if (const auto& file = patient.view(view).mammogram; file && std::filesystem::exists(patient.resolve(*file)))
+    if (const auto& file = patient.view(view).mammogram;
+        file && std::filesystem::exists(patient.resolve(*file)))
       plan.inputs.push_back(patient.resolve(*file));
   for (const auto& entry : std::filesystem::directory_iterator(args.results))
     if (entry.is_regular_file() && is_input(entry.path(), args.page))
@@ -63,7 +68,8 @@ void add_mammograms(const Patient& patient, PatientResults& results) {
     try {
       results.mammograms.push_back(read_mammogram(patient, view.view.name, view.view.side));
     } catch (const std::exception& error) {
-      results.notes.push_back("the mammogram of " + view.view.name + " is not shown: " + error.what());
+      results.notes.push_back("the mammogram of " + view.view.name +
+                              " is not shown: " + error.what());
     }
   }
 }

@@ -49,8 +49,9 @@ Outcome run_scan(const std::filesystem::path& file, StageRun& stage) {
   quality.contrast = "scan";
   quality.breast_volume_ml = quality.fat_ml = tissue_in_voxels(s).total();
   quality.nipple_in_lps = s.nipple_in_lps;
-  quality.notes = {"a scanned skin: tissue in front of the base plane is taken as homogeneous (fat)",
-                   "the nipple was taken as the most anterior skin point"};
+  quality.notes = {
+      "a scanned skin: tissue in front of the base plane is taken as homogeneous (fat)",
+      "the nipple was taken as the most anterior skin point"};
   nlohmann::json json = to_json(quality);
   json["scan"] = {{"points", scanned.points},
                   {"outliers", scanned.outliers},

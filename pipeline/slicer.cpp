@@ -1,10 +1,9 @@
 // slicer: everything in a results folder -> a scene that 3D Slicer opens with all in place.
 
-#include "pipeline/slicer/scene.h"
+#include <fstream>
 
 #include "pipeline/frame/stage.h"
-
-#include <fstream>
+#include "pipeline/slicer/scene.h"
 
 namespace mammotwin {
 namespace {
@@ -14,10 +13,12 @@ struct Arguments {
 };
 
 void declare(StageDeclaration& stage, Arguments& args) {
-  stage.command().option("results", args.results, "folder with a patient's results")
+  stage.command()
+      .option("results", args.results, "folder with a patient's results")
       .required()
       .existing_folder();
-  stage.product("scene", args.scene, "scene to write in that folder (.mrml; scene_*.vtp beside it)");
+  stage.product("scene", args.scene,
+                "scene to write in that folder (.mrml; scene_*.vtp beside it)");
 }
 
 /// The products of the stages before it; pages, sidecars and load steps are not in the scene.
@@ -39,8 +40,9 @@ StagePlan plan(const Arguments& args, const Patient&) {
 
 Outcome run(const Arguments& args, StageRun& stage) {
   stage.progress(0, "writing surfaces");
-  const std::string scene = slicer_scene(
-      read_patient_results(args.results), [&](const std::string& name) { return stage.products.write(name); });
+  const std::string scene =
+      slicer_scene(read_patient_results(args.results),
+                   [&](const std::string& name) { return stage.products.write(name); });
   std::ofstream(stage.products.write_main()) << scene;
   return {};
 }
@@ -50,6 +52,6 @@ Outcome run(const Arguments& args, StageRun& stage) {
 
 int main(int argc, char** argv) {
   using namespace mammotwin;
-  return run_stage(argc, argv, "slicer",
-                   "everything in a results folder -> a scene for 3D Slicer", declare, plan, run);
+  return run_stage(argc, argv, "slicer", "everything in a results folder -> a scene for 3D Slicer",
+                   declare, plan, run);
 }

@@ -32,10 +32,11 @@ void declare(Settings& settings, Arguments& args) {
   settings.integer("seed", args.seed, {0, 2147483647, "-"}, "another number, another patient");
   settings.choice<Side>("side", args.options.anatomy.side,
                         {{"left", Side::left}, {"right", Side::right}}, "the breast with lesions");
-  settings.choice<ScanContrast>("contrast", args.options.scan.contrast,
-                                {{name_of(ScanContrast::fat_suppressed), ScanContrast::fat_suppressed},
-                                 {name_of(ScanContrast::not_suppressed), ScanContrast::not_suppressed}},
-                                "T1, suppressed after or not suppressed before contrast agent");
+  settings.choice<ScanContrast>(
+      "contrast", args.options.scan.contrast,
+      {{name_of(ScanContrast::fat_suppressed), ScanContrast::fat_suppressed},
+       {name_of(ScanContrast::not_suppressed), ScanContrast::not_suppressed}},
+      "T1, suppressed after or not suppressed before contrast agent");
   settings.flag("failed_suppression", args.options.scan.failed_suppression,
                 "a patch in which fat stays bright (suppressed only)");
   visit_numbers(args.options, [&](const char* name, auto& variable, double low, double high,
@@ -74,8 +75,7 @@ void run(Arguments args) {
   truth["version"] = MAMMOTWIN_VERSION;
   write_text(products.write("truth.json"), truth.dump(1) + "\n");
   write_text(products.write_main(), patient_toml(patient));
-  if (args.hang)
-    write_mesh_file(products.write("truth_unloaded.vtu"), hanging_truth(patient));
+  if (args.hang) write_mesh_file(products.write("truth_unloaded.vtu"), hanging_truth(patient));
   if (args.picture)
     write_slices(*args.picture, patient.scan.image, patient.truth.lesions.back().centroid_in_lps,
                  white_over_fat * fat_grey);
@@ -93,8 +93,9 @@ int synthesize(int argc, char** argv) {
   declaration.product("folder", args.folder,
                       "to write patient.toml, mri.nrrd, truth.json and truth_labels.nrrd in");
   declaration.options_from("", false);
-  command.flag("--hang", args.hang,
-               "write truth_unloaded.vtu, too: the shape that gravity turns into this patient's breast");
+  command.flag(
+      "--hang", args.hang,
+      "write truth_unloaded.vtu, too: the shape that gravity turns into this patient's breast");
   command.option("--picture", args.picture, "PNG to draw slices through a lesion in");
   if (const auto code = command.parse(argc, argv)) return *code;
   try {

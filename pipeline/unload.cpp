@@ -2,14 +2,14 @@
 
 #include "solver/gravity/unload.h"
 
-#include "pipeline/steps/breast_problem.h"
+#include <fstream>
+
 #include "pipeline/frame/sidecar.h"
 #include "pipeline/frame/stage.h"
+#include "pipeline/steps/breast_problem.h"
 #include "pipeline/steps/second_state.h"
 #include "pipeline/steps/unload_quality.h"
 #include "segmentation/files/segmentation_file.h"
-
-#include <fstream>
 
 namespace mammotwin {
 namespace {
@@ -29,8 +29,8 @@ void declare(StageDeclaration& stage, Arguments& args) {
 }
 
 StagePlan plan(const Arguments&, const Patient& patient) {
-  StagePlan plan{{}, {"gravity", "unload.", "materials.", "compress.chest_wall",
-                      "compress.cut_face"}};
+  StagePlan plan{{},
+                 {"gravity", "unload.", "materials.", "compress.chest_wall", "compress.cut_face"}};
   if (const auto second = patient.second_state()) plan.inputs.push_back(*second);
   return plan;
 }
@@ -52,9 +52,9 @@ double find_stiffness(StageRun& stage, const CompressionProblem& as_set, Unloadi
   if (!second || record.imaged == Pose::none) return factor;
   const SecondState state(*second, as_set.mesh);
   const Eigen::Vector3d gravity = gravity_in_lps(stage.patient.gravity.second_gravity);
-  record.stiffness_fit =
-      fit_stiffness(as_set, gravity, [&](const auto& x) { return state.distance(x); }, {},
-                    [&](double f, const std::string& what) { stage.progress(0.6 * f, what); });
+  record.stiffness_fit = fit_stiffness(
+      as_set, gravity, [&](const auto& x) { return state.distance(x); }, {},
+      [&](double f, const std::string& what) { stage.progress(0.6 * f, what); });
   return factor * record.stiffness_fit->factor;
 }
 

@@ -1,13 +1,13 @@
-// validate: the paper's gel cylinder, squeezed in four ways, against other codes -> validation.json, pictures.
+// validate: the paper's gel cylinder, squeezed in four ways, against other codes ->
+// validation.json, pictures.
+
+#include <iostream>
 
 #include "pipeline/frame/command_line.h"
 #include "pipeline/frame/products.h"
 #include "pipeline/validation/claims.h"
 #include "pipeline/validation/gel_figures.h"
 #include "pipeline/validation/gel_table.h"
-
-
-#include <iostream>
 
 namespace mammotwin {
 namespace {
@@ -21,8 +21,10 @@ void declare(CommandLine& command, Arguments& args) {
   command.option("cases", args.cases, "folder with lateral.toml, plane_strain.toml, ...")
       .required()
       .existing_folder();
-  command.option("result", args.result, "validation.json to write; pictures go beside it").required();
-  command.flag("!--no-claims", args.claims, "leave out the tables of elements and penalties (a minute)");
+  command.option("result", args.result, "validation.json to write; pictures go beside it")
+      .required();
+  command.flag("!--no-claims", args.claims,
+               "leave out the tables of elements and penalties (a minute)");
 }
 
 constexpr const char* kCases[] = {"lateral", "plane_strain", "axial", "bonded"};
@@ -76,7 +78,7 @@ int run(const Arguments& args) {
 
 int main(int argc, char** argv) {
   using namespace mammotwin;
-  return run_plain_command<Arguments>(argc, argv, "validate",
-                                   "Squeezes the paper's gel cylinder in four ways and compares with other codes",
-                                   declare, run);
+  return run_plain_command<Arguments>(
+      argc, argv, "validate",
+      "Squeezes the paper's gel cylinder in four ways and compares with other codes", declare, run);
 }

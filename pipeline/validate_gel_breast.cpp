@@ -1,13 +1,13 @@
-// validate-gel-breast: a breast of gel, scanned, fitted and squeezed, against its true skin -> validation.json, a picture.
+// validate-gel-breast: a breast of gel, scanned, fitted and squeezed, against its true skin ->
+// validation.json, a picture.
+
+#include <iostream>
+#include <nlohmann/json.hpp>
 
 #include "pipeline/frame/command_line.h"
 #include "pipeline/frame/products.h"
 #include "pipeline/validation/fit_convergence.h"
 #include "pipeline/validation/gel_breast_picture.h"
-
-#include <nlohmann/json.hpp>
-
-#include <iostream>
 
 namespace mammotwin {
 namespace {
@@ -20,22 +20,27 @@ struct Arguments {
 };
 
 void declare(CommandLine& command, Arguments& args) {
-  command.option("scan", args.scan, "scan of the gel breast (.ply)")
-      .required()
-      .existing_file();
+  command.option("scan", args.scan, "scan of the gel breast (.ply)").required().existing_file();
   command.option("result", args.result, "validation.json to write; gel_breast.png goes beside it")
       .required();
-  command.option("--model-columns", args.meshes.model[0], "of the model's mesh, along x and z [4 to 16]")
+  command
+      .option("--model-columns", args.meshes.model[0],
+              "of the model's mesh, along x and z [4 to 16]")
       .between(4, 16)
       .with_default();
-  command.option("--true-columns", args.meshes.truth[0], "of the true breast's mesh, the same [4 to 16]")
+  command
+      .option("--true-columns", args.meshes.truth[0],
+              "of the true breast's mesh, the same [4 to 16]")
       .between(4, 16)
       .with_default();
-  command.option("--columns", args.columns,
-                 "of the meshes whose accuracy is compared, along x and z [1 to 16]")
+  command
+      .option("--columns", args.columns,
+              "of the meshes whose accuracy is compared, along x and z [1 to 16]")
       .between(1, 16)
       .with_default();
-  command.option("--fractions", args.fractions, "of the free extent that is taken away, each [0.05 to 0.7]")
+  command
+      .option("--fractions", args.fractions,
+              "of the free extent that is taken away, each [0.05 to 0.7]")
       .between(0.05, 0.7)
       .with_default();
 }
@@ -56,8 +61,7 @@ void check_convergence(const Arguments& args, Products& products, nlohmann::json
 int run(Arguments args) {
   for (Eigen::Vector3i* elements : {&args.meshes.model, &args.meshes.truth})
     elements->y() = elements->x();
-  const GelBreastResult result =
-      run_gel_breast(args.scan, args.meshes, args.fractions, say);
+  const GelBreastResult result = run_gel_breast(args.scan, args.meshes, args.fractions, say);
   Products products(args.result);
   nlohmann::json document = to_json(result);
   if (!args.columns.empty()) check_convergence(args, products, document);
@@ -78,5 +82,6 @@ int main(int argc, char** argv) {
   using namespace mammotwin;
   return run_plain_command<Arguments>(
       argc, argv, "validate-gel-breast",
-      "Squeezes a scanned breast of gel and compares with its true skin on a finer mesh", declare, run);
+      "Squeezes a scanned breast of gel and compares with its true skin on a finer mesh", declare,
+      run);
 }

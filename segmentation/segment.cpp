@@ -5,12 +5,12 @@
 #include <stdexcept>
 
 #include "segmentation/body/breast_region.h"
-#include "segmentation/image/distance.h"
 #include "segmentation/body/half_body.h"
-#include "segmentation/landmarks.h"
 #include "segmentation/body/nipple.h"
 #include "segmentation/files/read_image.h"
+#include "segmentation/image/distance.h"
 #include "segmentation/label_maps/segment_labels.h"
+#include "segmentation/landmarks.h"
 #include "segmentation/segment_limits.h"
 #include "segmentation/segment_mri.h"
 

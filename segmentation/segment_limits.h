@@ -8,8 +8,8 @@ inline constexpr double least_breast_ml = 30, most_breast_ml = 4000;
 /// 0.14 to 0.20 on the four simulated images whose walls are over 2.5 mm off in the mean (Exam_10);
 /// 0.09 at most on those within 1.5 mm but two (seed 1006 0.12, Exam_11 left 0.10).
 inline constexpr double chest_wall_doubt = 0.10;
-/// 0.06 to 0.18 on those four, whose walls bright tissue on the muscle drew forward; 0.02 at most on
-/// walls within 1 mm; 0.04 and 0.07 on two real ones whose walls look right.
+/// 0.06 to 0.18 on those four, whose walls bright tissue on the muscle drew forward; 0.02 at most
+/// on walls within 1 mm; 0.04 and 0.07 on two real ones whose walls look right.
 inline constexpr double chest_wall_fat_behind = 0.08;
 /// 0.3 on a phantom of 8 % noise that lay still; 0.8, 1.4 and 2.9 where it moved 0.6, 1.2 and 2.4
 /// mm.

@@ -5,15 +5,15 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "segmentation/image/denoise.h"
-#include "segmentation/contrast_agent/enhancement.h"
 #include "segmentation/body/half_body.h"
 #include "segmentation/body/half_breast.h"
 #include "segmentation/chest_wall/judge_wall.h"
+#include "segmentation/contrast_agent/enhancement.h"
+#include "segmentation/files/read_image.h"
+#include "segmentation/image/denoise.h"
 #include "segmentation/landmarks.h"
 #include "segmentation/lesion/lesion_seed.h"
 #include "segmentation/lesion/lesion_stage.h"
-#include "segmentation/files/read_image.h"
 #include "segmentation/segment_limits.h"
 #include "segmentation/tissue/tissue_stage.h"
 

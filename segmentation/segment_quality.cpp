@@ -53,29 +53,29 @@ std::string to_string(SegmentStatus status) {
 std::string to_string(Side side) { return side == Side::left ? "left" : "right"; }
 
 json to_json(const SegmentQuality& q) {
-  return {{"side", to_string(q.side)},
-          {"patient_position",
-           q.patient_position.empty() ? json(nullptr) : json(q.patient_position)},
-          {"contrast", q.contrast},
-          {"breast_volume_ml", q.breast_volume_ml},
-          {"fat_ml", q.fat_ml},
-          {"fibroglandular_ml", q.fibroglandular_ml},
-          {"skin_ml", q.skin_ml},
-          {"lesions", lesions_json(q.lesions)},
-          {"skin_thickness_mm", q.skin_thickness_mm},
-          {"skin_thickness_range_mm",
-           {optional_number(q.skin_thickness_low_mm), optional_number(q.skin_thickness_high_mm)}},
-          {"nipple_lps_mm", point(q.nipple_in_lps)},
-          {"chest_wall_doubt", optional_number(q.chest_wall_doubt)},
-          {"chest_wall_fat_behind", optional_number(q.chest_wall_fat_behind)},
-          {"failed_suppression_ml", optional_number(q.failed_suppression_ml)},
-          {"pre_shift_mm", optional_number(q.pre_shift_mm)},
-          {"signal_to_noise", optional_number(q.signal_to_noise)},
-          {"clipped_share", optional_number(q.clipped_share)},
-          {"volume_ratio", optional_number(q.volume_ratio)},
-          {"lesion_candidates", candidates_json(q.candidates)},
-          {"lesion_agreement", q.lesion_agreement},
-          {"notes", q.notes}};
+  return {
+      {"side", to_string(q.side)},
+      {"patient_position", q.patient_position.empty() ? json(nullptr) : json(q.patient_position)},
+      {"contrast", q.contrast},
+      {"breast_volume_ml", q.breast_volume_ml},
+      {"fat_ml", q.fat_ml},
+      {"fibroglandular_ml", q.fibroglandular_ml},
+      {"skin_ml", q.skin_ml},
+      {"lesions", lesions_json(q.lesions)},
+      {"skin_thickness_mm", q.skin_thickness_mm},
+      {"skin_thickness_range_mm",
+       {optional_number(q.skin_thickness_low_mm), optional_number(q.skin_thickness_high_mm)}},
+      {"nipple_lps_mm", point(q.nipple_in_lps)},
+      {"chest_wall_doubt", optional_number(q.chest_wall_doubt)},
+      {"chest_wall_fat_behind", optional_number(q.chest_wall_fat_behind)},
+      {"failed_suppression_ml", optional_number(q.failed_suppression_ml)},
+      {"pre_shift_mm", optional_number(q.pre_shift_mm)},
+      {"signal_to_noise", optional_number(q.signal_to_noise)},
+      {"clipped_share", optional_number(q.clipped_share)},
+      {"volume_ratio", optional_number(q.volume_ratio)},
+      {"lesion_candidates", candidates_json(q.candidates)},
+      {"lesion_agreement", q.lesion_agreement},
+      {"notes", q.notes}};
 }
 
 }  // namespace mammotwin

@@ -21,7 +21,7 @@ struct SegmentQuality {
 
   Side side = Side::left;
   std::string patient_position;  ///< DICOM's code ("HFP": head first, prone); empty: not known
-  std::string contrast;  ///< "fat-suppressed", "not fat-suppressed" or "labels"
+  std::string contrast;          ///< "fat-suppressed", "not fat-suppressed" or "labels"
   double breast_volume_ml = 0, fat_ml = 0, fibroglandular_ml = 0, skin_ml = 0;  ///< in the region
   std::vector<Lesion> lesions;
   double skin_thickness_mm = 0;
@@ -37,7 +37,7 @@ struct SegmentQuality {
   std::optional<double> volume_ratio;           ///< of the two breasts, smaller over larger
   /// What takes up contrast agent, where an image before it is given; offered, not segmented.
   std::vector<LesionCandidate> candidates;
-  std::vector<double> lesion_agreement;         ///< Dice of two methods, one a lesion
+  std::vector<double> lesion_agreement;  ///< Dice of two methods, one a lesion
 
   /// Adds a reason and makes the status at least this bad.
   void doubt(SegmentStatus at_least, const std::string& reason);

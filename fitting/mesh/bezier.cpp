@@ -1,7 +1,6 @@
 #include "fitting/mesh/bezier.h"
 
 #include <Eigen/LU>
-
 #include <map>
 #include <tuple>
 
@@ -58,7 +57,8 @@ BezierMesh::BezierMesh(const HermiteMesh& mesh) {
     std::array<int, 64>& element = elements.emplace_back();
     for (int m = 0; m < 64; ++m) {
       const Point p = control_point(corners, m % 4, m / 4 % 4, m / 16);
-      const auto [at, is_new] = index.try_emplace({p.node, p.sign}, static_cast<int>(points.size()));
+      const auto [at, is_new] =
+          index.try_emplace({p.node, p.sign}, static_cast<int>(points.size()));
       if (is_new) points.push_back(p);
       element[m] = at->second;
     }

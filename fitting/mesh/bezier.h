@@ -1,9 +1,9 @@
 #pragma once
 
-#include "fitting/mesh/hermite_mesh.h"
-
 #include <array>
 #include <vector>
+
+#include "fitting/mesh/hermite_mesh.h"
 
 namespace mammotwin {
 

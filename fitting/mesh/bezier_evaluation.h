@@ -1,8 +1,8 @@
 #pragma once
 
-#include "fitting/mesh/bezier.h"
-
 #include <array>
+
+#include "fitting/mesh/bezier.h"
 
 namespace mammotwin {
 

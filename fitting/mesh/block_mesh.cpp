@@ -20,7 +20,8 @@ std::vector<HermiteMesh::Corners> grid_corners(const Eigen::Vector3i& n) {
 HermiteMesh block_mesh(const Eigen::Vector3d& low, const Eigen::Vector3d& high,
                        const Eigen::Vector3i& n) {
   if (n.minCoeff() < 1) throw std::invalid_argument("block_mesh: needs at least 1 element a side");
-  if ((high - low).minCoeff() <= 0) throw std::invalid_argument("block_mesh: low must be below high");
+  if ((high - low).minCoeff() <= 0)
+    throw std::invalid_argument("block_mesh: low must be below high");
   const Eigen::Vector3d size = (high - low).cwiseQuotient(n.cast<double>());
   std::vector<HermiteMesh::Node> nodes;
   for (int k = 0; k <= n.z(); ++k)

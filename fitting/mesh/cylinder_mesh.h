@@ -6,12 +6,12 @@ namespace mammotwin {
 
 /// How many elements, and where the square ends.
 struct CylinderElements {
-  int square = 2;              ///< along each side of the central square, at least 1
-  int ring = 1;                ///< radially between square and skin, at least 1
-  int length = 4;              ///< along the axis, at least 1
-  double square_part = 0.5;    ///< half side of the square / radius, in (0, 0.7)
-  double ring_grading = 1;     ///< size at the skin / size at the square, radially, positive
-  double length_grading = 1;   ///< size at z = length / size at z = 0, positive
+  int square = 2;             ///< along each side of the central square, at least 1
+  int ring = 1;               ///< radially between square and skin, at least 1
+  int length = 4;             ///< along the axis, at least 1
+  double square_part = 0.5;   ///< half side of the square / radius, in (0, 0.7)
+  double ring_grading = 1;    ///< size at the skin / size at the square, radially, positive
+  double length_grading = 1;  ///< size at z = length / size at z = 0, positive
 };
 
 /// Solid cylinder about the z axis, z from 0 to length [mm]: a square in a circle.

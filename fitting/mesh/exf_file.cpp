@@ -1,9 +1,9 @@
-#include "fitting/mesh/mesh_file.h"
-
 #include <fstream>
 #include <iomanip>
 #include <limits>
 #include <stdexcept>
+
+#include "fitting/mesh/mesh_file.h"
 
 namespace mammotwin {
 

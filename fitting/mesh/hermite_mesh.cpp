@@ -1,10 +1,10 @@
 #include "fitting/mesh/hermite_mesh.h"
 
-#include "fitting/mesh/hermite_basis.h"
-
 #include <stdexcept>
 #include <string>
 #include <utility>
+
+#include "fitting/mesh/hermite_basis.h"
 
 namespace mammotwin {
 
@@ -34,8 +34,8 @@ HermiteMesh::Weights HermiteMesh::weights(const Eigen::Vector3d& xi,
   Weights w;
   for (int n = 0; n < 8; ++n)
     for (int d = 0; d < 8; ++d)
-      w(n, d) = h1[2 * (n & 1) + (d & 1)] * h2[(n & 2) + (d >> 1 & 1)] *
-                h3[2 * (n >> 2) + (d >> 2)];
+      w(n, d) =
+          h1[2 * (n & 1) + (d & 1)] * h2[(n & 2) + (d >> 1 & 1)] * h3[2 * (n >> 2) + (d >> 2)];
   return w;
 }
 

@@ -1,13 +1,12 @@
 #include "fitting/mesh/inverse_map.h"
 
-#include "fitting/mesh/bezier_evaluation.h"
-
 #include <Eigen/LU>
-
 #include <algorithm>
 #include <limits>
 #include <queue>
 #include <stdexcept>
+
+#include "fitting/mesh/bezier_evaluation.h"
 
 namespace mammotwin {
 
@@ -15,11 +14,11 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr int parts_a_side = 4;       // small enough that Newton from a part's centre converges
+constexpr int parts_a_side = 4;  // small enough that Newton from a part's centre converges
 constexpr int parts_in_leaf = 4;
-constexpr int max_newton_steps = 30;  // distorted elements need up to 8
+constexpr int max_newton_steps = 30;         // distorted elements need up to 8
 constexpr double position_tolerance = 1e-9;  // [mm]
-constexpr double xi_tolerance = 1e-9;  // points on faces belong to the mesh despite rounding
+constexpr double xi_tolerance = 1e-9;        // points on faces belong to the mesh despite rounding
 
 /// Rows turn four control values into those of part `index` of `count` equal parts.
 Eigen::Matrix4d restriction(int index, int count) {
@@ -95,10 +94,9 @@ int InverseMap::build(int first, int last) {
   int axis;
   branch.box.sizes().maxCoeff(&axis);
   const int middle = (first + last) / 2;
-  std::nth_element(parts_.begin() + first, parts_.begin() + middle, parts_.begin() + last,
-                   [axis](const Part& a, const Part& b) {
-                     return a.box.center()[axis] < b.box.center()[axis];
-                   });
+  std::nth_element(
+      parts_.begin() + first, parts_.begin() + middle, parts_.begin() + last,
+      [axis](const Part& a, const Part& b) { return a.box.center()[axis] < b.box.center()[axis]; });
   const int left = build(first, middle), right = build(middle, last);
   branches_[index].left = left;
   branches_[index].right = right;

@@ -1,11 +1,10 @@
 #pragma once
 
-#include "fitting/mesh/bezier.h"
-
 #include <Eigen/Geometry>
-
 #include <optional>
 #include <vector>
+
+#include "fitting/mesh/bezier.h"
 
 namespace mammotwin {
 
@@ -36,7 +35,7 @@ class InverseMap {
   };
   struct Branch {
     Eigen::AlignedBox3d box;
-    int first, last;          ///< parts [first, last)
+    int first, last;            ///< parts [first, last)
     int left = -1, right = -1;  ///< branches; −1 in a leaf
   };
 

@@ -1,16 +1,15 @@
 #include "fitting/mesh/jacobian_bound.h"
 
-#include "fitting/mesh/bezier_evaluation.h"
-
-#include <Eigen/LU>
-
 #include <tbb/parallel_for.h>
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <limits>
 #include <numbers>
+
+#include "fitting/mesh/bezier_evaluation.h"
 
 namespace mammotwin {
 
@@ -85,9 +84,9 @@ double smallest_corner(const Box& box) {
 
 /// Depth-first search for the smallest determinant of one element.
 struct Search {
-  double floor;    ///< boxes bounded above this are done
-  double gap;      ///< so are boxes within this of the smallest value met
-  double slack;    ///< for rounding
+  double floor;  ///< boxes bounded above this are done
+  double gap;    ///< so are boxes within this of the smallest value met
+  double slack;  ///< for rounding
   bool stop_below_zero;
   double lower = std::numeric_limits<double>::infinity();
   double sampled = std::numeric_limits<double>::infinity();
@@ -145,9 +144,8 @@ bool proved_valid(const HermiteMesh& mesh) {
 std::vector<JacobianBound> bound_elements(const HermiteMesh& mesh) {
   const int count = mesh.num_elements();
   std::vector<Box> boxes(count);
-  tbb::parallel_for(0, count, [&](int e) {
-    boxes[e] = determinant_coefficients(bezier_element(mesh, e));
-  });
+  tbb::parallel_for(0, count,
+                    [&](int e) { boxes[e] = determinant_coefficients(bezier_element(mesh, e)); });
   double mean_determinant = 0;
   for (const Box& box : boxes) mean_determinant += std::abs(mean(box)) / count;
   std::vector<JacobianBound> bounds(count);

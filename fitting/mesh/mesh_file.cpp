@@ -1,8 +1,5 @@
 #include "fitting/mesh/mesh_file.h"
 
-#include "fitting/mesh/bezier.h"
-#include "fitting/mesh/vtu_arrays.h"
-
 #include <vtkCellData.h>
 #include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
@@ -15,6 +12,9 @@
 
 #include <cmath>
 #include <stdexcept>
+
+#include "fitting/mesh/bezier.h"
+#include "fitting/mesh/vtu_arrays.h"
 
 namespace mammotwin {
 
@@ -52,7 +52,8 @@ void check(const MeshFile& file) {
 
 std::vector<double> flat(const std::vector<HermiteMesh::Node>& nodes) {
   std::vector<double> values;
-  for (const auto& node : nodes) values.insert(values.end(), node.data(), node.data() + node.size());
+  for (const auto& node : nodes)
+    values.insert(values.end(), node.data(), node.data() + node.size());
   return values;
 }
 
@@ -168,8 +169,8 @@ std::vector<ParameterTie> ties_from(const ArrayReader& in, int num_nodes) {
     const ParameterTie& t = ties.back();
     if (std::min(t.node, t.to_node) < 0 || std::max(t.node, t.to_node) >= num_nodes ||
         std::min(t.parameter, t.to_parameter) < 0 || std::max(t.parameter, t.to_parameter) > 7)
-      in.fail(ties_name, "names a node or parameter that does not exist in row " +
-                             std::to_string(i / 5));
+      in.fail(ties_name,
+              "names a node or parameter that does not exist in row " + std::to_string(i / 5));
   }
   return ties;
 }
@@ -217,8 +218,12 @@ MeshFile read_mesh_file(const std::filesystem::path& path) {
   auto nodes = nodes_from(field_data, nodes_name);
   const int num_nodes = static_cast<int>(nodes.size());
   auto elements = elements_from(field_data, num_nodes);
-  MeshFile file{HermiteMesh(std::move(nodes), std::move(elements)), faces_from(cell_data),
-                ties_from(field_data, num_nodes), {}, {}, {}};
+  MeshFile file{HermiteMesh(std::move(nodes), std::move(elements)),
+                faces_from(cell_data),
+                ties_from(field_data, num_nodes),
+                {},
+                {},
+                {}};
   if (!file.faces.empty() && static_cast<int>(file.faces.size()) != file.mesh.num_elements())
     cell_data.fail(faces_name, "has " + std::to_string(file.faces.size()) + " rows; expected " +
                                    std::to_string(file.mesh.num_elements()) + " elements");

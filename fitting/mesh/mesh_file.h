@@ -1,13 +1,13 @@
 #pragma once
 
-#include "fitting/mesh/hermite_mesh.h"
-
 #include <array>
 #include <filesystem>
 #include <functional>
 #include <map>
 #include <string>
 #include <vector>
+
+#include "fitting/mesh/hermite_mesh.h"
 
 namespace mammotwin {
 
@@ -32,8 +32,8 @@ struct PointField {
 /// Everything that a mesh file holds. `mesh` is the configuration that the file shows.
 struct MeshFile {
   HermiteMesh mesh;
-  std::vector<FaceLabels> faces;    ///< one entry an element, or empty: all interior
-  std::vector<ParameterTie> ties;   ///< empty where no two nodes stand at one place
+  std::vector<FaceLabels> faces;   ///< one entry an element, or empty: all interior
+  std::vector<ParameterTie> ties;  ///< empty where no two nodes stand at one place
   /// Nodal parameters [mm] of the same elements in other configurations, by name ("prone");
   /// viewers see the displacement from each as point data `displacement_from_<name>`.
   std::map<std::string, std::vector<HermiteMesh::Node>> configurations;

@@ -85,11 +85,10 @@ bool ArrayReader::has(const std::string& name) const { return data_->GetArray(na
 
 std::vector<double> ArrayReader::doubles(const std::string& name, int components) const {
   vtkDataArray* array = data_->GetArray(name.c_str());
-  if (!array)
-    fail(name, "is missing; expected a mesh written by this program");
+  if (!array) fail(name, "is missing; expected a mesh written by this program");
   if (array->GetNumberOfComponents() != components)
-    fail(name, "has " + std::to_string(array->GetNumberOfComponents()) +
-                   " components; expected " + std::to_string(components));
+    fail(name, "has " + std::to_string(array->GetNumberOfComponents()) + " components; expected " +
+                   std::to_string(components));
   std::vector<double> values;
   values.reserve(array->GetNumberOfValues());
   for (vtkIdType i = 0; i < array->GetNumberOfTuples(); ++i)

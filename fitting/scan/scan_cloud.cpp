@@ -9,7 +9,6 @@
 #include <CGAL/remove_outliers.h>
 
 #include <Eigen/Eigenvalues>
-
 #include <algorithm>
 #include <cstdio>
 #include <fstream>
@@ -69,7 +68,8 @@ Points read_file(const std::filesystem::path& path) {
     throw std::runtime_error(path.string() + ": line " + std::to_string(line) +
                              " has a coordinate that is not a number (NaN or infinite); did the "
                              "scanner mark missing points so? Take them out");
-  throw std::runtime_error(path.string() + ": cannot be read as a scan; expected points or a "
+  throw std::runtime_error(path.string() +
+                           ": cannot be read as a scan; expected points or a "
                            "surface in PLY, STL, OBJ, OFF or XYZ (x y z a line)");
 }
 
@@ -80,8 +80,8 @@ double thickness(const std::vector<Eigen::Vector3d>& points) {
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
   for (const auto& x : points)
     covariance += (x - mean) * (x - mean).transpose() / static_cast<double>(points.size());
-  return std::sqrt(std::max(0.0, Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance)
-                                     .eigenvalues()[0]));
+  return std::sqrt(
+      std::max(0.0, Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance).eigenvalues()[0]));
 }
 
 void require_finite(const std::string& file, const std::vector<Eigen::Vector3d>& points) {
@@ -126,8 +126,10 @@ std::vector<Eigen::Vector3d> read_scan_points(const std::filesystem::path& path,
   drop_duplicates(points);
   if (points.size() < fewest_points)
     throw std::runtime_error(path.string() + ": " + std::to_string(points.size()) +
-                             " distinct points (" + std::to_string(all) + " in all); expected at "
-                             "least " + std::to_string(fewest_points) +
+                             " distinct points (" + std::to_string(all) +
+                             " in all); expected at "
+                             "least " +
+                             std::to_string(fewest_points) +
                              " on a breast's skin: is the scan complete?");
   require_breast_size(path.string(), points);
   if (thickness(points) < flattest_mm)
@@ -142,11 +144,11 @@ ScanCloud clean_scan(const std::vector<Eigen::Vector3d>& raw) {
   for (const auto& x : raw) points.emplace_back(x.x(), x.y(), x.z());
   const double spacing =
       CGAL::compute_average_spacing<CGAL::Sequential_tag>(points, outlier_neighbours);
-  points.erase(CGAL::remove_outliers<CGAL::Sequential_tag>(
-                   points, outlier_neighbours,
-                   CGAL::parameters::threshold_percent(100).threshold_distance(
-                       outlier_spacings * spacing)),
-               points.end());
+  points.erase(
+      CGAL::remove_outliers<CGAL::Sequential_tag>(
+          points, outlier_neighbours,
+          CGAL::parameters::threshold_percent(100).threshold_distance(outlier_spacings * spacing)),
+      points.end());
   ScanCloud cloud;
   cloud.outliers = static_cast<int>(raw.size() - points.size());
   Points smooth = points;

@@ -4,8 +4,8 @@
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/border.h>
 #include <CGAL/Polygon_mesh_processing/connected_components.h>
-#include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
 #include <CGAL/Polygon_mesh_processing/manifoldness.h>
+#include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
 #include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
 #include <CGAL/Polygon_mesh_processing/triangulate_hole.h>
 #include <CGAL/Surface_mesh.h>
@@ -27,8 +27,8 @@ constexpr double longest_edge_mm = 6;  // four times the spacing of cleaned poin
 double longest_edge(const Mesh& mesh, Mesh::Face_index face) {
   double longest = 0;
   for (Halfedge h : CGAL::halfedges_around_face(mesh.halfedge(face), mesh))
-    longest = std::max(longest, CGAL::squared_distance(mesh.point(mesh.source(h)),
-                                                       mesh.point(mesh.target(h))));
+    longest = std::max(
+        longest, CGAL::squared_distance(mesh.point(mesh.source(h)), mesh.point(mesh.target(h))));
   return std::sqrt(longest);
 }
 
@@ -59,7 +59,8 @@ Mesh joined(const std::vector<Eigen::Vector3d>& points) {
 double length(const Mesh& mesh, Halfedge border) {
   double sum = 0;
   for (Halfedge h : CGAL::halfedges_around_face(border, mesh))
-    sum += std::sqrt(CGAL::squared_distance(mesh.point(mesh.source(h)), mesh.point(mesh.target(h))));
+    sum +=
+        std::sqrt(CGAL::squared_distance(mesh.point(mesh.source(h)), mesh.point(mesh.target(h))));
   return sum;
 }
 
@@ -69,9 +70,9 @@ int fill_holes(Mesh& mesh) {
   processing::extract_boundary_cycles(mesh, std::back_inserter(borders));
   if (borders.empty())
     throw std::runtime_error("the scan closes on itself; expected a skin with an outer rim");
-  const auto longest = *std::max_element(
-      borders.begin(), borders.end(),
-      [&](Halfedge a, Halfedge b) { return length(mesh, a) < length(mesh, b); });
+  const auto longest =
+      *std::max_element(borders.begin(), borders.end(),
+                        [&](Halfedge a, Halfedge b) { return length(mesh, a) < length(mesh, b); });
   int holes = 0;
   for (Halfedge border : borders) {
     if (border == longest) continue;
@@ -111,9 +112,12 @@ ScanSurface scan_surface(const std::vector<Eigen::Vector3d>& points) {
   const int euler = euler_characteristic(result.surface);
   const auto loops = boundary_loops(result.surface);
   if (euler != 1 || loops.size() != 1)
-    throw std::runtime_error("the scan's points do not join to one sheet of skin (Euler "
-                             "characteristic " + std::to_string(euler) + ", expected 1): are there "
-                             "too few points, or two layers of them?");
+    throw std::runtime_error(
+        "the scan's points do not join to one sheet of skin (Euler "
+        "characteristic " +
+        std::to_string(euler) +
+        ", expected 1): are there "
+        "too few points, or two layers of them?");
   result.rim = loops.front();
   return result;
 }

@@ -1,21 +1,19 @@
 #include "fitting/scan/scanned_breast.h"
 
-#include "fitting/scan/scan_surface.h"
-#include "segmentation/body/breast_region.h"
-#include "segmentation/landmarks.h"
-
 #include <CGAL/AABB_traits.h>
 #include <CGAL/AABB_tree.h>
 #include <CGAL/AABB_triangle_primitive.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <tbb/parallel_for.h>
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
-
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <stdexcept>
+
+#include "fitting/scan/scan_surface.h"
+#include "segmentation/body/breast_region.h"
+#include "segmentation/landmarks.h"
 
 namespace mammotwin {
 
@@ -61,8 +59,9 @@ Eigen::Isometry3d bring_to_frame(const Plane& base, const Eigen::Vector3d& up, S
   const Eigen::Vector3d y = -base.normal;
   const Eigen::Vector3d z = (up - up.dot(y) * y);
   if (z.norm() < steepest * up.norm())
-    throw std::runtime_error("scan.up points along the normal of the base plane; expected the "
-                             "direction to the head in the file's axes");
+    throw std::runtime_error(
+        "scan.up points along the normal of the base plane; expected the "
+        "direction to the head in the file's axes");
   Eigen::Matrix3d axes;
   axes << y.cross(z.normalized()).transpose(), y.transpose(), z.normalized().transpose();
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
@@ -96,7 +95,8 @@ class Columns {
   std::vector<double> operator()(double x, double z) const {
     // Off the axis by no simple fraction, so that no edge is met exactly.
     constexpr double off = 1.234567e-5;
-    const Kernel::Line_3 line(Kernel::Point_3(x + off, 0, z + 0.7 * off), Kernel::Vector_3(0, 1, 0));
+    const Kernel::Line_3 line(Kernel::Point_3(x + off, 0, z + 0.7 * off),
+                              Kernel::Vector_3(0, 1, 0));
     std::vector<typename Tree::template Intersection_and_primitive_id<Kernel::Line_3>::Type> hits;
     tree_.all_intersections(line, std::back_inserter(hits));
     std::vector<double> ys;
@@ -138,8 +138,10 @@ Volume<std::uint8_t> labels_under(const TriangleSurface& skin) {
       for (int j = 0; j < size.y(); ++j) {
         const double y = labels.position(i, j, k).y();
         const auto before = std::lower_bound(ys.begin(), ys.end(), y) - ys.begin();
-        if (y > 0) labels(i, j, k) = label::muscle;
-        else if (before % 2) labels(i, j, k) = label::fat;
+        if (y > 0)
+          labels(i, j, k) = label::muscle;
+        else if (before % 2)
+          labels(i, j, k) = label::fat;
       }
     }
   });

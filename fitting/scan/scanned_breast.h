@@ -1,9 +1,9 @@
 #pragma once
 
+#include <Eigen/Geometry>
+
 #include "fitting/fit_breast.h"
 #include "fitting/scan/scan_cloud.h"
-
-#include <Eigen/Geometry>
 
 namespace mammotwin {
 
@@ -13,7 +13,7 @@ struct ScanOptions {
   /// A point of the base plane and its normal, away from the breast's tip or towards it, in the
   /// file's axes and unit. Default: the plane of the scan's rim, `base_depth_mm` behind it.
   std::optional<Eigen::Vector3d> base_point, base_normal;
-  double base_depth_mm = 10;  ///< 2 to 100 [mm]
+  double base_depth_mm = 10;                      ///< 2 to 100 [mm]
   Eigen::Vector3d up = Eigen::Vector3d::UnitZ();  ///< towards the head, in the file's axes
   Side side = Side::left;
 };
@@ -25,7 +25,7 @@ struct ScannedBreast {
   Segmentation segmentation;
   ScannedSkin skin;
   Eigen::Isometry3d frame_from_file = Eigen::Isometry3d::Identity();  ///< after scaling to mm
-  int points = 0, outliers = 0, holes = 0;  ///< read, taken out, filled
+  int points = 0, outliers = 0, holes = 0;                            ///< read, taken out, filled
 };
 
 /// Throws std::runtime_error naming the file and the likely cause (read_scan_points,

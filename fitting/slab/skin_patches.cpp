@@ -1,11 +1,10 @@
 #include "fitting/slab/skin_patches.h"
 
-#include "fitting/mesh/bezier.h"
-
 #include <Eigen/Geometry>
 #include <Eigen/LU>
-
 #include <algorithm>
+
+#include "fitting/mesh/bezier.h"
 
 namespace mammotwin {
 

@@ -1,11 +1,10 @@
 #include "fitting/slab/slab.h"
 
+#include <Eigen/Cholesky>
+#include <algorithm>
+
 #include "fitting/mesh/block_mesh.h"
 #include "fitting/mesh/hermite_basis.h"
-
-#include <Eigen/Cholesky>
-
-#include <algorithm>
 
 namespace mammotwin {
 
@@ -19,8 +18,11 @@ constexpr double start_smoothing = 1e-7;
 class SurfaceFit {
  public:
   SurfaceFit(int nx, int ny)
-      : nx_(nx), ny_(ny), size_(4 * (nx + 1) * (ny + 1)),
-        normal_(Eigen::MatrixXd::Zero(size_, size_)), right_(Eigen::MatrixXd::Zero(size_, 3)) {
+      : nx_(nx),
+        ny_(ny),
+        size_(4 * (nx + 1) * (ny + 1)),
+        normal_(Eigen::MatrixXd::Zero(size_, size_)),
+        right_(Eigen::MatrixXd::Zero(size_, 3)) {
     add_smoothing();
   }
 

@@ -1,9 +1,9 @@
 #pragma once
 
-#include "fitting/surface/wall_height.h"
-#include "fitting/surface/flatten.h"
-#include "fitting/slab/grading.h"
 #include "fitting/mesh/mesh_file.h"
+#include "fitting/slab/grading.h"
+#include "fitting/surface/flatten.h"
+#include "fitting/surface/wall_height.h"
 
 namespace mammotwin {
 
@@ -22,9 +22,7 @@ struct Slab {
   int node(int i, int j, int k) const {
     return i + (elements.x() + 1) * (j + (elements.y() + 1) * k);
   }
-  int element(int i, int j, int k) const {
-    return i + elements.x() * (j + elements.y() * k);
-  }
+  int element(int i, int j, int k) const { return i + elements.x() * (j + elements.y() * k); }
 };
 
 /// Which nodal parameters are held: side faces lie in the region's planes, so that there the

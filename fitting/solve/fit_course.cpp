@@ -1,10 +1,10 @@
 #include "fitting/solve/fit_course.h"
 
-#include "fitting/mesh/jacobian_bound.h"
-#include "fitting/solve/newton_step.h"
-
 #include <algorithm>
 #include <optional>
+
+#include "fitting/mesh/jacobian_bound.h"
+#include "fitting/solve/newton_step.h"
 
 namespace mammotwin {
 
@@ -41,9 +41,14 @@ class Fit {
  public:
   Fit(const Slab& slab, HermiteMesh start, FitTarget& target, FitReport& report,
       const FitProgress& progress)
-      : slab_(slab), start_(std::move(start)), nodes_(start_.nodes()),
-        emphasis_(start_.num_elements(), 0), target_(target),
-        newton_(start_.elements(), held_parameters(slab)), report_(report), progress_(progress) {}
+      : slab_(slab),
+        start_(std::move(start)),
+        nodes_(start_.nodes()),
+        emphasis_(start_.num_elements(), 0),
+        target_(target),
+        newton_(start_.elements(), held_parameters(slab)),
+        report_(report),
+        progress_(progress) {}
 
   HermiteMesh mesh() const { return HermiteMesh(nodes_, start_.elements()); }
 
@@ -99,7 +104,7 @@ class Fit {
     };
   }
 
-  static constexpr double stuck_length = 0.2;    // of a full step
+  static constexpr double stuck_length = 0.2;  // of a full step
 
   Slab slab_;
   HermiteMesh start_;
@@ -141,8 +146,8 @@ Slab slab_around_nipple(const Eigen::Vector3i& elements, const FitGoal& goal) {
       goal.flat.uv[std::min_element(skin.begin(), skin.end(), nearer) - skin.begin()];
   Slab slab{elements};
   for (int a = 0; a < 2; ++a)
-    slab.grading[a] = Grading(std::clamp(nipple[a], 0.05, 0.95), grading_strength, grading_width,
-                              elements[a]);
+    slab.grading[a] =
+        Grading(std::clamp(nipple[a], 0.05, 0.95), grading_strength, grading_width, elements[a]);
   return slab;
 }
 

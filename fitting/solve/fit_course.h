@@ -1,9 +1,9 @@
 #pragma once
 
+#include <optional>
+
 #include "fitting/fit_breast.h"
 #include "fitting/solve/fit_samples.h"
-
-#include <optional>
 
 namespace mammotwin {
 
@@ -18,8 +18,8 @@ struct FitGoal {
 
 /// How a fit ended.
 struct FitCourse {
-  HermiteMesh mesh;     ///< the last one, valid or not
-  bool valid = false;   ///< det(∂x/∂ξ) > 0 is proved
+  HermiteMesh mesh;    ///< the last one, valid or not
+  bool valid = false;  ///< det(∂x/∂ξ) > 0 is proved
 };
 
 /// Columns gathered round the nipple, as many as asked.

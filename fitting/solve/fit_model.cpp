@@ -1,9 +1,8 @@
 #include "fitting/solve/fit_model.h"
 
-#include <Eigen/LU>
-
 #include <tbb/parallel_for.h>
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
@@ -17,9 +16,7 @@ std::vector<double> lobatto_points() {
   return {0, 0.5 - s, 0.5, 0.5 + s, 1};
 }
 
-std::vector<double> even_points() {
-  return {0, 0.125, 0.25, 0.375, 0.5, 0.625, 0.75, 0.875, 1};
-}
+std::vector<double> even_points() { return {0, 0.125, 0.25, 0.375, 0.5, 0.625, 0.75, 0.875, 1}; }
 
 Eigen::Matrix<double, 1, 64> basis_row(const Eigen::Vector3d& xi, const std::array<int, 3>& order) {
   const HermiteMesh::Weights w = HermiteMesh::weights(xi, order);
@@ -103,7 +100,10 @@ Eigen::Matrix<double, 64, 64> smoothing_matrix(const Eigen::Vector3i& n) {
 
 FitModel::FitModel(const Slab& slab, const HermiteMesh& start, double mu, double sobolev,
                    std::vector<int> emphasis)
-    : elements_(start.elements()), mu_(mu), sobolev_(sobolev), centre_(Eigen::Vector3d::Zero()),
+    : elements_(start.elements()),
+      mu_(mu),
+      sobolev_(sobolev),
+      centre_(Eigen::Vector3d::Zero()),
       emphasis_(std::move(emphasis)),
       grids_{TensorHessian(lobatto_points(), mean_lengths(start)),
              TensorHessian(even_points(), mean_lengths(start))},

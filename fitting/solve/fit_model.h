@@ -1,7 +1,7 @@
 #pragma once
 
-#include "fitting/solve/foldover_energy.h"
 #include "fitting/slab/slab.h"
+#include "fitting/solve/foldover_energy.h"
 #include "fitting/solve/tensor_hessian.h"
 
 namespace mammotwin {
@@ -19,10 +19,10 @@ struct PlaneSample {
 ///
 /// u in [0,1]³ runs through the whole slab; e is the foldover-free energy of F = ∂x/∂ξ with
 /// column i divided by the length that the element should have along ξᵢ₊₁ (across the skin the mean
-/// times what the slab's grading asks, through it the start's), at 5³ Lobatto points an element, all of equal weight
-/// (quadrature weights would let corners degenerate). An element may be
-/// given emphasis n > 0: its energy counts 4ⁿ times and is taken at 9³ even points, for folds
-/// that hide between the 5³.
+/// times what the slab's grading asks, through it the start's), at 5³ Lobatto points an element,
+/// all of equal weight (quadrature weights would let corners degenerate). An element may be given
+/// emphasis n > 0: its energy counts 4ⁿ times and is taken at 9³ even points, for folds that hide
+/// between the 5³.
 class FitModel {
  public:
   static constexpr int element_size = 192;  ///< 24·corner + 3·parameter + component
@@ -51,7 +51,8 @@ class FitModel {
 
  private:
   using Shape = Eigen::Matrix<double, 3, 64>;
-  using Gradients = Eigen::Matrix<double, 3, Eigen::Dynamic>;  ///< column i of F of every point, then column i + 1
+  using Gradients = Eigen::Matrix<double, 3, Eigen::Dynamic>;  ///< column i of F of every point,
+                                                               ///< then column i + 1
   Shape shape(const std::vector<HermiteMesh::Node>& nodes, int element) const;
   double smallest_determinant(const std::vector<HermiteMesh::Node>& nodes) const;
   const TensorHessian& grid(int element) const { return grids_[emphasis_[element] > 0]; }
@@ -74,13 +75,13 @@ class FitModel {
 
   std::vector<HermiteMesh::Corners> elements_;
   double mu_, sobolev_;
-  Eigen::Vector3d centre_;                  ///< positions are taken from here, for rounding
+  Eigen::Vector3d centre_;  ///< positions are taken from here, for rounding
   std::vector<int> emphasis_;
-  std::array<TensorHessian, 2> grids_;      ///< without and with emphasis
+  std::array<TensorHessian, 2> grids_;  ///< without and with emphasis
   /// Of these: row i N + q is ∂/∂ξᵢ₊₁ of every basis function at point q of N, scaled.
   std::array<Eigen::MatrixXd, 2> gradients_;
   Eigen::Matrix<double, 64, 64> smoothing_;
-  std::vector<Eigen::Vector3d> stretch_;    ///< of each element: typical length over wanted one
+  std::vector<Eigen::Vector3d> stretch_;  ///< of each element: typical length over wanted one
   std::vector<Linear> linear_;
   FoldoverEnergy energy_;
 };

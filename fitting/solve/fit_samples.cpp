@@ -1,9 +1,8 @@
 #include "fitting/solve/fit_samples.h"
 
-#include <Eigen/Geometry>
-
 #include <tbb/parallel_for.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <numeric>
 
@@ -39,7 +38,12 @@ std::vector<double> length_shares(const TriangleSurface& skin, const std::vector
 
 FitTarget::FitTarget(const Slab& slab, const TriangleSurface& skin, const FlatSkin& flat,
                      const HeightField& wall, const Eigen::Vector3d& nipple)
-    : slab_(slab), skin_(skin), flat_(flat), wall_(wall), nipple_(nipple), closest_(skin),
+    : slab_(slab),
+      skin_(skin),
+      flat_(flat),
+      wall_(wall),
+      nipple_(nipple),
+      closest_(skin),
       areas_(skin.vertex_areas()) {
   const double total = std::accumulate(areas_.begin(), areas_.end(), 0.0);
   for (double& a : areas_) a /= total;
@@ -133,8 +137,8 @@ void FitTarget::add_wall(const HermiteMesh& mesh, double weight,
   const double share = 1.0 / (faces * wall_samples * wall_samples);
   for (int face = 0; face < faces; ++face)
     for (int m = 0; m < wall_samples * wall_samples; ++m) {
-      const MeshPoint p{face, Eigen::Vector3d(m % wall_samples, m / wall_samples, 0) /
-                                  (wall_samples - 1)};
+      const MeshPoint p{
+          face, Eigen::Vector3d(m % wall_samples, m / wall_samples, 0) / (wall_samples - 1)};
       const Eigen::Vector3d x = mesh.position(p);
       const Eigen::Vector2d slope = wall_.slope(x.x(), x.z());
       const Eigen::Vector3d target(x.x(), wall_(x.x(), x.z()), x.z());

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "fitting/surface/closest_point.h"
-#include "fitting/solve/fit_model.h"
 #include "fitting/slab/skin_patches.h"
+#include "fitting/solve/fit_model.h"
+#include "fitting/surface/closest_point.h"
 
 namespace mammotwin {
 
@@ -40,8 +40,8 @@ class FitTarget {
   const HeightField& wall_;
   Eigen::Vector3d nipple_;
   ClosestPoint closest_;
-  std::vector<double> areas_;                            ///< share of each vertex, sum 1
-  std::vector<SkinPatches::Coordinates> feet_;           ///< of each vertex
+  std::vector<double> areas_;                   ///< share of each vertex, sum 1
+  std::vector<SkinPatches::Coordinates> feet_;  ///< of each vertex
   std::array<std::vector<SkinPatches::Coordinates>, 4> edge_feet_;
   double skin_rms_ = 0;
 };

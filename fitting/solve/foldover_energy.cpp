@@ -4,7 +4,6 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <Eigen/SVD>
-
 #include <algorithm>
 #include <cmath>
 
@@ -27,7 +26,8 @@ Parts parts(double I, double d, double epsilon) {
   const double q = d * d + 1;
   const double b = q / (2 * g);
   const double b1 = d / g - q * g1 / (2 * g * g);
-  const double b2 = 1 / g - 2 * d * g1 / (g * g) - q / 2 * (g2 / (g * g) - 2 * g1 * g1 / (g * g * g));
+  const double b2 =
+      1 / g - 2 * d * g1 / (g * g) - q / 2 * (g2 / (g * g) - 2 * g1 * g1 / (g * g * g));
   return {I * a + volume_weight * b, a, I * a1 * g1 + volume_weight * b1, a1 * g1,
           I * (a2 * g1 * g1 + a1 * g2) + volume_weight * b2};
 }

@@ -1,15 +1,14 @@
 #include "fitting/solve/newton_step.h"
 
-#include "fitting/solve/one_blas_thread.h"
-
-#include <Eigen/CholmodSupport>
-
 #include <tbb/parallel_for.h>
 
+#include <Eigen/CholmodSupport>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <utility>
+
+#include "fitting/solve/one_blas_thread.h"
 
 namespace mammotwin {
 
@@ -39,7 +38,8 @@ struct Cholmod {
 };
 
 /// Nodes in the order, of three, that eliminates cheapest.
-std::vector<int> elimination_order(int num_nodes, const std::vector<HermiteMesh::Corners>& elements) {
+std::vector<int> elimination_order(int num_nodes,
+                                   const std::vector<HermiteMesh::Corners>& elements) {
   std::vector<Eigen::Triplet<double>> pairs;
   for (const HermiteMesh::Corners& corners : elements)
     for (int a : corners)
@@ -66,7 +66,7 @@ struct NewtonStep::System {
   using Sparse = Eigen::SparseMatrix<double>;
 
   std::vector<HermiteMesh::Corners> elements;
-  std::vector<int> equation;             ///< of parameter 24·node + p, −1 if held
+  std::vector<int> equation;  ///< of parameter 24·node + p, −1 if held
   Sparse matrix;
   std::vector<std::vector<int>> places;  ///< in matrix values, of an element's lower entries; −1
   Eigen::VectorXd gradient;

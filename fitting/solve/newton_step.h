@@ -1,9 +1,9 @@
 #pragma once
 
-#include "fitting/solve/fit_model.h"
-
 #include <functional>
 #include <memory>
+
+#include "fitting/solve/fit_model.h"
 
 namespace mammotwin {
 

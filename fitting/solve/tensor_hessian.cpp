@@ -1,8 +1,8 @@
 #include "fitting/solve/tensor_hessian.h"
 
-#include "fitting/mesh/hermite_basis.h"
-
 #include <cmath>
+
+#include "fitting/mesh/hermite_basis.h"
 
 namespace mammotwin {
 
@@ -15,9 +15,9 @@ using Sixteen = double __attribute__((vector_size(128), aligned(8), may_alias));
 
 /// out[m] += Σ_k in[k][m] table[k]: contracts the slowest index of `in` and appends a pair of
 /// functions as the fastest. One body, three instruction sets; the loader picks one.
-__attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
-void contract(const std::vector<double>& in, std::size_t from, int count,
-              const std::vector<double>& table, std::vector<double>& out) {
+__attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default"))) void contract(
+    const std::vector<double>& in, std::size_t from, int count, const std::vector<double>& table,
+    std::vector<double>& out) {
   const int n = static_cast<int>(table.size()) / width;
   for (int m = 0; m < count; ++m) {
     Sixteen& sum_out = *reinterpret_cast<Sixteen*>(&out[static_cast<std::size_t>(width) * m]);

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "fitting/surface/triangle_surface.h"
-
 #include <memory>
+
+#include "fitting/surface/triangle_surface.h"
 
 namespace mammotwin {
 

@@ -1,7 +1,5 @@
 #include "fitting/surface/flatten.h"
 
-#include "fitting/solve/one_blas_thread.h"
-
 #include <CGAL/Eigen_solver_traits.h>
 #include <CGAL/Polygon_mesh_processing/measure.h>
 #include <CGAL/Simple_cartesian.h>
@@ -11,9 +9,10 @@
 #include <CGAL/Surface_mesh_parameterization/parameterize.h>
 
 #include <Eigen/UmfPackSupport>
-
 #include <algorithm>
 #include <stdexcept>
+
+#include "fitting/solve/one_blas_thread.h"
 
 namespace mammotwin {
 
@@ -25,8 +24,8 @@ using SurfaceMesh = CGAL::Surface_mesh<Kernel::Point_3>;
 using Vertex = SurfaceMesh::Vertex_index;
 using Border = parameterization::Square_border_arc_length_parameterizer_3<SurfaceMesh>;
 // CGAL's default, BiCGSTAB on an incomplete LU, can leave NaN without a word.
-using Solver = CGAL::Eigen_solver_traits<
-    Eigen::UmfPackLU<CGAL::Eigen_sparse_matrix<double>::EigenType>>;
+using Solver =
+    CGAL::Eigen_solver_traits<Eigen::UmfPackLU<CGAL::Eigen_sparse_matrix<double>::EigenType>>;
 using MeanValue =
     parameterization::Mean_value_coordinates_parameterizer_3<SurfaceMesh, Border, Solver>;
 
@@ -113,7 +112,9 @@ FlatSkin flatten(const TriangleSurface& skin, const BreastRegion& region) {
   // CGAL lays the first of the four that it meets at (0, 0).
   while (static_cast<int>(mesh.source(border)) != loop[place[0]]) border = mesh.next(border);
   // CGAL wants the corners in the order in which its border passes them.
-  const auto passes = [&](auto h, int c) { return static_cast<int>(mesh.target(h)) == loop[place[c]]; };
+  const auto passes = [&](auto h, int c) {
+    return static_cast<int>(mesh.target(h)) == loop[place[c]];
+  };
   auto next = border;
   while (!passes(next, 1) && !passes(next, 3)) next = mesh.next(next);
   const bool swapped = passes(next, 3);
@@ -129,7 +130,8 @@ FlatSkin flatten(const TriangleSurface& skin, const BreastRegion& region) {
                               : Eigen::Vector2d(uv[v].x(), uv[v].y()));
   for (const Eigen::Vector2d& uv : flat.uv)
     if (!uv.allFinite())
-      throw std::runtime_error("the skin surface cannot be laid on a square: its triangles are degenerate");
+      throw std::runtime_error(
+          "the skin surface cannot be laid on a square: its triangles are degenerate");
   return flat;
 }
 

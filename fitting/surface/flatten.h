@@ -1,9 +1,9 @@
 #pragma once
 
+#include <string>
+
 #include "fitting/surface/triangle_surface.h"
 #include "segmentation/segmentation.h"
-
-#include <string>
 
 namespace mammotwin {
 

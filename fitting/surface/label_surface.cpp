@@ -1,7 +1,6 @@
 #include "fitting/surface/label_surface.h"
 
 #include <tbb/parallel_for.h>
-
 #include <vtkCellArray.h>
 #include <vtkFlyingEdges3D.h>
 #include <vtkIdList.h>
@@ -52,7 +51,8 @@ Mask body_in_window(const Mask& labels, const BreastRegion& region, const Height
     for (int i = 0; i < body.size.x(); ++i) {
       const Eigen::Vector3d column = body.position(i, 0, k);
       const double wall_y = wall(column.x(), column.z());
-      const int from_i = std::clamp(i + i0, xs[0], xs[1]), from_k = std::clamp(k + k0, zs[0], zs[1]);
+      const int from_i = std::clamp(i + i0, xs[0], xs[1]),
+                from_k = std::clamp(k + k0, zs[0], zs[1]);
       bool any = false;
       for (int j = 0; j < body.size.y(); ++j) {
         const bool labelled = j >= front && labels(from_i, j - front, from_k) != label::air;

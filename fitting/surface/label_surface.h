@@ -1,7 +1,7 @@
 #pragma once
 
-#include "fitting/surface/wall_height.h"
 #include "fitting/surface/triangle_surface.h"
+#include "fitting/surface/wall_height.h"
 
 namespace mammotwin {
 

@@ -24,8 +24,7 @@ TriangleSurface read_surface(const std::filesystem::path& path) {
     for (std::size_t k = 2; k < polygon.size(); ++k)
       surface.triangles.push_back({static_cast<int>(polygon[0]), static_cast<int>(polygon[k - 1]),
                                    static_cast<int>(polygon[k])});
-  if (surface.triangles.empty())
-    throw std::runtime_error(path.string() + ": holds no triangle");
+  if (surface.triangles.empty()) throw std::runtime_error(path.string() + ": holds no triangle");
   return surface;
 }
 

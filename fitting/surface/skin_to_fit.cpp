@@ -1,13 +1,13 @@
 #include "fitting/surface/skin_to_fit.h"
 
-#include "fitting/surface/flatten.h"
-#include "fitting/surface/label_surface.h"
-
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <numeric>
 #include <stdexcept>
+
+#include "fitting/surface/flatten.h"
+#include "fitting/surface/label_surface.h"
 
 namespace mammotwin {
 
@@ -15,8 +15,8 @@ namespace {
 
 constexpr double sigma_mm = 1;
 constexpr double spacing_mm = 2;
-constexpr double snap_mm = 0.1;  // a twentieth of the spacing
-constexpr std::array<int, 3> closings = {2, 3, 5};                 // voxels
+constexpr double snap_mm = 0.1;                                     // a twentieth of the spacing
+constexpr std::array<int, 3> closings = {2, 3, 5};                  // voxels
 constexpr std::array<double, 7> pulls = {3, 6, 9, 12, 15, 18, 21};  // [mm]
 constexpr double lesion_margin_mm = 3;
 constexpr double edge_reach_mm = 40;  // an element and a half

@@ -1,9 +1,9 @@
 #pragma once
 
-#include "fitting/surface/wall_height.h"
-#include "fitting/surface/triangle_surface.h"
-
 #include <string>
+
+#include "fitting/surface/triangle_surface.h"
+#include "fitting/surface/wall_height.h"
 
 namespace mammotwin {
 

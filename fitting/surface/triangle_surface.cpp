@@ -1,7 +1,6 @@
 #include "fitting/surface/triangle_surface.h"
 
 #include <Eigen/Geometry>
-
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -67,7 +66,8 @@ class Clipper {
 
   int crossing(int a, int b) {
     const Edge key = edge(a, b);
-    const auto [at, is_new] = crossings_.try_emplace(key, static_cast<int>(surface_.vertices.size()));
+    const auto [at, is_new] =
+        crossings_.try_emplace(key, static_cast<int>(surface_.vertices.size()));
     if (is_new) {
       const double t = height_[key.first] / (height_[key.first] - height_[key.second]);
       surface_.vertices.push_back((1 - t) * surface_.vertices[key.first] +

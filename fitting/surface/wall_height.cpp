@@ -8,9 +8,9 @@ namespace mammotwin {
 
 namespace {
 
-constexpr int smallest_muscle = 2000;   // voxels; vessels and specks are smaller
-constexpr int median_radius = 4;        // columns
-constexpr double gaussian_sigma = 2.0;  // [mm]
+constexpr int smallest_muscle = 2000;     // voxels; vessels and specks are smaller
+constexpr int median_radius = 4;          // columns
+constexpr double gaussian_sigma = 2.0;    // [mm]
 constexpr double pit_slope = 1.5;         // steeper pits fold the slab
 constexpr double lesion_clearance = 1.0;  // [mm], what the fit's wall strays by
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
@@ -46,10 +46,9 @@ std::vector<std::uint8_t> large_muscle(const Volume<std::uint8_t>& labels) {
     state[seed] = 1;
     for (std::size_t at = 0; at < piece.size(); ++at) {
       const std::size_t v = piece[at];
-      const std::array<int, 3> index = {
-          static_cast<int>(v % labels.size.x()),
-          static_cast<int>(v / labels.size.x() % labels.size.y()),
-          static_cast<int>(v / labels.size.x() / labels.size.y())};
+      const std::array<int, 3> index = {static_cast<int>(v % labels.size.x()),
+                                        static_cast<int>(v / labels.size.x() % labels.size.y()),
+                                        static_cast<int>(v / labels.size.x() / labels.size.y())};
       for (int axis = 0; axis < 3; ++axis)
         for (int step : {-1, 1}) {
           const int next = index[axis] + step;
@@ -215,8 +214,8 @@ void hold_lesions(const Volume<std::uint8_t>& labels, const ColumnRange& range,
     const int rk = static_cast<int>(excess / pit_slope / labels.spacing.z()) + 1;
     for (int k = std::max(range.k0, end.k - rk); k <= std::min(range.k1, end.k + rk); ++k)
       for (int i = std::max(range.i0, end.i - ri); i <= std::min(range.i1, end.i + ri); ++i) {
-        const double distance = std::hypot((i - end.i) * labels.spacing.x(),
-                                           (k - end.k) * labels.spacing.z());
+        const double distance =
+            std::hypot((i - end.i) * labels.spacing.x(), (k - end.k) * labels.spacing.z());
         double& h = heights[i + static_cast<std::size_t>(labels.size.x()) * k];
         h = std::max(h, y - pit_slope * distance);
       }
@@ -235,8 +234,12 @@ void extend(const ColumnRange& range, int nx, int nz, std::vector<double>& heigh
 }  // namespace
 
 HeightField::HeightField(const Volume<std::uint8_t>& grid, std::vector<double> heights)
-    : size_x_(grid.size.x()), size_z_(grid.size.z()), origin_x_(grid.origin.x()),
-      origin_z_(grid.origin.z()), spacing_x_(grid.spacing.x()), spacing_z_(grid.spacing.z()),
+    : size_x_(grid.size.x()),
+      size_z_(grid.size.z()),
+      origin_x_(grid.origin.x()),
+      origin_z_(grid.origin.z()),
+      spacing_x_(grid.spacing.x()),
+      spacing_z_(grid.spacing.z()),
       heights_(std::move(heights)) {}
 
 double HeightField::operator()(double x, double z) const {
@@ -263,8 +266,8 @@ ChestWall find_chest_wall(const Volume<std::uint8_t>& labels, const BreastRegion
   for (int k = range.k0; k <= range.k1; ++k)
     for (int i = range.i0; i <= range.i1; ++i) {
       const double y = raw.muscle[i + static_cast<std::size_t>(nx) * k];
-      if (!std::isnan(y)) wall.labelled.push_back({labels.position(i, 0, k).x(), y,
-                                                   labels.position(i, 0, k).z()});
+      if (!std::isnan(y))
+        wall.labelled.push_back({labels.position(i, 0, k).x(), y, labels.position(i, 0, k).z()});
     }
   std::vector<double> heights = raw.muscle;
   fill_open_gaps(raw, range, nx, heights);

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "segmentation/segmentation.h"
-
 #include <vector>
+
+#include "segmentation/segmentation.h"
 
 namespace mammotwin {
 

@@ -1,9 +1,8 @@
 #include "fitting/tissue/cell_tissue.h"
 
-#include <Eigen/LU>
-
 #include <tbb/parallel_for.h>
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -109,8 +108,8 @@ struct Tally {
   std::vector<double> room;    ///< the largest share that a cell may have
   double volume = 0;           ///< of the voxels [mm³]
 
-  /// A cell has a few voxels more or fewer than its weight: shares that are less than all are scaled
-  /// until the points hold the voxels' volume.
+  /// A cell has a few voxels more or fewer than its weight: shares that are less than all are
+  /// scaled until the points hold the voxels' volume.
   void keep_volume() {
     constexpr int rounds = 5;  // each leaves what newly full cells could not take
     for (int round = 0; round < rounds; ++round) {

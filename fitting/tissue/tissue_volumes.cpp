@@ -1,7 +1,6 @@
 #include "fitting/tissue/tissue_volumes.h"
 
 #include <Eigen/LU>
-
 #include <array>
 
 namespace mammotwin {

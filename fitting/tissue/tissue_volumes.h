@@ -1,9 +1,9 @@
 #pragma once
 
+#include <functional>
+
 #include "fitting/mesh/hermite_mesh.h"
 #include "segmentation/segmentation.h"
-
-#include <functional>
 
 namespace mammotwin {
 

@@ -129,7 +129,8 @@ std::string outliers_html(const std::vector<Distribution>& distributions, const 
          table_html(
              "Figures more than 1.5 interquartile ranges outside the quartiles, for the up to " +
                  std::to_string(kMostOutlyingPatients) +
-                 " patients who have most of them; those of others stand below their figures. An outlier is a reason to look, not an error.",
+                 " patients who have most of them; those of others stand below their figures. An "
+                 "outlier is a reason to look, not an error.",
              {"patient", "how many", "which"}, rows);
 }
 

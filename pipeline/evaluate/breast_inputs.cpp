@@ -5,10 +5,10 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "pipeline/patient/compression_settings.h"
 #include "pipeline/evaluate/real_breasts.h"
 #include "pipeline/evaluate/stage_command.h"
 #include "pipeline/frame/products.h"
+#include "pipeline/patient/compression_settings.h"
 #include "pipeline/synthesize/option_table.h"
 #include "pipeline/synthesize/patient.h"
 #include "registration/view/view_frame.h"
@@ -70,7 +70,8 @@ std::string side_toml(Side side) { return "side = \"" + name_of(side) + "\"\n"; 
 /// with its reason where it left no product.
 json run_stage_in(const fs::path& folder, const std::string& stage,
                   const std::vector<std::string>& arguments, const std::string& product) {
-  const StageEnd end = run_stage_command(stage, arguments, folder / (stage + ".log"), kMostCpuSeconds);
+  const StageEnd end =
+      run_stage_command(stage, arguments, folder / (stage + ".log"), kMostCpuSeconds);
   const json sidecar = read_json(folder / (product + ".json"));
   if (end.exit_code == 0) return sidecar;
   const json reasons = sidecar.value("reasons", json::array());
@@ -81,11 +82,10 @@ json run_stage_in(const fs::path& folder, const std::string& stage,
 
 json segment_label_map(const LabelMapBreast& breast, const fs::path& folder) {
   write_text_atomically(folder / "patient.toml", side_toml(breast.side) + labels_toml(breast.file));
-  const json sidecar =
-      run_stage_in(folder, "segment",
-                   {(folder / "segmentation.seg.nrrd").string(), "--patient",
-                    (folder / "patient.toml").string()},
-                   "segmentation.seg.nrrd");
+  const json sidecar = run_stage_in(folder, "segment",
+                                    {(folder / "segmentation.seg.nrrd").string(), "--patient",
+                                     (folder / "patient.toml").string()},
+                                    "segmentation.seg.nrrd");
   const json& q = sidecar.at("quality");
   return {{"side", name_of(breast.side)},
           {"volume_ml", q.at("breast_volume_ml")},
@@ -149,8 +149,9 @@ void write_toml(const EvaluatedBreast& breast, const PreparedBreast& prepared) {
   if (breast.synthetic) {
     const CompressionSettings defaults;
     const double gland = breast.synthetic->stiffness_ratio * defaults.fat.c1_kpa;
-    toml << "[materials]\nfibroglandular.c1_kpa = " << gland << "\nlesion.c1_kpa = "
-         << gland * defaults.lesion.c1_kpa / defaults.fibroglandular.c1_kpa << "\n";
+    toml << "[materials]\nfibroglandular.c1_kpa = " << gland
+         << "\nlesion.c1_kpa = " << gland * defaults.lesion.c1_kpa / defaults.fibroglandular.c1_kpa
+         << "\n";
   }
   for (const AskedView& view : prepared.views)
     toml << "[views." << view.view << "]\nthickness_mm = " << view.thickness_mm

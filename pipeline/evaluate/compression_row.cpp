@@ -51,10 +51,9 @@ json read_json(const fs::path& path) {
 json sidecar_after(const StageEnd& end, const fs::path& sidecar, int most_cpu_seconds) {
   if (end.exit_code < 128 && fs::exists(sidecar)) return read_json(sidecar);
   const int signal = end.exit_code - 128;
-  const std::string reason =
-      signal == SIGXCPU || signal == SIGKILL
-          ? sentence("stopped after %d s of CPU", most_cpu_seconds)
-          : sentence("ended with code %d", end.exit_code);
+  const std::string reason = signal == SIGXCPU || signal == SIGKILL
+                                 ? sentence("stopped after %d s of CPU", most_cpu_seconds)
+                                 : sentence("ended with code %d", end.exit_code);
   return {{"status", "refused"}, {"reasons", {reason}}};
 }
 
@@ -62,10 +61,9 @@ json sidecar_after(const StageEnd& end, const fs::path& sidecar, int most_cpu_se
 
 void judge_row(json& row, const json& sidecar) {
   const json quality = sidecar.value("quality", json::object());
-  for (const char* key :
-       {"compressed_fraction", "thickness_mm", "min_J", "max_J", "J_within_half",
-        "max_penetration_mm", "force_N", "contact_area_cm2", "volume_change", "steps", "cutbacks",
-        "newton_iterations", "indefinite_matrices", "dof"})
+  for (const char* key : {"compressed_fraction", "thickness_mm", "min_J", "max_J", "J_within_half",
+                          "max_penetration_mm", "force_N", "contact_area_cm2", "volume_change",
+                          "steps", "cutbacks", "newton_iterations", "indefinite_matrices", "dof"})
     row[key] = quality.contains(key) ? quality[key] : json();
   const std::string status = sidecar.at("status");
   if (status != "ok" && status != "look") {
@@ -104,12 +102,11 @@ json compression_row(const EvaluatedBreast& breast, const PreparedBreast& prepar
     return fs::exists(sidecar) ? fs::last_write_time(sidecar) : fs::file_time_type::min();
   };
   const auto before = time_of();
-  const StageEnd end =
-      run_stage_command("compress",
-                        {view.view, file("segmentation.seg.nrrd"), file("fractions.nrrd"),
-                         file("prone.vtu"), file(view.view + ".vtu"), "--patient",
-                         file("patient.toml")},
-                        file(view.view + ".log"), most_cpu_seconds);
+  const StageEnd end = run_stage_command(
+      "compress",
+      {view.view, file("segmentation.seg.nrrd"), file("fractions.nrrd"), file("prone.vtu"),
+       file(view.view + ".vtu"), "--patient", file("patient.toml")},
+      file(view.view + ".log"), most_cpu_seconds);
   const json result = sidecar_after(end, sidecar, most_cpu_seconds);
   row["seconds"] = result.contains("seconds") ? result["seconds"] : json();
   // A product that was up to date was not made now.

@@ -36,7 +36,8 @@ void number(std::ostream& out, const json& row, const char* key, int digits, con
 std::string line_of(const json& row) {
   std::ostringstream out;
   out << std::left << std::setw(16) << row.at("name").get<std::string>() << std::setw(4)
-      << row.at("view").get<std::string>() << (row.at("reached").get<bool>() ? " reached" : " FAILED ");
+      << row.at("view").get<std::string>()
+      << (row.at("reached").get<bool>() ? " reached" : " FAILED ");
   number(out, row, "volume_ml", 0, " ml");
   number(out, row, "stiffness_ratio", 1, ":1");
   number(out, row, "target_fraction", 2, " asked");

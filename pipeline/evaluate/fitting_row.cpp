@@ -3,8 +3,8 @@
 #include <fstream>
 #include <map>
 
-#include "fitting/tissue/cell_tissue.h"
 #include "fitting/mesh/mesh_file.h"
+#include "fitting/tissue/cell_tissue.h"
 #include "fitting/tissue/tissue_volumes.h"
 #include "pipeline/evaluate/stage_command.h"
 #include "pipeline/frame/products.h"
@@ -94,11 +94,11 @@ json tissue_errors(const fs::path& folder) {
     lesions.add(x, f.lesion * volume / 1000);
     return f;
   });
-  return {{"volume_error", relative_error(points.total(), voxels.total())},
-          {"fat_volume_error", relative_error(points.fat, voxels.fat)},
-          {"fibroglandular_volume_error",
-           relative_error(points.fibroglandular, voxels.fibroglandular)},
-          {"lesions", lesions.errors()}};
+  return {
+      {"volume_error", relative_error(points.total(), voxels.total())},
+      {"fat_volume_error", relative_error(points.fat, voxels.fat)},
+      {"fibroglandular_volume_error", relative_error(points.fibroglandular, voxels.fibroglandular)},
+      {"lesions", lesions.errors()}};
 }
 
 json fit(const RealBreast& breast, const fs::path& folder, const FitRun& run) {
@@ -114,7 +114,8 @@ json fit(const RealBreast& breast, const fs::path& folder, const FitRun& run) {
   if (run.again) arguments.push_back("--force");
   const json sidecar = sidecar_of("fit", arguments, folder / "prone.vtu", cpu_seconds);
   json row = sidecar.at("quality");
-  for (const char* key : {"status", "reasons", "seconds", "peak_memory_mb"}) row[key] = sidecar.at(key);
+  for (const char* key : {"status", "reasons", "seconds", "peak_memory_mb"})
+    row[key] = sidecar.at(key);
   row["cpu_seconds"] = run.again ? json(cpu_seconds) : json();
   row.update(tissue_errors(folder));
   return row;

@@ -1,12 +1,12 @@
 #include "pipeline/evaluate/mark_coverage.h"
 
-#include "registration/search/search_ellipse.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
 #include <numeric>
+
+#include "registration/search/search_ellipse.h"
 
 namespace mammotwin {
 namespace {
@@ -58,22 +58,25 @@ std::string line_of(const char* what, const std::vector<std::vector<JudgedMark>>
   const double error = c["median_error_mm"];
   char line[240];
   std::snprintf(line, sizeof line,
-                "  %-8s in the 50 %% ellipse %.0f +- %.0f %%, in the 90 %% one %.0f +- %.0f %% of %zu marks in "
-                "%zu patients; median error %.2f mm, major semi-axes %.2f and %.2f mm (%.2f and %.2f times)\n",
+                "  %-8s in the 50 %% ellipse %.0f +- %.0f %%, in the 90 %% one %.0f +- %.0f %% of "
+                "%zu marks in "
+                "%zu patients; median error %.2f mm, major semi-axes %.2f and %.2f mm (%.2f and "
+                "%.2f times)\n",
                 what, 100 * c["inside_50"].get<double>(), 100 * standard_error(rows, "inside_50"),
-                100 * c["inside_90"].get<double>(), 100 * standard_error(rows, "inside_90"), all.size(),
-                rows.size(), error, c["major_50_mm"].get<double>(), c["major_90_mm"].get<double>(),
-                c["major_50_mm"].get<double>() / error, c["major_90_mm"].get<double>() / error);
+                100 * c["inside_90"].get<double>(), 100 * standard_error(rows, "inside_90"),
+                all.size(), rows.size(), error, c["major_50_mm"].get<double>(),
+                c["major_90_mm"].get<double>(), c["major_50_mm"].get<double>() / error,
+                c["major_90_mm"].get<double>() / error);
   return line;
 }
 
 }  // namespace
 
 json mark_json(const JudgedMark& mark) {
-  return {{"lesion", mark.lesion},
-          {"off_mm", {mark.off.x(), mark.off.y()}},
-          {"covariance_mm2",
-           {mark.covariance(0, 0), mark.covariance(0, 1), mark.covariance(1, 1)}}};
+  return {
+      {"lesion", mark.lesion},
+      {"off_mm", {mark.off.x(), mark.off.y()}},
+      {"covariance_mm2", {mark.covariance(0, 0), mark.covariance(0, 1), mark.covariance(1, 1)}}};
 }
 
 JudgedMark mark_of(const json& mark) {
@@ -86,7 +89,8 @@ JudgedMark mark_of(const json& mark) {
 
 json coverage_of(const std::vector<JudgedMark>& marks) {
   json row;
-  for (const char* key : {"inside_50", "inside_90", "major_50_mm", "major_90_mm", "median_error_mm"})
+  for (const char* key :
+       {"inside_50", "inside_90", "major_50_mm", "major_90_mm", "median_error_mm"})
     row[key] = nullptr;
   if (marks.empty()) return row;
   add_ellipse(marks, 0.5, "50", row);

@@ -1,9 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
-
 #include <nlohmann/json.hpp>
-
 #include <string>
 #include <vector>
 
@@ -11,9 +9,9 @@ namespace mammotwin {
 
 /// A predicted mark with what was said of its uncertainty.
 struct JudgedMark {
-  bool lesion = false;  ///< else a point of gland
-  Eigen::Vector2d off = Eigen::Vector2d::Zero();              ///< true mark from the predicted one [mm]
-  Eigen::Matrix2d covariance = Eigen::Matrix2d::Identity();   ///< that was stated [mm^2]
+  bool lesion = false;                            ///< else a point of gland
+  Eigen::Vector2d off = Eigen::Vector2d::Zero();  ///< true mark from the predicted one [mm]
+  Eigen::Matrix2d covariance = Eigen::Matrix2d::Identity();  ///< that was stated [mm^2]
 };
 
 nlohmann::json mark_json(const JudgedMark& mark);

@@ -1,12 +1,12 @@
 #include "pipeline/evaluate/outline_population.h"
 
-#include "registration/export/csv.h"
-
 #include <cmath>
 #include <fstream>
 #include <numbers>
 #include <stdexcept>
 #include <string>
+
+#include "registration/export/csv.h"
 
 namespace mammotwin {
 namespace {

@@ -1,16 +1,15 @@
 #pragma once
 
 #include <Eigen/Core>
-
 #include <filesystem>
 #include <vector>
 
 namespace mammotwin {
 
-/// Compressed CC breasts of real patients as a principal component model of their shape (Pinto et al.,
-/// Med Phys 2022, 10.1002/mp.16133; data CC-BY-4.0, read from a folder and not part of this project).
-/// A breast is a radius about the middle of the chest-wall edge, by angle and height; the first
-/// component goes with thickness, the others vary independently.
+/// Compressed CC breasts of real patients as a principal component model of their shape (Pinto et
+/// al., Med Phys 2022, 10.1002/mp.16133; data CC-BY-4.0, read from a folder and not part of this
+/// project). A breast is a radius about the middle of the chest-wall edge, by angle and height; the
+/// first component goes with thickness, the others vary independently.
 class OutlinePopulation {
  public:
   /// Throws std::runtime_error naming the file of `folder` that is missing or has another size.

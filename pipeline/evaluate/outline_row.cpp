@@ -1,14 +1,13 @@
 #include "pipeline/evaluate/outline_row.h"
 
-#include "registration/view/compressed_view.h"
-#include "registration/search/silhouette.h"
-
 #include <Eigen/LU>
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <optional>
+
+#include "registration/search/silhouette.h"
+#include "registration/view/compressed_view.h"
 
 namespace mammotwin {
 namespace {
@@ -46,14 +45,16 @@ Eigen::Vector2d middle_of(const ReducedView& view) {
   return {0, (low + high) / 2};
 }
 
-constexpr int kSamples = 12;  // of an element along each of its axes, each standing for its surroundings
+constexpr int kSamples =
+    12;  // of an element along each of its axes, each standing for its surroundings
 
 /// Volume of what lies in front of the plates' edge [ml].
 double volume_in_front_ml(const HermiteMesh& mesh, const ViewFrame& frame) {
   double volume = 0;
   for (int n = 0; n < kSamples * kSamples * kSamples; ++n) {
     const Eigen::Vector3d xi =
-        (Eigen::Vector3d(n % kSamples, n / kSamples % kSamples, n / (kSamples * kSamples)).array() + 0.5) /
+        (Eigen::Vector3d(n % kSamples, n / kSamples % kSamples, n / (kSamples * kSamples)).array() +
+         0.5) /
         kSamples;
     const HermiteMesh::Weights weights = HermiteMesh::weights(xi);
     std::array<HermiteMesh::Weights, 3> slopes;
@@ -89,8 +90,8 @@ json outline_row(const MeshFile& compressed, const OutlinePopulation& population
   json row{{"thickness_mm", view.thickness_mm},
            {"volume_ml", volume},
            {"typical_thickness_mm", population.typical_thickness_mm(volume)}};
-  for (const char* key : {"population_volume_ml", "compared", "within_2_sd", "mean_sd", "worst_sd", "depth_mm", "width_mm",
-                          "population_depth_mm", "population_width_mm"})
+  for (const char* key : {"population_volume_ml", "compared", "within_2_sd", "mean_sd", "worst_sd",
+                          "depth_mm", "width_mm", "population_depth_mm", "population_width_mm"})
     row[key] = nullptr;
   if (view.thickness_mm < OutlinePopulation::kThinnest_mm ||
       view.thickness_mm > OutlinePopulation::kThickest_mm)

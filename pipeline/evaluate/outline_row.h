@@ -1,9 +1,9 @@
 #pragma once
 
+#include <nlohmann/json.hpp>
+
 #include "fitting/mesh/mesh_file.h"
 #include "pipeline/evaluate/outline_population.h"
-
-#include <nlohmann/json.hpp>
 
 namespace mammotwin {
 

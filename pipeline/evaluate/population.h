@@ -16,9 +16,9 @@ struct SyntheticBreast {
   double cc_fraction = 0, mlo_fraction = 0;  ///< 1 - thickness asked / free extent
 };
 
-/// Breast `number` (from 0) of the population, by the law of pipeline/evaluate/README.md. Depends on
-/// the number alone, so that a larger population begins with the smaller one. Every fourth breast
-/// is `hard`: both its views are asked for more than 0.6 at a ratio of 1:5 and above.
+/// Breast `number` (from 0) of the population, by the law of pipeline/evaluate/README.md. Depends
+/// on the number alone, so that a larger population begins with the smaller one. Every fourth
+/// breast is `hard`: both its views are asked for more than 0.6 at a ratio of 1:5 and above.
 ///
 /// `attempt` (from 0) redraws the build (chest, shape, places of gland and lesions) and nothing
 /// that the law promises: not every chest can carry every breast.

@@ -1,5 +1,11 @@
 #include "pipeline/evaluate/registration_case.h"
 
+#include <fstream>
+#include <iomanip>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <stdexcept>
+
 #include "pipeline/evaluate/stage_command.h"
 #include "pipeline/evaluate/true_mammogram.h"
 #include "pipeline/frame/products.h"
@@ -7,23 +13,18 @@
 #include "pipeline/synthesize/nrrd_file.h"
 #include "pipeline/synthesize/patient_files.h"
 
-#include <fstream>
-#include <iomanip>
-#include <nlohmann/json.hpp>
-#include <sstream>
-#include <stdexcept>
-
 namespace mammotwin {
 namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-constexpr int kMostAttempts = 30;      // of the drawn build: not every chest carries every breast
+constexpr int kMostAttempts = 30;  // of the drawn build: not every chest carries every breast
 constexpr int kMostCpuSeconds = 3600;
-/// Not mri.nrrd: `segment`, whose products stand in the same folder, leaves its part of the MRI there.
+/// Not mri.nrrd: `segment`, whose products stand in the same folder, leaves its part of the MRI
+/// there.
 constexpr const char* kScan = "scan.nrrd";
-constexpr int kPoints = 20;            // landmarks beside the lesions
+constexpr int kPoints = 20;  // landmarks beside the lesions
 
 SyntheticPatient make_drawn(int number, bool coarse, DrawnPatient& drawn) {
   for (int attempt = 0;; ++attempt) {
@@ -83,9 +84,10 @@ std::string toml_of(const SyntheticPatient& patient, const DrawnPatient& drawn,
   toml << text.substr(0, text.find("[views.cc]"));
   for (std::size_t n = 0; n < views.size(); ++n) {
     const std::string key = "[views." + views[n].view.name;
-    toml << key << "]\nmammogram = \"" << views[n].view.name << ".png\"\nthickness_mm = "
-         << views[n].header_thickness_mm << "\nangle_deg = " << drawn.views[n].header_angle_deg
-         << "\n" << key << ".detector]\npixel_spacing_mm = " << detector.pixels->spacing_mm
+    toml << key << "]\nmammogram = \"" << views[n].view.name
+         << ".png\"\nthickness_mm = " << views[n].header_thickness_mm
+         << "\nangle_deg = " << drawn.views[n].header_angle_deg << "\n"
+         << key << ".detector]\npixel_spacing_mm = " << detector.pixels->spacing_mm
          << "\ncolumns = " << detector.pixels->columns << "\nrows = " << detector.pixels->rows
          << "\n\n";
   }
@@ -98,21 +100,25 @@ json drawn_json(const DrawnPatient& drawn, const std::vector<TrueView>& views) {
            {"density", drawn.patient.anatomy.density}};
   for (std::size_t n = 0; n < views.size(); ++n) {
     const DrawnView& v = drawn.views[n];
-    all[v.name] = {{"roll_deg", v.roll_deg},         {"turn_deg", v.turn_deg},
-                   {"lift_mm", v.lift_mm},           {"clearance_mm", v.clearance_mm},
-                   {"shift_mm", v.shift_mm},         {"thickness_mm", views[n].view.thickness_mm},
+    all[v.name] = {{"roll_deg", v.roll_deg},
+                   {"turn_deg", v.turn_deg},
+                   {"lift_mm", v.lift_mm},
+                   {"clearance_mm", v.clearance_mm},
+                   {"shift_mm", v.shift_mm},
+                   {"thickness_mm", views[n].view.thickness_mm},
                    {"header_thickness_mm", views[n].header_thickness_mm}};
   }
   return all;
 }
 
-void run_stage_in(const fs::path& folder, const std::string& stage,
-                  std::vector<std::string> files, const std::string& view = "") {
+void run_stage_in(const fs::path& folder, const std::string& stage, std::vector<std::string> files,
+                  const std::string& view = "") {
   const std::string product = files.back();
   for (std::string& file : files) file = (folder / file).string();
   if (!view.empty()) files.insert(files.begin(), view);
   files.insert(files.end(), {"--patient", (folder / "patient.toml").string()});
-  const StageEnd end = run_stage_command(stage, files, folder / (stage + view + ".log"), kMostCpuSeconds);
+  const StageEnd end =
+      run_stage_command(stage, files, folder / (stage + view + ".log"), kMostCpuSeconds);
   if (end.exit_code == 0) return;
   std::ifstream in(folder / (product + ".json"));
   const json sidecar = in ? json::parse(in) : json::object();
@@ -148,9 +154,10 @@ void run_registration_case(const fs::path& folder) {
   run_stage_in(folder, "unload",
                {"segmentation.seg.nrrd", "fractions.nrrd", "prone.vtu", "unloaded.vtu"});
   for (const char* view : {"cc", "mlo"})
-    run_stage_in(folder, "compress",
-                 {"segmentation.seg.nrrd", "fractions.nrrd", "unloaded.vtu", std::string(view) + ".vtu"},
-                 view);
+    run_stage_in(
+        folder, "compress",
+        {"segmentation.seg.nrrd", "fractions.nrrd", "unloaded.vtu", std::string(view) + ".vtu"},
+        view);
   run_stage_in(folder, "register",
                {"segmentation.seg.nrrd", "fractions.nrrd", "cc.vtu", "mlo.vtu", "lesions.csv"});
 }

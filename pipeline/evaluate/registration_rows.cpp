@@ -38,11 +38,12 @@ struct Views {
   Views(const fs::path& folder, const char* suffix, const Patient& patient)
       : cc(read_registered_view("cc", folder / (std::string("cc") + suffix), patient.cc)),
         mlo(read_registered_view("mlo", folder / (std::string("mlo") + suffix), patient.mlo)),
-        cc_rays(rays(cc)), mlo_rays(rays(mlo)) {}
+        cc_rays(rays(cc)),
+        mlo_rays(rays(mlo)) {}
 
   std::map<std::string, TargetErrors> errors(const std::vector<LandmarkPair>& pairs) const {
-    return target_errors(pairs, {{"cc", {&cc.projection, &cc_rays}},
-                                 {"mlo", {&mlo.projection, &mlo_rays}}});
+    return target_errors(
+        pairs, {{"cc", {&cc.projection, &cc_rays}}, {"mlo", {&mlo.projection, &mlo_rays}}});
   }
 };
 
@@ -53,8 +54,8 @@ std::optional<JudgedMark> judged(const RegisteredView& view, const LandmarkPair&
   const ProjectedLandmark found = view.projection.project({pair.name, *pair.mri_in_lps});
   const auto covariance = view.covariance(found.point);
   if (!covariance) return std::nullopt;
-  const Eigen::Vector2d truth = view.projection.detector().detector_from_image(
-      pair.marks.at(view.projection.view().name));
+  const Eigen::Vector2d truth =
+      view.projection.detector().detector_from_image(pair.marks.at(view.projection.view().name));
   return JudgedMark{is_lesion(pair), truth - found.on_detector, *covariance};
 }
 
@@ -75,10 +76,9 @@ void add_errors(const std::string& prefix, const std::map<std::string, TargetErr
                 bool with_model, json& row) {
   for (const char* space : kSpaces) {
     const auto found = errors.find(space);
-    const std::vector<double> values =
-        found == errors.end() ? std::vector<double>()
-        : with_model          ? found->second.with_model
-                              : found->second.without_model;
+    const std::vector<double> values = found == errors.end() ? std::vector<double>()
+                                       : with_model          ? found->second.with_model
+                                                             : found->second.without_model;
     const std::string key = prefix + "tre_" + space + "_mm";
     row[key] = median_of(values);
     row["errors"][key] = values;
@@ -137,7 +137,8 @@ std::string registration_summary(const json& cases) {
   std::vector<std::vector<JudgedMark>> patients;
   for (const json& row : cases) {
     patients.emplace_back();
-    for (const json& mark : row.value("marks", json::array())) patients.back().push_back(mark_of(mark));
+    for (const json& mark : row.value("marks", json::array()))
+      patients.back().push_back(mark_of(mark));
   }
   text += coverage_summary(patients);
   return text;

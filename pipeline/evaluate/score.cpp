@@ -4,8 +4,8 @@
 #include <cmath>
 #include <vector>
 
-#include "segmentation/image/distance.h"
 #include "segmentation/body/half_body.h"
+#include "segmentation/image/distance.h"
 
 namespace mammotwin {
 namespace {

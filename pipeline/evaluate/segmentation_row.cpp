@@ -8,8 +8,8 @@
 #include <sstream>
 
 #include "pipeline/evaluate/score.h"
-#include "segmentation/segment.h"
 #include "segmentation/files/segmentation_file.h"
+#include "segmentation/segment.h"
 
 namespace mammotwin {
 namespace {

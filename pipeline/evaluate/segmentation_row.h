@@ -12,7 +12,8 @@ namespace mammotwin {
 /// lesion's centroid, and scores it: one line of segmentation.json. A refused case keeps its
 /// reason and has nulls. Fibroglandular tissue is scored 3 mm and more off the muscle in maps,
 /// whose label lies on it by mistake in places. Where `keep` is not empty, the image, it
-/// corrected, the true and the found labels are left there as <name>_{mri,corrected,true,found}.nrrd.
+/// corrected, the true and the found labels are left there as
+/// <name>_{mri,corrected,true,found}.nrrd.
 nlohmann::json segmentation_row(const SegmentationCase& c, const std::filesystem::path& image,
                                 const std::filesystem::path& keep = {});
 

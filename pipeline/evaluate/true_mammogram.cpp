@@ -1,19 +1,19 @@
 #include "pipeline/evaluate/true_mammogram.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "pipeline/synthesize/counter_random.h"
 #include "registration/carry/point_carrier.h"
 #include "registration/view/simulated_mammogram.h"
-
-#include <algorithm>
-#include <cmath>
 
 namespace mammotwin {
 namespace {
 
 constexpr double kPixel_mm = 0.25;
 constexpr double kWhite = 65535;
-constexpr double kMostAttenuation = 6;     // -ln(I/I0) that is shown white
-constexpr double kPhotons = 2e4;           // per pixel in air
+constexpr double kMostAttenuation = 6;  // -ln(I/I0) that is shown white
+constexpr double kPhotons = 2e4;        // per pixel in air
 constexpr double kMarkerRadius_mm = 1.75;
 
 double bilinear(const DetectorImage& image, const Eigen::Vector2d& uv) {
@@ -29,32 +29,30 @@ std::uint16_t grey_of(double attenuation, CounterRandom& random) {
   // Poisson noise of the photons that arrive, in the logarithm.
   const double noisy =
       attenuation + std::exp(0.5 * attenuation) / std::sqrt(kPhotons) * random.normal();
-  return static_cast<std::uint16_t>(
-      std::clamp(noisy / kMostAttenuation, 0.0, 0.9) * kWhite);
+  return static_cast<std::uint16_t>(std::clamp(noisy / kMostAttenuation, 0.0, 0.9) * kWhite);
 }
 
 }  // namespace
 
 Detector synthetic_detector(Side side) {
   Detector detector;
-  detector.pixels = PixelGrid{kPixel_mm, 960, 1200,
-                              side == Side::left ? ImageEdge::left : ImageEdge::right};
+  detector.pixels =
+      PixelGrid{kPixel_mm, 960, 1200, side == Side::left ? ImageEdge::left : ImageEdge::right};
   return detector;
 }
 
 Eigen::Vector2d true_mark(const TrueBreast& breast, const TrueView& view, const Detector& detector,
                           const Eigen::Vector3d& prone_in_lps) {
   const PointCarrier carrier(breast.prone(), view.compressed);
-  return detector.image_from_detector(detector.project(
-      view.view.frame.view_from_lps(carrier.carry(prone_in_lps).in_lps)));
+  return detector.image_from_detector(
+      detector.project(view.view.frame.view_from_lps(carrier.carry(prone_in_lps).in_lps)));
 }
 
 GreyPixels true_mammogram(const TrueBreast& breast, const TrueView& view, const Detector& detector,
                           std::uint64_t seed) {
   const SimulatedView simulated = simulate_view(breast.prone(), view.compressed,
                                                 &breast.truth().fractions, view.view, detector);
-  const Eigen::Vector2d marker =
-      true_mark(breast, view, detector, breast.truth().nipple_in_lps);
+  const Eigen::Vector2d marker = true_mark(breast, view, detector, breast.truth().nipple_in_lps);
   const PixelGrid& grid = *detector.pixels;
   GreyPixels pixels{grid.columns, grid.rows, {}};
   CounterRandom random(seed, view.view.name == "cc" ? 1 : 2);

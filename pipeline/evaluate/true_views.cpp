@@ -1,17 +1,16 @@
 #include "pipeline/evaluate/true_views.h"
 
-#include "fitting/fit_breast.h"
-#include "pipeline/steps/breast_problem.h"
-#include "pipeline/patient/gravity_settings.h"
-#include "pipeline/synthesize/counter_random.h"
-#include "registration/view/view_frame.h"
-#include "solver/gravity/unload.h"
-
 #include <Eigen/Geometry>
-
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
+
+#include "fitting/fit_breast.h"
+#include "pipeline/patient/gravity_settings.h"
+#include "pipeline/steps/breast_problem.h"
+#include "pipeline/synthesize/counter_random.h"
+#include "registration/view/view_frame.h"
+#include "solver/gravity/unload.h"
 
 namespace mammotwin {
 namespace {
@@ -49,7 +48,8 @@ MeshFile true_mesh(const Segmentation& truth, const Eigen::Vector3i& elements) {
 MeshFile unloaded_truth(const Segmentation& truth, const DrawnPatient& drawn) {
   MeshFile file = true_mesh(truth, drawn.true_elements);
   const TissueSampler tissue = tissue_of(file, truth.fractions);
-  CompressionProblem problem = breast_problem(file, tissue, true_settings(drawn.stiffness_ratio), 1);
+  CompressionProblem problem =
+      breast_problem(file, tissue, true_settings(drawn.stiffness_ratio), 1);
   problem.gravity = gravity_in_lps(Pose::prone);
   problem.density = GravitySettings().density();
   UnloadOptions options;
@@ -138,14 +138,13 @@ TrueView TrueBreast::compress_view(const DrawnView& drawn) const {
   if (!result.report.usable())
     throw std::runtime_error("truth: " + drawn.name + ": " + result.report.reason);
 
-  CompressedView view{drawn.name, side_, drawn.header_angle_deg + drawn.roll_deg,
-                      result.report.thickness_mm, {}};
+  CompressedView view{
+      drawn.name, side_, drawn.header_angle_deg + drawn.roll_deg, result.report.thickness_mm, {}};
   view.frame.axes = axes;
   const Eigen::Vector3d across = problem.plates.depth.cross(problem.plates.up);
-  view.frame.origin_in_lps = problem.plates.depth * result.plates.edge +
-                             problem.plates.up * result.plates.support_height +
-                             across * result.plates.lateral_middle +
-                             axes.row(1).transpose() * drawn.shift_mm;
+  view.frame.origin_in_lps =
+      problem.plates.depth * result.plates.edge + problem.plates.up * result.plates.support_height +
+      across * result.plates.lateral_middle + axes.row(1).transpose() * drawn.shift_mm;
   return {view, HermiteMesh(result.deformed, unloaded_.mesh.elements()),
           std::round(10 * (result.report.thickness_mm + drawn.thickness_error_mm)) / 10};
 }

@@ -1,36 +1,37 @@
 #pragma once
 
+#include <array>
+#include <optional>
+#include <string>
+
 #include "pipeline/synthesize/patient.h"
 #include "registration/view/compressed_view.h"
 #include "registration/view/detector.h"
 #include "solver/press/compress.h"
 
-#include <array>
-#include <optional>
-#include <string>
-
 namespace mammotwin {
 
 /// How a synthetic patient's view was really taken, against what its header says.
 struct DrawnView {
-  std::string name;              ///< "cc", "mlo"
+  std::string name;  ///< "cc", "mlo"
   double header_angle_deg = 0;
-  double roll_deg = 0;           ///< true positioner angle less the header's
-  double turn_deg = 0;           ///< of the breast on the detector, about the beam
-  double lift_mm = 0;            ///< of the plates' middle above the breast's centroid
-  double clearance_mm = 10;      ///< plates' edge to the chest wall
-  double shift_mm = 0;           ///< of the detector's middle, sideways
+  double roll_deg = 0;       ///< true positioner angle less the header's
+  double turn_deg = 0;       ///< of the breast on the detector, about the beam
+  double lift_mm = 0;        ///< of the plates' middle above the breast's centroid
+  double clearance_mm = 10;  ///< plates' edge to the chest wall
+  double shift_mm = 0;       ///< of the detector's middle, sideways
   double compressed_fraction = 0.5;
-  double thickness_error_mm = 0; ///< of the header
+  double thickness_error_mm = 0;  ///< of the header
 };
 
 /// Patient n of the evaluation, from n alone: body, tissue that is unlike the registering model's,
 /// and how each view was taken. The law is in pipeline/evaluate/README.md.
 struct DrawnPatient {
   PatientOptions patient;
-  double stiffness_ratio = 1;  ///< fibroglandular over fat
-  Eigen::Vector3i true_elements{8, 8, 3};   ///< of the truth's mesh
-  std::optional<Eigen::Vector3i> elements;  ///< of the mesh that registers; absent: as `fit` chooses
+  double stiffness_ratio = 1;              ///< fibroglandular over fat
+  Eigen::Vector3i true_elements{8, 8, 3};  ///< of the truth's mesh
+  std::optional<Eigen::Vector3i>
+      elements;  ///< of the mesh that registers; absent: as `fit` chooses
   std::array<DrawnView, 2> views;
 };
 /// `coarse`: few elements in both, so that it takes seconds instead of minutes.

@@ -1,16 +1,16 @@
 #include "pipeline/evaluate/unload_rows.h"
 
-#include "pipeline/steps/breast_problem.h"
-#include "pipeline/patient/gravity_settings.h"
-#include "registration/carry/point_carrier.h"
-#include "registration/view/view_frame.h"
-#include "segmentation/files/segmentation_file.h"
-#include "solver/gravity/unload.h"
-
 #include <algorithm>
 #include <ctime>
 #include <numeric>
 #include <stdexcept>
+
+#include "pipeline/patient/gravity_settings.h"
+#include "pipeline/steps/breast_problem.h"
+#include "registration/carry/point_carrier.h"
+#include "registration/view/view_frame.h"
+#include "segmentation/files/segmentation_file.h"
+#include "solver/gravity/unload.h"
 
 namespace mammotwin {
 namespace {
@@ -28,7 +28,8 @@ struct FittedBreast {
   MeshFile mesh;
   TissueSampler tissue;
   explicit FittedBreast(const std::filesystem::path& folder)
-      : segmentation(read_segmentation(folder / "segmentation.seg.nrrd", folder / "fractions.nrrd")),
+      : segmentation(
+            read_segmentation(folder / "segmentation.seg.nrrd", folder / "fractions.nrrd")),
         mesh(read_mesh_file(folder / "prone.vtu")),
         tissue(tissue_of(mesh, segmentation.fractions)) {}
 
@@ -121,9 +122,8 @@ json distances(const std::vector<Eigen::Vector3d>& prone_points, const HermiteMe
                         .head<2>()
                         .norm());
   std::sort(found.begin(), found.end());
-  return {{"count", found.size()},
-          {"median_mm", found[found.size() / 2]},
-          {"max_mm", found.back()}};
+  return {
+      {"count", found.size()}, {"median_mm", found[found.size() / 2]}, {"max_mm", found.back()}};
 }
 
 }  // namespace
@@ -136,8 +136,7 @@ json unload_rows(const std::filesystem::path& folder) {
                unload_with("half", breast.problem({}, Pose::prone, 0.5)),
                unload_with("c1 = 0.1 kPa", breast.problem(soft, Pose::prone, 1))};
   json slides = json::object();
-  for (const double spring : kSprings)
-    slides[json(spring).dump()] = standing_slide(breast, spring);
+  for (const double spring : kSprings) slides[json(spring).dump()] = standing_slide(breast, spring);
   return {{"unloaded", rows}, {"standing_slide_max_mm", slides}};
 }
 
@@ -154,10 +153,9 @@ json view_shifts(const std::filesystem::path& folder) {
   for (const auto& [view, angle] : {std::pair{"cc", 0.0}, {"mlo", kMloDeg}}) try {
       const ViewSolution with = squeeze(breast, from_unloaded(prone, unloaded.unloaded), angle);
       const ViewSolution without = squeeze(breast, prone, angle);
-      shifts[view] = {
-          {"lesions", distances(lesions, breast.mesh.mesh, with, without)},
-          {"points",
-           distances(element_middles(breast.mesh.mesh), breast.mesh.mesh, with, without)}};
+      shifts[view] = {{"lesions", distances(lesions, breast.mesh.mesh, with, without)},
+                      {"points", distances(element_middles(breast.mesh.mesh), breast.mesh.mesh,
+                                           with, without)}};
     } catch (const std::runtime_error& error) {
       shifts[view] = {{"reason", error.what()}};
     }

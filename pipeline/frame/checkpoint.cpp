@@ -1,12 +1,12 @@
 #include "pipeline/frame/checkpoint.h"
 
-#include "pipeline/frame/checksum.h"
-#include "pipeline/frame/products.h"
-#include "pipeline/frame/sidecar.h"
-
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
+
+#include "pipeline/frame/checksum.h"
+#include "pipeline/frame/products.h"
+#include "pipeline/frame/sidecar.h"
 
 namespace mammotwin {
 

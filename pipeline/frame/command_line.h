@@ -48,7 +48,8 @@ class CommandLine {
   Argument option(const std::string& name, T& variable, const std::string& help);
   void flag(const std::string& name, bool& variable, const std::string& help);
   /// Prints what `text` returns, and ends.
-  void text_flag(const std::string& name, std::function<std::string()> text, const std::string& help);
+  void text_flag(const std::string& name, std::function<std::string()> text,
+                 const std::string& help);
   bool has(const std::string& name) const;  ///< after parse
 
   /// The exit code where the command ends here: 0 for help and version, 2 for an error, said.

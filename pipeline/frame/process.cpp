@@ -40,9 +40,10 @@ std::string command_text(int argc, char** argv, const fs::path& folder) {
   std::string text = fs::path(argv[0]).filename().string();
   for (int i = 1; i < argc; ++i) {
     const std::string argument = argv[i];
-    text += " " + (names_a_path(argument)
-                       ? fs::weakly_canonical(fs::absolute(argument)).lexically_relative(base).string()
-                       : argument);
+    text +=
+        " " + (names_a_path(argument)
+                   ? fs::weakly_canonical(fs::absolute(argument)).lexically_relative(base).string()
+                   : argument);
   }
   return text;
 }

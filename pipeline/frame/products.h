@@ -17,8 +17,8 @@ class Products {
   Products(const Products&) = delete;
   Products& operator=(const Products&) = delete;
 
-  /// Temporary path for a file that will be called `name` beside the main product; "dicom/cc.dcm" is
-  /// in a folder there.
+  /// Temporary path for a file that will be called `name` beside the main product; "dicom/cc.dcm"
+  /// is in a folder there.
   std::filesystem::path write(const std::string& name);
   std::filesystem::path write_main() { return write(main_.filename().string()); }
 

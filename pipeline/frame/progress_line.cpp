@@ -19,7 +19,8 @@ std::string minutes_and_seconds(double seconds) {
   return text;
 }
 
-ProgressLine::ProgressLine(std::string stage) : stage_(std::move(stage)), is_terminal_(isatty(2) == 1) {}
+ProgressLine::ProgressLine(std::string stage)
+    : stage_(std::move(stage)), is_terminal_(isatty(2) == 1) {}
 
 ProgressLine::~ProgressLine() { finish(); }
 

@@ -76,7 +76,8 @@ fs::path sidecar_path(const fs::path& product) {
 
 std::optional<json> current_sidecar(const fs::path& product, const Provenance& provenance) {
   const json sidecar = read_json(sidecar_path(product));
-  if (!sidecar.is_object() || !is_usable(sidecar) || !is_of(sidecar, provenance)) return std::nullopt;
+  if (!sidecar.is_object() || !is_usable(sidecar) || !is_of(sidecar, provenance))
+    return std::nullopt;
   if (!sidecar.contains("outputs") || !outputs_are_intact(sidecar, folder_of(product)))
     return std::nullopt;
   return sidecar;
@@ -88,14 +89,16 @@ std::vector<std::string> former_outputs(const fs::path& product) {
   if (!sidecar.is_object() || !sidecar.contains("outputs")) return names;
   for (const json& output : sidecar["outputs"]) {
     const fs::path name = fs::path(output.value("path", "")).lexically_normal();
-    if (!name.empty() && name.is_relative() && *name.begin() != "..") names.push_back(name.generic_string());
+    if (!name.empty() && name.is_relative() && *name.begin() != "..")
+      names.push_back(name.generic_string());
   }
   return names;
 }
 
 std::optional<json> standing_failure(const fs::path& product, const Provenance& provenance) {
   const json sidecar = read_json(sidecar_path(product));
-  if (!sidecar.is_object() || is_usable(sidecar) || !is_of(sidecar, provenance)) return std::nullopt;
+  if (!sidecar.is_object() || is_usable(sidecar) || !is_of(sidecar, provenance))
+    return std::nullopt;
   if (sidecar.value("starved", true)) return std::nullopt;
   return sidecar;
 }

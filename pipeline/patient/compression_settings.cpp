@@ -1,10 +1,10 @@
 #include "pipeline/patient/compression_settings.h"
 
+#include <stdexcept>
+
 #include "solver/material/exponential.h"
 #include "solver/material/mooney_rivlin.h"
 #include "solver/material/neo_hookean.h"
-
-#include <stdexcept>
 
 namespace mammotwin {
 namespace {
@@ -27,16 +27,18 @@ void declare_law(Settings& s, const std::string& tissue, LawSettings& law) {
 
 std::shared_ptr<const Material> LawSettings::material(double factor) const {
   switch (law) {
-    case LawName::neo_hookean: return std::make_shared<NeoHookean>(factor * c1_kpa);
-    case LawName::mooney_rivlin: return std::make_shared<MooneyRivlin>(factor * c1_kpa, factor * c2_kpa);
-    case LawName::exponential: return std::make_shared<Exponential>(factor * c1_kpa, stiffening);
+    case LawName::neo_hookean:
+      return std::make_shared<NeoHookean>(factor * c1_kpa);
+    case LawName::mooney_rivlin:
+      return std::make_shared<MooneyRivlin>(factor * c1_kpa, factor * c2_kpa);
+    case LawName::exponential:
+      return std::make_shared<Exponential>(factor * c1_kpa, stiffening);
   }
   throw std::logic_error("unknown law");
 }
 
 TissueLaws CompressionSettings::laws(double factor) const {
-  return {{fat.material(factor), fibroglandular.material(factor), lesion.material(factor)},
-          mixing};
+  return {{fat.material(factor), fibroglandular.material(factor), lesion.material(factor)}, mixing};
 }
 
 void CompressionSettings::shape_plates(PlateOptions& plates) const {
@@ -56,7 +58,8 @@ Detector ViewSettings::detector(const std::string& view, Side side) const {
   detector.support_gap_mm = support_gap_mm.value_or(detector.support_gap_mm);
   const int given = pixel_spacing_mm.has_value() + columns.has_value() + rows.has_value();
   if (given != 0 && given != 3)
-    throw std::runtime_error("views." + view + ".detector: pixel_spacing_mm, columns and rows are "
+    throw std::runtime_error("views." + view +
+                             ".detector: pixel_spacing_mm, columns and rows are "
                              "given only in part; expected all three, or none for mm alone");
   if (given == 3) {
     const ImageEdge as_hung = side == Side::left ? ImageEdge::left : ImageEdge::right;
@@ -82,16 +85,16 @@ void declare_compression(Settings& s, CompressionSettings& c) {
   s.number("materials.skin.c1_kpa", c.skin.c1, kModulus, "c1 of the skin membrane");
   s.number("materials.skin.thickness_mm", c.skin.thickness, {0.1, 5, "mm"},
            "thickness of the skin membrane");
-  s.choice("compress.chest_wall", c.boundary.chest_wall,
-           {{"sliding", ChestWall::sliding},
-            {"free", ChestWall::free},
-            {"clamped", ChestWall::clamped}},
-           "breast on the pectoral muscle: held on its surface against springs, freely, or fixed");
-  s.number("compress.chest_wall_spring_kpa_per_mm", c.boundary.chest_wall_spring,
-           {0, 10, "kPa/mm"}, "springs against sliding");
-  s.choice("compress.cut_faces", c.boundary.cut_faces,
-           {{"springs", CutFaces::springs}, {"free", CutFaces::free}, {"clamped", CutFaces::clamped}},
-           "where tissue goes on behind the model");
+  s.choice(
+      "compress.chest_wall", c.boundary.chest_wall,
+      {{"sliding", ChestWall::sliding}, {"free", ChestWall::free}, {"clamped", ChestWall::clamped}},
+      "breast on the pectoral muscle: held on its surface against springs, freely, or fixed");
+  s.number("compress.chest_wall_spring_kpa_per_mm", c.boundary.chest_wall_spring, {0, 10, "kPa/mm"},
+           "springs against sliding");
+  s.choice(
+      "compress.cut_faces", c.boundary.cut_faces,
+      {{"springs", CutFaces::springs}, {"free", CutFaces::free}, {"clamped", CutFaces::clamped}},
+      "where tissue goes on behind the model");
   s.number("compress.cut_face_depth_mm", c.boundary.cut_face_depth, {1, 1000, "mm"},
            "depth of the tissue behind a cut face: spring = shear modulus / depth");
   s.number("compress.plate_rounding_mm", c.plate_rounding_mm, {0.5, 50, "mm"},
@@ -111,13 +114,15 @@ void declare_compression(Settings& s, CompressionSettings& c) {
   s.path("compress.paddle_stl", c.paddle_stl,
          "paddle as facets (STL, mm): x from the rear edge to the nipple, z into the breast");
   s.path("compress.support_stl", c.support_stl, "support as facets, the same");
-  s.choice("compress.moving", c.options.moving, {{"both", Moving::both}, {"paddle", Moving::paddle}},
+  s.choice("compress.moving", c.options.moving,
+           {{"both", Moving::both}, {"paddle", Moving::paddle}},
            "plates that press: both, or the paddle once the support has lifted the breast");
   s.number("compress.friction_coefficient", c.friction.coefficient, {0, 1},
            "Coulomb friction with the plates");
-  s.number("compress.holding_friction", c.options.holding_friction, {0, 1},
-           "with which a breast that plates without friction do not hold is pressed again, then with "
-           "twice it; 0: it is not");
+  s.number(
+      "compress.holding_friction", c.options.holding_friction, {0, 1},
+      "with which a breast that plates without friction do not hold is pressed again, then with "
+      "twice it; 0: it is not");
   s.number("compress.friction_slip_mm", c.friction.slip, {0.001, 1, "mm"},
            "slip up to which friction is elastic");
   s.number("compress.gap_tolerance_mm", c.options.gap_tolerance, {0.0001, 0.1, "mm"},
@@ -130,13 +135,15 @@ void declare_view(Settings& s, const std::string& view, ViewSettings& v) {
   const std::string prefix = "views." + view + ".";
   s.path(prefix + "mammogram", v.mammogram,
          "the view's mammogram (DICOM, or PNG with `detector` keys): the breast is brought to it");
-  s.numbers(prefix + "nipple_pixel", v.nipple_pixel, {-20000, 20000, "pixels"},
-            "column and row of the nipple in the mammogram; default: its marker, or the profile's tip");
+  s.numbers(
+      prefix + "nipple_pixel", v.nipple_pixel, {-20000, 20000, "pixels"},
+      "column and row of the nipple in the mammogram; default: its marker, or the profile's tip");
   s.number(prefix + "thickness_mm", v.thickness_mm, {10, 200, "mm", "is it in cm?"},
            "compressed thickness; default the DICOM mammogram's, else 0.45 of the free extent");
-  s.number(prefix + "angle_deg", v.angle_deg, {-90, 90, "deg"},
-           "positioner angle: the beam runs from superior-medial to inferior-lateral; default the DICOM "
-           "mammogram's, else 0 for CC and 45 for MLO");
+  s.number(
+      prefix + "angle_deg", v.angle_deg, {-90, 90, "deg"},
+      "positioner angle: the beam runs from superior-medial to inferior-lateral; default the DICOM "
+      "mammogram's, else 0 for CC and 45 for MLO");
   s.number(prefix + "lift_mm", v.lift_mm, {-50, 50, "mm"},
            "how far the plates' middle lies above the breast's centroid");
   const std::string detector = prefix + "detector.";

@@ -1,14 +1,14 @@
 #pragma once
 
-#include "pipeline/frame/settings.h"
-#include "registration/view/detector.h"
-#include "segmentation/segmentation.h"
-#include "solver/press/compress.h"
-
 #include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
+
+#include "pipeline/frame/settings.h"
+#include "registration/view/detector.h"
+#include "segmentation/segmentation.h"
+#include "solver/press/compress.h"
 
 namespace mammotwin {
 

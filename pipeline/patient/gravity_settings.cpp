@@ -19,17 +19,22 @@ std::string name_of(Pose pose) { return detail::name_of(pose, kPoses); }
 
 Eigen::Vector3d gravity_in_lps(Pose pose) {
   switch (pose) {
-    case Pose::prone: return {0, -kGravity, 0};
-    case Pose::supine: return {0, kGravity, 0};
-    case Pose::standing: return {0, 0, -kGravity};
-    case Pose::none: return Eigen::Vector3d::Zero();
+    case Pose::prone:
+      return {0, -kGravity, 0};
+    case Pose::supine:
+      return {0, kGravity, 0};
+    case Pose::standing:
+      return {0, 0, -kGravity};
+    case Pose::none:
+      return Eigen::Vector3d::Zero();
   }
   throw std::logic_error("unknown pose");
 }
 
 void declare_gravity(Settings& s, GravitySettings& gravity) {
   s.choice("gravity", gravity.imaged, kPoses,
-           "how the patient lay or stood when imaged, default as the image's header says, else prone, for a "
+           "how the patient lay or stood when imaged, default as the image's header says, else "
+           "prone, for a "
            "scan none; none: the shape is taken as free of stress");
   s.number("unload.density_kg_per_m3", gravity.density_kg_per_m3, {500, 2000, "kg/m^3"},
            "density of the breast");

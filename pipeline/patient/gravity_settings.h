@@ -1,12 +1,11 @@
 #pragma once
 
-#include "pipeline/frame/settings.h"
-
 #include <Eigen/Core>
-
 #include <filesystem>
 #include <optional>
 #include <string>
+
+#include "pipeline/frame/settings.h"
 
 namespace mammotwin {
 
@@ -20,7 +19,7 @@ Eigen::Vector3d gravity_in_lps(Pose pose);
 
 /// What patient.toml says of gravity.
 struct GravitySettings {
-  std::optional<Pose> imaged;         ///< not given: Patient::imaged_pose
+  std::optional<Pose> imaged;       ///< not given: Patient::imaged_pose
   double density_kg_per_m3 = 1000;  ///< of breast tissue: fat 920, fibroglandular 1035
   std::optional<std::filesystem::path> second_state;  ///< the same breast in another pose
   Pose second_gravity = Pose::supine;

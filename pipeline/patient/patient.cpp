@@ -80,7 +80,8 @@ Pose Patient::imaged_pose(const std::string& patient_position) const {
 std::optional<fs::path> Patient::scan_file() const {
   if (!scan_) return std::nullopt;
   if (mri_ || labels_)
-    throw std::runtime_error(file_.string() + ": scan.path stands beside mri.path or labels.path; "
+    throw std::runtime_error(file_.string() +
+                             ": scan.path stands beside mri.path or labels.path; "
                              "expected one of them");
   return resolve(*scan_);
 }
@@ -88,7 +89,8 @@ std::optional<fs::path> Patient::scan_file() const {
 ScanOptions Patient::scan_options() const {
   ScanOptions options = scan_options_;
   if (options.base_point.has_value() != options.base_normal.has_value())
-    throw std::runtime_error(file_.string() + ": scan.base_point and scan.base_normal belong "
+    throw std::runtime_error(file_.string() +
+                             ": scan.base_point and scan.base_normal belong "
                              "together; expected both or none");
   options.up = scan_up_.value_or(options.up);
   options.side = side_.value_or(Side::left);

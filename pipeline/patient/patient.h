@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "fitting/scan/scanned_breast.h"
-#include "pipeline/patient/compression_settings.h"
 #include "pipeline/frame/settings.h"
+#include "pipeline/patient/compression_settings.h"
 #include "pipeline/patient/gravity_settings.h"
 #include "pipeline/patient/lesion_entry.h"
 #include "pipeline/patient/registration_settings.h"

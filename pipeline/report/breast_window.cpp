@@ -1,8 +1,8 @@
 #include "pipeline/report/breast_window.h"
 
-#include "registration/carry/position_grid.h"
-
 #include <algorithm>
+
+#include "registration/carry/position_grid.h"
 
 namespace mammotwin {
 namespace {
@@ -47,7 +47,9 @@ GreyWindow grey_window(const Volume<float>& image, const Eigen::AlignedBox3d& bo
       for (int i = low.x(); i <= high.x(); i += 2) values.push_back(image(i, j, k));
   if (values.empty()) return {};
   std::sort(values.begin(), values.end());
-  const auto at = [&](double f) { return values[static_cast<std::size_t>(f * (values.size() - 1))]; };
+  const auto at = [&](double f) {
+    return values[static_cast<std::size_t>(f * (values.size() - 1))];
+  };
   return {at(kDarkest), std::max(at(kBrightest), at(kDarkest) + 1e-6f)};
 }
 

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "pipeline/report/patient_results.h"
-
 #include <Eigen/Geometry>
+
+#include "pipeline/report/patient_results.h"
 
 namespace mammotwin {
 

@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <cmath>
+
 #include "pipeline/report/mesh_surface.h"
 #include "pipeline/report/palette.h"
 #include "pipeline/report/panel.h"
@@ -5,18 +8,15 @@
 #include "pipeline/report/word.h"
 #include "registration/carry/position_grid.h"
 
-#include <algorithm>
-#include <cmath>
-
 namespace mammotwin {
 namespace {
 
-constexpr double kWidth = 720;        // [pt]
-constexpr double kGap = 14;           // [pt]
+constexpr double kWidth = 720;  // [pt]
+constexpr double kGap = 14;     // [pt]
 constexpr double kPixel_mm = 0.75;
-constexpr double kPlate_mm = 4;       // drawn thickness of a plate
-constexpr double kBehind_mm = 25;     // shown behind the detector's edge
-constexpr double kMargin_mm = 14;      // room for plates and words
+constexpr double kPlate_mm = 4;    // drawn thickness of a plate
+constexpr double kBehind_mm = 25;  // shown behind the detector's edge
+constexpr double kMargin_mm = 14;  // room for plates and words
 
 Eigen::AlignedBox3d window_of(const HermiteMesh& in_view, double thickness_mm) {
   Eigen::AlignedBox3d box = bounding_box(in_view);
@@ -50,7 +50,8 @@ void draw_plates(Picture& picture, const Panel& panel, double thickness_mm) {
   const auto plate = [&](double face, double outwards) {
     Picture::Points points;
     for (int i = 0; i <= 8; ++i) {
-      const double a = i / 8.0 * std::acos(1 - kPlate_mm / kRounding_mm);  // until it is a plate thick
+      const double a =
+          i / 8.0 * std::acos(1 - kPlate_mm / kRounding_mm);  // until it is a plate thick
       points.push_back(panel.at({kRounding_mm * (1 - std::sin(a)), 0,
                                  face + outwards * kRounding_mm * (1 - std::cos(a))}));
     }
@@ -68,7 +69,8 @@ void draw_contents(Panel& panel, const PatientResults& results, const HermiteMes
                    const Landmark& lesion) {
   const Section& s = panel.section();
   panel.image(carried_labels(results, here, s));
-  panel.pieces(cut_by_plane(here, faces, s.normal, s.at), {palette::with_alpha(palette::ink, 0.45), 0.5});
+  panel.pieces(cut_by_plane(here, faces, s.normal, s.at),
+               {palette::with_alpha(palette::ink, 0.45), 0.5});
   panel.lesion_mark(projection.project(lesion).in_view, 6, lesion.id, false);
 }
 

@@ -1,9 +1,9 @@
 #include "pipeline/report/convergence_figure.h"
 
+#include <algorithm>
+
 #include "pipeline/report/palette.h"
 #include "pipeline/report/word.h"
-
-#include <algorithm>
 
 namespace mammotwin {
 namespace {
@@ -36,7 +36,8 @@ std::optional<Series> series_of(const PatientResults& results, const std::string
       counted += iterations;
     }
   if (series.bars.empty()) return std::nullopt;
-  series.bars.push_back({"end", std::max(0, quality.value("newton_iterations", counted) - counted)});
+  series.bars.push_back(
+      {"end", std::max(0, quality.value("newton_iterations", counted) - counted)});
   return series;
 }
 
@@ -44,7 +45,8 @@ std::optional<Series> series_of(const PatientResults& results, const std::string
 
 std::optional<Figure> convergence_figure(const PatientResults& results) {
   std::vector<Series> all;
-  const std::pair<const char*, Colour> views[] = {{"cc", palette::nipple}, {"mlo", palette::lesion}};
+  const std::pair<const char*, Colour> views[] = {{"cc", palette::nipple},
+                                                  {"mlo", palette::lesion}};
   for (const auto& [view, colour] : views)
     if (auto series = series_of(results, view, colour)) all.push_back(std::move(*series));
   if (all.empty()) return std::nullopt;
@@ -62,7 +64,8 @@ std::optional<Figure> convergence_figure(const PatientResults& results) {
   std::string alt = "Newton iterations of each load step.";
   double x = kLeft;
   for (const Series& series : all) {
-    picture.text({x, kTop - 12}, series.name + ", iterations", 9.5, series.colour, Anchor::start, true);
+    picture.text({x, kTop - 12}, series.name + ", iterations", 9.5, series.colour, Anchor::start,
+                 true);
     int sum = 0;
     for (const Bar& bar : series.bars) {
       const double height = scale * bar.iterations, width = std::max(1.0, pitch - kGap);
@@ -76,10 +79,11 @@ std::optional<Figure> convergence_figure(const PatientResults& results) {
     x += pitch;
     alt += " " + series.name + ": " + std::to_string(sum) + " in all.";
   }
-  return Figure{picture,
-                "Newton iterations of each load step; at the end the gap is closed and the thickness "
-                "corrected.",
-                alt};
+  return Figure{
+      picture,
+      "Newton iterations of each load step; at the end the gap is closed and the thickness "
+      "corrected.",
+      alt};
 }
 
 }  // namespace mammotwin

@@ -1,9 +1,9 @@
 #pragma once
 
+#include <optional>
+
 #include "pipeline/report/figure.h"
 #include "pipeline/report/patient_results.h"
-
-#include <optional>
 
 namespace mammotwin {
 

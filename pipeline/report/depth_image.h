@@ -1,11 +1,10 @@
 #pragma once
 
-#include "pipeline/report/picture.h"
-
 #include <Eigen/Core>
-
 #include <array>
 #include <vector>
+
+#include "pipeline/report/picture.h"
 
 namespace mammotwin {
 

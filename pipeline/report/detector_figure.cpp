@@ -1,19 +1,19 @@
-#include "pipeline/report/mesh_surface.h"
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
 #include "pipeline/report/mammogram_raster.h"
+#include "pipeline/report/mesh_surface.h"
 #include "pipeline/report/palette.h"
 #include "pipeline/report/panel.h"
 #include "pipeline/report/view_figures.h"
 #include "pipeline/report/word.h"
 #include "registration/view/simulated_mammogram.h"
 
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-
 namespace mammotwin {
 namespace {
 
-constexpr double kScale = 2.0;         // [pt/mm]
+constexpr double kScale = 2.0;  // [pt/mm]
 constexpr double kMargin_mm = 10;
 constexpr double kPixel_mm = 0.5;
 
@@ -27,7 +27,8 @@ DetectorImage shown(const PatientResults& results, const ViewResult& view) {
                                 view.detector, kPixel_mm));
 }
 
-/// Where the baseline puts a lesion: as the table says, which knows how register laid it on a mammogram.
+/// Where the baseline puts a lesion: as the table says, which knows how register laid it on a
+/// mammogram.
 Eigen::Vector2d baseline_of(const PatientResults& results, const std::string& view,
                             const ProjectedLandmark& p) {
   for (const LesionRow& row : results.rows)
@@ -37,7 +38,8 @@ Eigen::Vector2d baseline_of(const PatientResults& results, const std::string& vi
 }
 
 /// Lesions that lie behind the edge, where no mammogram shows them.
-std::vector<std::string> behind_edge(const PatientResults& results, const ViewProjection& projection) {
+std::vector<std::string> behind_edge(const PatientResults& results,
+                                     const ViewProjection& projection) {
   std::vector<std::string> names;
   for (const Landmark& lesion : results.lesions())
     if (projection.project(lesion).on_detector.x() < 0) names.push_back(lesion.id);
@@ -62,16 +64,14 @@ Section detector_section(const DetectorImage& image, Side side, double left) {
   s.normal = 2;
   s.right = {0, side == Side::right};  // chest walls meet in the middle, as mammograms are hung
   s.down = {1, true};
-  s.window = Eigen::AlignedBox3d(
-      Eigen::Vector3d(left, image.first.y() - kMargin_mm, 0),
-      Eigen::Vector3d(last.x() + kMargin_mm, last.y() + kMargin_mm, 0));
+  s.window = Eigen::AlignedBox3d(Eigen::Vector3d(left, image.first.y() - kMargin_mm, 0),
+                                 Eigen::Vector3d(last.x() + kMargin_mm, last.y() + kMargin_mm, 0));
   return s;
 }
 
 Raster raster_of(const DetectorImage& image, const Section& section) {
   return section.sample(kPixel_mm, [&](const Eigen::Vector3d& x) -> Colour {
-    const Eigen::Vector2d index =
-        (Eigen::Vector2d(x.x(), x.y()) - image.first) / image.spacing_mm;
+    const Eigen::Vector2d index = (Eigen::Vector2d(x.x(), x.y()) - image.first) / image.spacing_mm;
     const int i = static_cast<int>(std::lround(index.x()));
     const int j = static_cast<int>(std::lround(index.y()));
     const bool inside = i >= 0 && j >= 0 && i < image.columns && j < image.rows;
@@ -140,7 +140,8 @@ DetectorView detector_view(const PatientResults& results, const ViewResult& view
       detector_section(image, view.view.side, left_of_window(results, projection));
   std::string hidden;
   for (const std::string& lesion : behind_edge(results, projection))
-    hidden += " Lesion " + lesion + " lies behind the detector's edge: a mammogram would not show it.";
+    hidden +=
+        " Lesion " + lesion + " lies behind the detector's edge: a mammogram would not show it.";
   const std::string name =
       (view.view.side == Side::right ? "R-" : "L-") + title_of_view(view.view.name);
   return {std::move(projection), std::move(image), section, name, hidden};
@@ -162,17 +163,22 @@ Picture drawn(const PatientResults& results, const DetectorView& view, const Ras
   return picture;
 }
 
-Figure simulated_figure(const PatientResults& results, const ViewResult& view, const DetectorView& seen) {
-  return {drawn(results, seen, raster_of(seen.simulated, seen.section), seen.name + ", simulated"),
-          seen.name + " on the detector, simulated from the compressed model (cone beam, source at " +
-              word::number(view.detector.source_distance_mm, 0) + " mm)." + seen.hidden,
-          "Simulated " + seen.name + " mammogram." + described(results, seen.projection) + seen.hidden};
+Figure simulated_figure(const PatientResults& results, const ViewResult& view,
+                        const DetectorView& seen) {
+  return {
+      drawn(results, seen, raster_of(seen.simulated, seen.section), seen.name + ", simulated"),
+      seen.name + " on the detector, simulated from the compressed model (cone beam, source at " +
+          word::number(view.detector.source_distance_mm, 0) + " mm)." + seen.hidden,
+      "Simulated " + seen.name + " mammogram." + described(results, seen.projection) + seen.hidden};
 }
 
-Figure own_figure(const PatientResults& results, const DetectorView& seen, const RealMammogram& real) {
-  return {drawn(results, seen, mammogram_raster(real, seen.section, kPixel_mm), seen.name + ", mammogram"),
+Figure own_figure(const PatientResults& results, const DetectorView& seen,
+                  const RealMammogram& real) {
+  return {drawn(results, seen, mammogram_raster(real, seen.section, kPixel_mm),
+                seen.name + ", mammogram"),
           "The patient's own " + seen.name + " mammogram with the predicted places." + seen.hidden,
-          "The patient's " + seen.name + " mammogram." + described(results, seen.projection) + seen.hidden};
+          "The patient's " + seen.name + " mammogram." + described(results, seen.projection) +
+              seen.hidden};
 }
 
 }  // namespace

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "pipeline/report/picture.h"
-
 #include <string>
+
+#include "pipeline/report/picture.h"
 
 namespace mammotwin {
 

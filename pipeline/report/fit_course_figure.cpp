@@ -1,10 +1,10 @@
 #include "pipeline/report/fit_course_figure.h"
 
-#include "pipeline/report/palette.h"
-#include "pipeline/report/word.h"
-
 #include <algorithm>
 #include <cmath>
+
+#include "pipeline/report/palette.h"
+#include "pipeline/report/word.h"
 
 namespace mammotwin {
 namespace {
@@ -22,8 +22,9 @@ class Axes {
         high_(std::log10(*std::max_element(rms.begin(), rms.end()) * 1.2)) {}
 
   Eigen::Vector2d at(double iteration, double mm) const {
-    return {kLeft + iteration / last_ * (kWidth - kLeft - kRight),
-            kHeight - kBottom - (std::log10(mm) - low_) / (high_ - low_) * (kHeight - kTop - kBottom)};
+    return {
+        kLeft + iteration / last_ * (kWidth - kLeft - kRight),
+        kHeight - kBottom - (std::log10(mm) - low_) / (high_ - low_) * (kHeight - kTop - kBottom)};
   }
 
   void draw(Picture& picture) const {
@@ -67,12 +68,13 @@ std::optional<Figure> fit_course_figure(const PatientResults& results) {
     line.push_back(axes.at(static_cast<double>(i), rms[i]));
   picture.line(line, {palette::nipple, 2});
   for (const Eigen::Vector2d& p : line) picture.disc(p, 2.4, palette::nipple);
-  return Figure{picture,
-                "Distance of the smoothed skin to the mesh over the fit's iterations. It may rise where "
-                "the mesh is first kept from folding.",
-                "Distance of the skin to the mesh over the fit: from " + word::number(rms.front(), 2) +
-                    " to " + word::number(rms.back(), 2) + " mm RMS in " +
-                    std::to_string(rms.size() - 1) + " iterations."};
+  return Figure{
+      picture,
+      "Distance of the smoothed skin to the mesh over the fit's iterations. It may rise where "
+      "the mesh is first kept from folding.",
+      "Distance of the skin to the mesh over the fit: from " + word::number(rms.front(), 2) +
+          " to " + word::number(rms.back(), 2) + " mm RMS in " + std::to_string(rms.size() - 1) +
+          " iterations."};
 }
 
 }  // namespace mammotwin

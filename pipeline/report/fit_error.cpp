@@ -1,12 +1,12 @@
 #include "pipeline/report/fit_error.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "pipeline/report/mesh_field.h"
 #include "pipeline/report/palette.h"
 #include "pipeline/report/surface_render.h"
 #include "pipeline/report/word.h"
-
-#include <algorithm>
-#include <cmath>
 
 namespace mammotwin {
 namespace {
@@ -14,15 +14,16 @@ namespace {
 constexpr const char* kField = "skin_distance_mm";
 constexpr double kWidth = 300, kHeight = 280;  // [pt] a view
 constexpr double kPixelsPerPoint = 2;
-constexpr int kSamples = 12;                   // squares a side of an element's face
-constexpr int kMeasured = kSamples / 3;        // the field was measured at xi = 0, 1/3, 2/3, 1
-constexpr double kLegend = 40;                 // [pt] below
+constexpr int kSamples = 12;             // squares a side of an element's face
+constexpr int kMeasured = kSamples / 3;  // the field was measured at xi = 0, 1/3, 2/3, 1
+constexpr double kLegend = 40;           // [pt] below
 
 struct Eye {
   const char* name;
   double turn, rise;  // [rad]
 };
-constexpr Eye kEyes[] = {{"From the front and the side", 0.7, 0.35}, {"From the middle and below", -0.7, -0.5}};
+constexpr Eye kEyes[] = {{"From the front and the side", 0.7, 0.35},
+                         {"From the middle and below", -0.7, -0.5}};
 
 /// Faces of the skin only: elsewhere the field is no error of the fit.
 std::vector<ElementFace> skin_faces(const MeshFile& file) {
@@ -38,8 +39,8 @@ Picture seen(const FaceTriangles& skin, const std::vector<double>& errors,
   const int width = static_cast<int>(kWidth * kPixelsPerPoint);
   const int height = static_cast<int>(kHeight * kPixelsPerPoint);
   const double pixel_mm = 1.08 * std::max(window.sizes().x() / width, window.sizes().y() / height);
-  DepthImage image(width, height,
-                   window.center() - 0.5 * pixel_mm * Eigen::Vector2d(width, height), pixel_mm);
+  DepthImage image(width, height, window.center() - 0.5 * pixel_mm * Eigen::Vector2d(width, height),
+                   pixel_mm);
   const auto colour = [&](std::size_t i) {
     const auto& [a, b, c] = skin.triangles[i];
     return fit_error_colour((errors[a] + errors[b] + errors[c]) / 3);
@@ -81,7 +82,8 @@ Colour fit_error_colour(double mm) {
   const double t = std::clamp(mm / kFitErrorEnd_mm, -1.0, 1.0), a = std::abs(t);
   const Colour end = t < 0 ? palette::nipple : palette::lesion;
   constexpr double white = 0.96;
-  return {white + a * (end.red - white), white + a * (end.green - white), white + a * (end.blue - white), 1};
+  return {white + a * (end.red - white), white + a * (end.green - white),
+          white + a * (end.blue - white), 1};
 }
 
 std::vector<double> fit_errors(const PatientResults& results, const std::vector<ElementFace>& faces,
@@ -114,8 +116,9 @@ std::optional<Figure> fit_figure(const PatientResults& results) {
   const auto [least, most] = measured_range(errors);
   const std::string range = "from " + word::number(least, 2) + " mm (inside) to " +
                             word::number(most, 2) + " mm (outside)";
-  return Figure{picture, "How far the mesh's skin lies from the image's, painted on it: " + range + ".",
-                "The prone breast's skin from two sides, coloured by the fit's error, " + range + "."};
+  return Figure{
+      picture, "How far the mesh's skin lies from the image's, painted on it: " + range + ".",
+      "The prone breast's skin from two sides, coloured by the fit's error, " + range + "."};
 }
 
 }  // namespace mammotwin

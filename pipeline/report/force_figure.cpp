@@ -1,17 +1,17 @@
 #include "pipeline/report/force_figure.h"
 
-#include "pipeline/report/palette.h"
-#include "pipeline/report/word.h"
-
 #include <algorithm>
 #include <cmath>
+
+#include "pipeline/report/palette.h"
+#include "pipeline/report/word.h"
 
 namespace mammotwin {
 namespace {
 
-constexpr double kWidth = 460, kHeight = 250;                         // [pt]
-constexpr double kLabelHeight = 12;                                   // [pt]
-constexpr double kLeft = 48, kRight = 64, kTop = 14, kBottom = 40;    // [pt] margins
+constexpr double kWidth = 460, kHeight = 250;                       // [pt]
+constexpr double kLabelHeight = 12;                                 // [pt]
+constexpr double kLeft = 48, kRight = 64, kTop = 14, kBottom = 40;  // [pt] margins
 
 struct Curve {
   std::string name;
@@ -21,7 +21,8 @@ struct Curve {
 
 std::vector<Curve> curves_of(const PatientResults& results) {
   std::vector<Curve> curves;
-  const std::pair<const char*, Colour> views[] = {{"cc", palette::nipple}, {"mlo", palette::lesion}};
+  const std::pair<const char*, Colour> views[] = {{"cc", palette::nipple},
+                                                  {"mlo", palette::lesion}};
   for (const auto& [view, colour] : views) {
     const nlohmann::json* sidecar = results.sidecar(std::string(view) + ".vtu");
     if (!sidecar || !sidecar->contains("quality")) continue;
@@ -31,7 +32,8 @@ std::vector<Curve> curves_of(const PatientResults& results) {
       curve.points.emplace_back(quality["free_thickness_mm"].get<double>(), 0.0);
     for (const nlohmann::json& step : quality.value("history", nlohmann::json::array()))
       if (step.is_object() && step.contains("thickness_mm") && step.contains("force_N"))
-        curve.points.emplace_back(step["thickness_mm"].get<double>(), step["force_N"].get<double>());
+        curve.points.emplace_back(step["thickness_mm"].get<double>(),
+                                  step["force_N"].get<double>());
     if (curve.points.size() > 1) curves.push_back(std::move(curve));
   }
   return curves;
@@ -73,8 +75,8 @@ void draw_axes(Picture& picture, const Axes& axes) {
   const double across = tick_step(axes.thick - axes.thin), up = tick_step(axes.force);
   for (double f = 0; f <= axes.force; f += up) {
     picture.line({axes.at(axes.thick, f), axes.at(axes.thin, f)}, {palette::grid, 0.8});
-    picture.text(axes.at(axes.thick, f) + Eigen::Vector2d(-6, 3), word::number(f, up < 1 ? 1 : 0), 9,
-                 palette::quiet, Anchor::end);
+    picture.text(axes.at(axes.thick, f) + Eigen::Vector2d(-6, 3), word::number(f, up < 1 ? 1 : 0),
+                 9, palette::quiet, Anchor::end);
   }
   for (double t = std::ceil(axes.thin / across) * across; t <= axes.thick; t += across)
     picture.text(axes.at(t, 0) + Eigen::Vector2d(0, 14), word::number(t, 0), 9, palette::quiet,
@@ -104,7 +106,8 @@ std::optional<Figure> force_figure(const PatientResults& results) {
     lowest_label = label.y();
     picture.text(label, curve.name, 9.5, curve.colour, Anchor::start, true);
     const Eigen::Vector2d& last = curve.points.back();
-    alt += " " + curve.name + ": " + word::number(last.y(), 0) + " N at " + word::mm(last.x()) + " mm.";
+    alt += " " + curve.name + ": " + word::number(last.y(), 0) + " N at " + word::mm(last.x()) +
+           " mm.";
   }
   return Figure{picture, "Force on the paddle over the load steps.", alt};
 }

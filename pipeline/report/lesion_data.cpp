@@ -1,9 +1,9 @@
 #include "pipeline/report/lesion_data.h"
 
+#include <cmath>
+
 #include "pipeline/report/patient_results.h"
 #include "pipeline/report/word.h"
-
-#include <cmath>
 
 namespace mammotwin {
 namespace {
@@ -19,8 +19,8 @@ std::string shown(const Number& a, const Number& b, int decimals) {
 std::string model_to_baseline(const LesionRow& row) {
   if (!row.detector_u_mm || !row.baseline_u_mm || !row.detector_v_mm || !row.baseline_v_mm)
     return "";
-  return word::mm(std::hypot(*row.detector_u_mm - *row.baseline_u_mm,
-                             *row.detector_v_mm - *row.baseline_v_mm));
+  return word::mm(
+      std::hypot(*row.detector_u_mm - *row.baseline_u_mm, *row.detector_v_mm - *row.baseline_v_mm));
 }
 
 }  // namespace
@@ -30,7 +30,7 @@ nlohmann::json lesion_data(const std::vector<LesionRow>& rows) {
   for (const LesionRow& row : rows)
     list.push_back({{"lesion", row.lesion},
                     {"view", title_of_view(row.view)},
-                    {"place", row.view != "mri" ? ""
+                    {"place", row.view != "mri"   ? ""
                               : row.clock.empty() ? row.quadrant
                                                   : row.quadrant + ", " + row.clock + " o'clock"},
                     {"behind", shown(row.behind_nipple_mm)},

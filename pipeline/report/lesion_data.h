@@ -1,8 +1,8 @@
 #pragma once
 
-#include "registration/export/lesion_table.h"
-
 #include <nlohmann/json.hpp>
+
+#include "registration/export/lesion_table.h"
 
 namespace mammotwin {
 

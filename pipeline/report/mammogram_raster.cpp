@@ -1,9 +1,9 @@
 #include "pipeline/report/mammogram_raster.h"
 
-#include "pipeline/report/palette.h"
-
 #include <algorithm>
 #include <cmath>
+
+#include "pipeline/report/palette.h"
 
 namespace mammotwin {
 namespace {

@@ -65,7 +65,7 @@ MeshPoint point_on_face(const ElementFace& face, double s, double t) {
 }
 
 FaceTriangles triangulate(const HermiteMesh& mesh, const std::vector<ElementFace>& faces,
-                            int samples) {
+                          int samples) {
   FaceTriangles surface;
   for (const ElementFace& face : faces) {
     const int first = static_cast<int>(surface.points.size());
@@ -88,8 +88,8 @@ std::vector<Piece> cut_by_plane(const HermiteMesh& mesh, const std::vector<Eleme
   const FaceTriangles surface = triangulate(mesh, faces, samples);
   std::vector<Piece> pieces;
   for (const auto& [a, b, c] : surface.triangles)
-    if (const auto piece = cut_triangle(
-            {surface.points[a], surface.points[b], surface.points[c]}, axis, at))
+    if (const auto piece =
+            cut_triangle({surface.points[a], surface.points[b], surface.points[c]}, axis, at))
       pieces.push_back(*piece);
   return pieces;
 }

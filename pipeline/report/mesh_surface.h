@@ -1,10 +1,10 @@
 #pragma once
 
-#include "fitting/mesh/mesh_file.h"
-
 #include <array>
 #include <utility>
 #include <vector>
+
+#include "fitting/mesh/mesh_file.h"
 
 namespace mammotwin {
 
@@ -37,6 +37,6 @@ struct FaceTriangles {
   std::vector<FaceLabel> labels;              ///< one a triangle
 };
 FaceTriangles triangulate(const HermiteMesh& mesh, const std::vector<ElementFace>& faces,
-                            int samples);
+                          int samples);
 
 }  // namespace mammotwin

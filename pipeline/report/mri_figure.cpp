@@ -1,19 +1,19 @@
 #include "pipeline/report/mri_figure.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "pipeline/report/breast_window.h"
 #include "pipeline/report/mesh_surface.h"
 #include "pipeline/report/palette.h"
 #include "pipeline/report/panel.h"
 #include "pipeline/report/word.h"
 
-#include <algorithm>
-#include <cmath>
-
 namespace mammotwin {
 namespace {
 
-constexpr double kWidth = 720;      // [pt]
-constexpr double kGap = 12;         // [pt] between panels
+constexpr double kWidth = 720;  // [pt]
+constexpr double kGap = 12;     // [pt] between panels
 constexpr Colour kDark{0.16, 0.17, 0.19};
 
 class Slices {
@@ -54,8 +54,7 @@ class Slices {
   void draw_mesh(Panel& panel) const {
     if (!results_.prone) return;
     const Section& s = panel.section();
-    panel.pieces(cut_by_plane(results_.prone->mesh, faces_, s.normal, s.at),
-                 {palette::mesh, 0.9});
+    panel.pieces(cut_by_plane(results_.prone->mesh, faces_, s.normal, s.at), {palette::mesh, 0.9});
   }
 
   void draw_marks(Panel& panel) const {
@@ -105,17 +104,21 @@ Figure mri_figure(const PatientResults& results, const Landmark& lesion) {
       slices.draw_marks(panel);
       panel.sides(kWords[i].left, kWords[i].right, kWords[i].top, kWords[i].bottom, true);
       panel.scale_bar(20, palette::paper);
-      panel.title(std::string(kWords[i].name) + (!below ? ", labels" : results.prone ? ", mesh" : ", no mesh"));
+      panel.title(std::string(kWords[i].name) + (!below          ? ", labels"
+                                                 : results.prone ? ", mesh"
+                                                                 : ", no mesh"));
       x += panel.width() + kGap;
     }
   }
   const Eigen::Vector3d& p = lesion.prone_in_lps;
-  const std::string where = "L " + word::mm(p.x()) + ", P " + word::mm(p.y()) + ", S " +
-                            word::mm(p.z()) + " mm";
+  const std::string where =
+      "L " + word::mm(p.x()) + ", P " + word::mm(p.y()) + ", S " + word::mm(p.z()) + " mm";
   return {picture,
           "Prone " + std::string(results.mri ? "MRI" : "label map") + " through lesion " +
-              lesion.id + " (" + where + "). Above: labels (skin, fat, fibroglandular, muscle, lesion)." +
-              (results.prone ? " Below: the curves in which the fitted mesh cuts the same slices." : ""),
+              lesion.id + " (" + where +
+              "). Above: labels (skin, fat, fibroglandular, muscle, lesion)." +
+              (results.prone ? " Below: the curves in which the fitted mesh cuts the same slices."
+                             : ""),
           "Axial, sagittal and coronal slices through lesion " + lesion.id + " at " + where +
               ", once with tissue labels and once with the mesh outline."};
 }

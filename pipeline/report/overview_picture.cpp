@@ -1,12 +1,12 @@
 #include "pipeline/report/overview_picture.h"
 
+#include <algorithm>
+#include <vector>
+
 #include "pipeline/report/mri_figure.h"
 #include "pipeline/report/palette.h"
 #include "pipeline/report/render_figure.h"
 #include "pipeline/report/view_figures.h"
-
-#include <algorithm>
-#include <vector>
 
 namespace mammotwin {
 namespace {

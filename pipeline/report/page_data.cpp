@@ -1,5 +1,7 @@
 #include "pipeline/report/page_data.h"
 
+#include <algorithm>
+
 #include "pipeline/report/base64.h"
 #include "pipeline/report/convergence_figure.h"
 #include "pipeline/report/fit_course_figure.h"
@@ -17,8 +19,6 @@
 #include "pipeline/report/view_figures.h"
 #include "pipeline/report/volume_data.h"
 #include "pipeline/report/word.h"
-
-#include <algorithm>
 
 namespace mammotwin {
 namespace {
@@ -52,12 +52,14 @@ void add_views(const PatientResults& results, json& page) {
   for (const BreastShape& shape : breast_shapes(results))
     page["renders"].push_back(figure_data(render_figure(results, shape)));
   for (const ViewResult& view : results.views) {
-    for (const Figure& figure : detector_figures(results, view)) page["detectors"].push_back(figure_data(figure));
+    for (const Figure& figure : detector_figures(results, view))
+      page["detectors"].push_back(figure_data(figure));
     for (const Landmark& lesion : results.lesions())
       page["cuts"].push_back(figure_data(compressed_figure(results, view, lesion)));
   }
   if (const auto figure = force_figure(results)) page["course"].push_back(figure_data(*figure));
-  if (const auto figure = convergence_figure(results)) page["course"].push_back(figure_data(*figure));
+  if (const auto figure = convergence_figure(results))
+    page["course"].push_back(figure_data(*figure));
   page["has_course"] = !page["course"].empty();
 }
 
@@ -66,16 +68,20 @@ void add_lesions(const PatientResults& results, json& page) {
   page["has_rows"] = !results.rows.empty();
   bool ellipses = false;
   for (const LesionRow& row : results.rows) ellipses |= row.ellipse_major_mm.has_value();
-  page["marks"] = ellipses ? "Ring: lesion by the model; ellipse: holds it with 90 % probability; cross: without "
-                             "physics; triangle: nipple."
-                           : "Ring: lesion by the model; cross: without physics; triangle: nipple.";
+  page["marks"] =
+      ellipses
+          ? "Ring: lesion by the model; ellipse: holds it with 90 % probability; cross: without "
+            "physics; triangle: nipple."
+          : "Ring: lesion by the model; cross: without physics; triangle: nipple.";
   page["frames"] = figure_data(frames_figure());
   page["ellipse_note"] =
-      ellipses ? "The ellipse holds the lesion with 90 % probability as far as pose, thickness and stiffness "
-                 "are uncertain, in a view without a mammogram in the simulated picture: where the real "
-                 "detector's edge stands is not known. How it was made: registration/README.md."
-               : "No search ellipse is given yet: published methods of this kind err by 5 to 13 mm "
-                 "on real patients, so look in a region and not at a point.";
+      ellipses
+          ? "The ellipse holds the lesion with 90 % probability as far as pose, thickness and "
+            "stiffness "
+            "are uncertain, in a view without a mammogram in the simulated picture: where the real "
+            "detector's edge stands is not known. How it was made: registration/README.md."
+          : "No search ellipse is given yet: published methods of this kind err by 5 to 13 mm "
+            "on real patients, so look in a region and not at a point.";
 }
 
 json quality_row(const std::string& product, const QualityFigure& figure, const json& quality) {
@@ -94,8 +100,10 @@ void add_quality(const PatientResults& results, json& page) {
     json figures = json::array();
     for (const QualityFigure& f : quality_figures(quality))
       figures.push_back(quality_row(stage.product, f, quality));
-    std::stable_partition(figures.begin(), figures.end(), [](const json& row) { return row["expected"] != ""; });
-    if (!figures.empty()) page["quality"].push_back({{"product", stage.product}, {"figures", figures}});
+    std::stable_partition(figures.begin(), figures.end(),
+                          [](const json& row) { return row["expected"] != ""; });
+    if (!figures.empty())
+      page["quality"].push_back({{"product", stage.product}, {"figures", figures}});
   }
 }
 
@@ -118,7 +126,9 @@ void add_files(const PatientResults& results, json& page) {
 std::string fit_summary(const PatientResults& results) {
   const json* sidecar = results.sidecar("prone.vtu");
   const json quality = sidecar ? sidecar->value("quality", json::object()) : json::object();
-  const auto has = [&](const char* key) { return quality.contains(key) && quality[key].is_number(); };
+  const auto has = [&](const char* key) {
+    return quality.contains(key) && quality[key].is_number();
+  };
   for (const char* key : {"skin_rms_mesh_to_data_mm", "skin_rms_data_to_mesh_mm", "skin_p95_mm",
                           "skin_max_mm", "chest_wall_rms_mm"})
     if (!has(key)) return "";
@@ -139,10 +149,13 @@ std::string unload_summary(const PatientResults& results) {
     if (!quality.contains(key) || !quality[key].is_number()) return "";
   if (quality["gravity_fraction"] < 1) return "";
   return "Imaged " + quality.value("gravity", "") + ", the breast sags by up to " +
-         word::number(quality["sag_max_mm"], 1) + " mm from its shape free of stress; 95 % of it is "
-         "stretched by less than " + word::number(100 * (quality["stretch_p95"].get<double>() - 1), 0) +
+         word::number(quality["sag_max_mm"], 1) +
+         " mm from its shape free of stress; 95 % of it is "
+         "stretched by less than " +
+         word::number(100 * (quality["stretch_p95"].get<double>() - 1), 0) +
          " %. All stiffnesses are " + word::number(quality["stiffness_factor"], 2) +
-         " times those given" + (quality.contains("stiffness_fit") ? ", fitted to a second state." : ".");
+         " times those given" +
+         (quality.contains("stiffness_fit") ? ", fitted to a second state." : ".");
 }
 
 json parameter_rows(const json& parameters) {
@@ -163,12 +176,13 @@ void add_provenance(const PatientResults& results, json& page) {
     json inputs = json::array();
     for (const json& input : s.value("inputs", json::array()))
       inputs.push_back({{"path", input.value("path", "")}, {"sha256", input.value("sha256", "")}});
-    page["provenance"].push_back({{"product", stage.product},
-                                  {"stage", s.value("stage", "")},
-                                  {"version", s.value("version", "")},
-                                  {"command", s.value("command", "")},
-                                  {"parameters", parameter_rows(s.value("parameters", json::object()))},
-                                  {"inputs", inputs}});
+    page["provenance"].push_back(
+        {{"product", stage.product},
+         {"stage", s.value("stage", "")},
+         {"version", s.value("version", "")},
+         {"command", s.value("command", "")},
+         {"parameters", parameter_rows(s.value("parameters", json::object()))},
+         {"inputs", inputs}});
   }
   page["notes"] = json::array();
   for (const std::string& note : results.notes) page["notes"].push_back({{"text", note}});
@@ -180,7 +194,9 @@ json page_data(const PatientResults& results, const std::string& version) {
   json page = verdict_data(results);
   page["patient"] = results.patient;
   page["version"] = version;
-  page["side"] = !results.segmentation ? "" : results.segmentation->region.side == Side::left ? "left" : "right";
+  page["side"] = !results.segmentation                             ? ""
+                 : results.segmentation->region.side == Side::left ? "left"
+                                                                   : "right";
   page["fit_summary"] = fit_summary(results);
   page["unload_summary"] = unload_summary(results);
   add_lesions(results, page);
@@ -191,7 +207,8 @@ json page_data(const PatientResults& results, const std::string& version) {
   add_provenance(results, page);
   add_files(results, page);
   page["has_lesions"] = page["has_rows"] || page["has_views"];
-  page["has_fit"] = !page["fit"].empty() || page["fit_summary"] != "" || page["unload_summary"] != "";
+  page["has_fit"] =
+      !page["fit"].empty() || page["fit_summary"] != "" || page["unload_summary"] != "";
   return page;
 }
 

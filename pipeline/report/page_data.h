@@ -1,10 +1,9 @@
 #pragma once
 
-#include "pipeline/report/patient_results.h"
-
 #include <nlohmann/json.hpp>
-
 #include <string>
+
+#include "pipeline/report/patient_results.h"
 
 namespace mammotwin {
 

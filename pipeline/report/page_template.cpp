@@ -1,11 +1,10 @@
 #include "pipeline/report/page_template.h"
 
 #include <kainjow/mustache.hpp>
-
 #include <stdexcept>
 
 // Laid into the program by the linker: see embed_files in CMakeLists.txt.
-#define MAMMOTWIN_EMBEDDED(name)             \
+#define MAMMOTWIN_EMBEDDED(name)              \
   extern const char _binary_##name##_start[]; \
   extern const char _binary_##name##_end[];
 extern "C" {
@@ -39,7 +38,8 @@ mustache::data mustache_data(const nlohmann::json& value) {
   if (value.is_boolean())
     return mustache::data{value.get<bool>() ? mustache::data::type::bool_true
                                             : mustache::data::type::bool_false};
-  if (value == "") return mustache::data{mustache::data::type::bool_false};  // its section is left out
+  if (value == "")
+    return mustache::data{mustache::data::type::bool_false};  // its section is left out
   return mustache::data{value.is_string() ? value.get<std::string>() : value.dump()};
 }
 

@@ -24,11 +24,16 @@ inline constexpr Colour muscle{0.70, 0.25, 0.22};
 inline Colour of_label(std::uint8_t value) {
   if (label::is_lesion(value)) return lesion;
   switch (value) {
-    case label::skin: return skin;
-    case label::fat: return fat;
-    case label::fibroglandular: return fibroglandular;
-    case label::muscle: return muscle;
-    default: return {0, 0, 0, 0};
+    case label::skin:
+      return skin;
+    case label::fat:
+      return fat;
+    case label::fibroglandular:
+      return fibroglandular;
+    case label::muscle:
+      return muscle;
+    default:
+      return {0, 0, 0, 0};
   }
 }
 

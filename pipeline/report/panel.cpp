@@ -1,14 +1,14 @@
 #include "pipeline/report/panel.h"
 
-#include "pipeline/report/palette.h"
-
 #include <algorithm>
+
+#include "pipeline/report/palette.h"
 
 namespace mammotwin {
 namespace {
 
-constexpr double kSmall = 8;     // [pt] text beside marks
-constexpr double kMark = 4.5;    // [pt] half size of a cross or triangle
+constexpr double kSmall = 8;   // [pt] text beside marks
+constexpr double kMark = 4.5;  // [pt] half size of a cross or triangle
 
 }  // namespace
 
@@ -26,8 +26,9 @@ void Panel::edge_line(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
 }
 
 void Panel::frame() {
-  picture_.outline({{x_, y_}, {x_ + width(), y_}, {x_ + width(), y_ + height()}, {x_, y_ + height()}},
-                   {palette::quiet, 0.6});
+  picture_.outline(
+      {{x_, y_}, {x_ + width(), y_}, {x_ + width(), y_ + height()}, {x_, y_ + height()}},
+      {palette::quiet, 0.6});
 }
 
 void Panel::sides(const std::string& left, const std::string& right, const std::string& top,
@@ -64,7 +65,8 @@ void Panel::lesion_mark(const Eigen::Vector3d& x, double radius_mm, const std::s
 
 void Panel::nipple_mark(const Eigen::Vector3d& x, bool on_image) {
   const Eigen::Vector2d p = at(x);
-  const Picture::Points triangle = {{p.x(), p.y() - kMark}, {p.x() + kMark, p.y() + kMark * 0.8},
+  const Picture::Points triangle = {{p.x(), p.y() - kMark},
+                                    {p.x() + kMark, p.y() + kMark * 0.8},
                                     {p.x() - kMark, p.y() + kMark * 0.8}};
   picture_.polygon(triangle, palette::nipple);
   picture_.outline(triangle, {palette::paper, 1});
@@ -77,8 +79,8 @@ void Panel::baseline_mark(const Eigen::Vector3d& x, const std::string& name) {
   picture_.cross(p, kMark, {palette::paper, 3.5});
   picture_.cross(p, kMark, {palette::baseline, 1.8});
   if (!name.empty())
-    picture_.text({p.x() - kMark - 3, p.y() + 3}, name, kSmall, palette::baseline_label, Anchor::end,
-                  false, true);
+    picture_.text({p.x() - kMark - 3, p.y() + 3}, name, kSmall, palette::baseline_label,
+                  Anchor::end, false, true);
 }
 
 }  // namespace mammotwin

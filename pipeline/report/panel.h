@@ -1,11 +1,11 @@
 #pragma once
 
-#include "pipeline/report/picture.h"
-#include "pipeline/report/section.h"
-
 #include <string>
 #include <utility>
 #include <vector>
+
+#include "pipeline/report/picture.h"
+#include "pipeline/report/section.h"
 
 namespace mammotwin {
 

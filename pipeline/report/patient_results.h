@@ -1,16 +1,15 @@
 #pragma once
 
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
 #include "fitting/mesh/mesh_file.h"
 #include "registration/export/lesion_table.h"
 #include "registration/mammogram/mammogram_image.h"
 #include "segmentation/segmentation.h"
-
-#include <nlohmann/json.hpp>
-
-#include <filesystem>
-#include <optional>
-#include <string>
-#include <vector>
 
 namespace mammotwin {
 
@@ -43,8 +42,9 @@ struct PatientResults {
   std::optional<HermiteMesh> unloaded;  ///< the same elements, free of stress
   std::vector<ViewResult> views;
   std::vector<LesionRow> rows;
-  std::vector<RealMammogram> mammograms;  ///< those that the patient's file names and that could be read
-  std::vector<std::string> files;         ///< names of the folder's files, sorted
+  std::vector<RealMammogram>
+      mammograms;                  ///< those that the patient's file names and that could be read
+  std::vector<std::string> files;  ///< names of the folder's files, sorted
   std::vector<std::string> notes;  ///< products that exist and could not be read, with the reason
 
   /// Lesions and nipple in the prone MRI: of the segmentation, else of the lesion table.

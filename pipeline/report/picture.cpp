@@ -184,7 +184,8 @@ std::string with_own_numbers(const std::string& svg) {
   std::string result;
   std::size_t done = 0;
   for (std::sregex_iterator i(svg.begin(), svg.end(), part), end; i != end; ++i) {
-    const int number = numbers.emplace((*i)[2].str(), static_cast<int>(numbers.size()) + 1).first->second;
+    const int number =
+        numbers.emplace((*i)[2].str(), static_cast<int>(numbers.size()) + 1).first->second;
     result.append(svg, done, i->position() - done);
     result += (*i)[1].str() + std::to_string(number);
     done = i->position() + i->length();
@@ -211,8 +212,8 @@ void Picture::write_png(const std::filesystem::path& path, double pixels_per_poi
   const cairo_status_t status = cairo_surface_write_to_png(target, path.c_str());
   cairo_surface_destroy(target);
   if (status != CAIRO_STATUS_SUCCESS)
-    throw std::runtime_error(path.string() + ": cannot be written: " +
-                             cairo_status_to_string(status));
+    throw std::runtime_error(path.string() +
+                             ": cannot be written: " + cairo_status_to_string(status));
 }
 
 }  // namespace mammotwin

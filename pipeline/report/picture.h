@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -33,14 +32,14 @@ struct Raster {
 
 struct Stroke {
   Colour colour;
-  double width = 1;                  ///< [pt]
-  std::vector<double> dashes = {};   ///< [pt]; empty: solid
+  double width = 1;                 ///< [pt]
+  std::vector<double> dashes = {};  ///< [pt]; empty: solid
 };
 
 enum class Anchor { start, middle, end };
 
-/// A drawing in points (1/72 inch), y downwards. It records what is drawn, so that one drawing gives
-/// an SVG for the page, a PNG for a README, and a part of a larger drawing.
+/// A drawing in points (1/72 inch), y downwards. It records what is drawn, so that one drawing
+/// gives an SVG for the page, a PNG for a README, and a part of a larger drawing.
 class Picture {
  public:
   using Points = std::vector<Eigen::Vector2d>;

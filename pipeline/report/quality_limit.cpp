@@ -1,12 +1,12 @@
 #include "pipeline/report/quality_limit.h"
 
-#include "fitting/fit_limits.h"
-#include "pipeline/steps/quality_limits.h"
-#include "pipeline/report/word.h"
-#include "segmentation/segment_limits.h"
-
 #include <algorithm>
 #include <cmath>
+
+#include "fitting/fit_limits.h"
+#include "pipeline/report/word.h"
+#include "pipeline/steps/quality_limits.h"
+#include "segmentation/segment_limits.h"
 
 namespace mammotwin {
 namespace {
@@ -20,7 +20,8 @@ struct Limit {
 };
 
 constexpr Limit kLimits[] = {
-    {"segmentation.seg.nrrd", "breast_volume_ml", limits::least_breast_ml, limits::most_breast_ml, " ml"},
+    {"segmentation.seg.nrrd", "breast_volume_ml", limits::least_breast_ml, limits::most_breast_ml,
+     " ml"},
     {"segmentation.seg.nrrd", "chest_wall_doubt", -kNone, limits::chest_wall_doubt, ""},
     {"segmentation.seg.nrrd", "chest_wall_fat_behind", -kNone, limits::chest_wall_fat_behind, ""},
     {"segmentation.seg.nrrd", "pre_shift_mm", -kNone, limits::pre_shift_mm, " mm"},
@@ -49,7 +50,8 @@ std::string shown(double value, const char* unit) {
 
 std::string words_of(const Limit& limit) {
   if (std::isinf(limit.low)) return "at most " + shown(limit.high, limit.unit);
-  if (std::isinf(limit.high)) return (limit.low == 0 ? "above " : "at least ") + shown(limit.low, limit.unit);
+  if (std::isinf(limit.high))
+    return (limit.low == 0 ? "above " : "at least ") + shown(limit.low, limit.unit);
   if (limit.low == -limit.high) return "within ± " + shown(limit.high, limit.unit);
   return shown(limit.low, "") + " to " + shown(limit.high, limit.unit);
 }
@@ -61,10 +63,12 @@ bool holds(const Limit& limit, double value) {
 
 /// A view's thickness is judged against the one that was asked for.
 std::optional<QualityExpectation> thickness(const nlohmann::json& quality) {
-  if (!quality.contains("target_thickness_mm") || !quality["target_thickness_mm"].is_number()) return {};
+  if (!quality.contains("target_thickness_mm") || !quality["target_thickness_mm"].is_number())
+    return {};
   const double target = quality["target_thickness_mm"];
-  return QualityExpectation{word::number(target, 2) + " ± " + shown(limits::thickness_error_mm, " mm"),
-                            std::abs(quality["thickness_mm"].get<double>() - target) <= limits::thickness_error_mm};
+  return QualityExpectation{
+      word::number(target, 2) + " ± " + shown(limits::thickness_error_mm, " mm"),
+      std::abs(quality["thickness_mm"].get<double>() - target) <= limits::thickness_error_mm};
 }
 
 }  // namespace
@@ -74,8 +78,10 @@ std::optional<QualityExpectation> expectation(const std::string& product, const 
   if (!quality.contains(key) || !quality[key].is_number()) return {};
   const bool view = product == "cc.vtu" || product == "mlo.vtu";
   if (view && key == "thickness_mm") return thickness(quality);
-  const auto find = [&](auto begin, auto end, const std::string& of) -> std::optional<QualityExpectation> {
-    const auto at = std::find_if(begin, end, [&](const Limit& l) { return of == l.product && key == l.key; });
+  const auto find = [&](auto begin, auto end,
+                        const std::string& of) -> std::optional<QualityExpectation> {
+    const auto at =
+        std::find_if(begin, end, [&](const Limit& l) { return of == l.product && key == l.key; });
     if (at == end) return {};
     return QualityExpectation{words_of(*at), holds(*at, quality[key].get<double>())};
   };

@@ -10,8 +10,9 @@ namespace {
 using nlohmann::json;
 
 constexpr std::pair<const char*, const char*> kUnits[] = {
-    {"_mm", "mm"},   {"_N", "N"},     {"_cm2", "cm²"},    {"_ml", "ml"},          {"_deg", "°"},
-    {"_kPa", "kPa"}, {"_mb", "MB"},   {"_seconds", "s"},  {"_fraction", "fraction"}};
+    {"_mm", "mm"}, {"_N", "N"},       {"_cm2", "cm²"},
+    {"_ml", "ml"}, {"_deg", "°"},     {"_kPa", "kPa"},
+    {"_mb", "MB"}, {"_seconds", "s"}, {"_fraction", "fraction"}};
 
 /// Shown elsewhere on the page, or not figures of quality.
 constexpr const char* kElsewhere[] = {"history", "detectors", "skin_rms_by_iteration_mm"};
@@ -43,9 +44,11 @@ void unfold(const std::string& path, const json& value, std::vector<QualityFigur
   std::size_t number = 0;
   for (const auto& [key, child] : value.items()) {
     ++number;
-    const std::string label = !value.is_array()            ? key
-                              : child.contains("id")       ? child["id"].is_string() ? child["id"].get<std::string>() : child["id"].dump()
-                                                           : std::to_string(number);
+    const std::string label =
+        !value.is_array() ? key
+        : child.contains("id")
+            ? child["id"].is_string() ? child["id"].get<std::string>() : child["id"].dump()
+            : std::to_string(number);
     if (value.is_array() && child.is_object()) {
       for (const auto& [name, leaf] : child.items())
         if (name != "id") unfold(path + " " + label + ", " + name, leaf, figures);

@@ -1,19 +1,18 @@
-#include "pipeline/report/patient_results.h"
-
-#include "segmentation/files/segmentation_file.h"
-
 #include <algorithm>
 #include <fstream>
 #include <functional>
 #include <stdexcept>
+
+#include "pipeline/report/patient_results.h"
+#include "segmentation/files/segmentation_file.h"
 
 namespace mammotwin {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kProductsInOrder[] = {"segmentation.seg.nrrd", "prone.vtu", "unloaded.vtu",
-                                            "cc.vtu", "mlo.vtu", "lesions.csv"};
+constexpr const char* kProductsInOrder[] = {
+    "segmentation.seg.nrrd", "prone.vtu", "unloaded.vtu", "cc.vtu", "mlo.vtu", "lesions.csv"};
 constexpr const char* kViews[] = {"cc", "mlo"};
 
 void read_sidecars(const fs::path& folder, PatientResults& results) {
@@ -75,7 +74,8 @@ PatientResults read_patient_results(const fs::path& folder) {
   PatientResults results;
   results.patient = fs::weakly_canonical(folder).filename().string();
   read_sidecars(folder, results);
-  try_read(folder / "mri.nrrd", results, [&] { results.mri = read_image_file(folder / "mri.nrrd"); });
+  try_read(folder / "mri.nrrd", results,
+           [&] { results.mri = read_image_file(folder / "mri.nrrd"); });
   try_read(folder / "segmentation.seg.nrrd", results, [&] {
     results.segmentation =
         read_segmentation(folder / "segmentation.seg.nrrd", folder / "fractions.nrrd");

@@ -1,5 +1,7 @@
 #include "pipeline/report/render_figure.h"
 
+#include <Eigen/Geometry>
+
 #include "pipeline/report/depth_image.h"
 #include "pipeline/report/mesh_surface.h"
 #include "pipeline/report/palette.h"
@@ -7,22 +9,23 @@
 #include "pipeline/report/word.h"
 #include "registration/carry/position_grid.h"
 
-#include <Eigen/Geometry>
-
 namespace mammotwin {
 namespace {
 
 constexpr double kWidth = 350, kHeight = 300;  // [pt]
 constexpr double kPixelsPerPoint = 2;
-constexpr int kSamples = 10;                   // squares a side of an element's face
-constexpr double kTurn = 0.7, kRise = 0.35;    // of the eye [rad]
-constexpr double kSkinOpacity = 0.55;          // lesions show through
+constexpr int kSamples = 10;                 // squares a side of an element's face
+constexpr double kTurn = 0.7, kRise = 0.35;  // of the eye [rad]
+constexpr double kSkinOpacity = 0.55;        // lesions show through
 
 Colour surface_colour(FaceLabel label) {
   switch (label) {
-    case FaceLabel::chest_wall: return palette::muscle;
-    case FaceLabel::cut: return palette::fat;
-    default: return palette::skin;
+    case FaceLabel::chest_wall:
+      return palette::muscle;
+    case FaceLabel::cut:
+      return palette::fat;
+    default:
+      return palette::skin;
   }
 }
 
@@ -37,7 +40,8 @@ std::array<Eigen::Vector3d, 4> plate_corners(const ViewFrame& frame, const Eigen
 Picture::Points on_paper(const DepthImage& image, const Eigen::Matrix3d& axes,
                          const std::array<Eigen::Vector3d, 4>& corners) {
   Picture::Points points;
-  for (const Eigen::Vector3d& x : corners) points.push_back(image.pixel(axes * x) / kPixelsPerPoint);
+  for (const Eigen::Vector3d& x : corners)
+    points.push_back(image.pixel(axes * x) / kPixelsPerPoint);
   return points;
 }
 
@@ -59,11 +63,13 @@ Scene make_scene(const MeshFile& file, const HermiteMesh& mesh, Side side) {
 std::vector<BreastShape> breast_shapes(const PatientResults& results) {
   std::vector<BreastShape> shapes{{"Prone", "Prone, as in the MRI.", &results.prone->mesh}};
   if (results.unloaded && results.unloaded->num_elements() == results.prone->mesh.num_elements())
-    shapes.push_back({"Unloaded", "Unloaded: free of gravity and stress, where the plates begin.", &*results.unloaded});
+    shapes.push_back({"Unloaded", "Unloaded: free of gravity and stress, where the plates begin.",
+                      &*results.unloaded});
   for (const ViewResult& view : results.views) {
     const std::string name = title_of_view(view.view.name);
-    shapes.push_back({name, name + ", between support and paddle (" + word::mm(view.view.thickness_mm) + " mm).",
-                      &view.file.mesh, &view});
+    shapes.push_back(
+        {name, name + ", between support and paddle (" + word::mm(view.view.thickness_mm) + " mm).",
+         &view.file.mesh, &view});
   }
   return shapes;
 }
@@ -83,7 +89,8 @@ Figure render_figure(const PatientResults& results, const BreastShape& shape) {
   }
   const int width = static_cast<int>(kWidth * kPixelsPerPoint);
   const int height = static_cast<int>(kHeight * kPixelsPerPoint);
-  const double pixel_mm = 1.08 * std::max(scene.window.sizes().x() / width, scene.window.sizes().y() / height);
+  const double pixel_mm =
+      1.08 * std::max(scene.window.sizes().x() / width, scene.window.sizes().y() / height);
   const Eigen::Vector2d corner =
       scene.window.center() - 0.5 * pixel_mm * Eigen::Vector2d(width, height);
   DepthImage far_side(width, height, corner, pixel_mm), near_side(width, height, corner, pixel_mm);
@@ -101,17 +108,20 @@ Figure render_figure(const PatientResults& results, const BreastShape& shape) {
     return (far_side.pixel(scene.axes * carrier.carry(prone).in_lps) / kPixelsPerPoint).eval();
   };
   for (const Landmark& lesion : results.lesions())
-    picture.disc(place(lesion.prone_in_lps), std::max(3.0, 5 / pixel_mm / kPixelsPerPoint), palette::lesion);
+    picture.disc(place(lesion.prone_in_lps), std::max(3.0, 5 / pixel_mm / kPixelsPerPoint),
+                 palette::lesion);
   Raster glass = near_side.raster();
   for (Colour& colour : glass.pixels) colour.alpha *= kSkinOpacity;
   picture.image(glass, 0, 0, kWidth, kHeight);
   if (view) {
-    const auto paddle = on_paper(far_side, scene.axes, plate_corners(view->view.frame, in_view, view->view.thickness_mm));
+    const auto paddle = on_paper(far_side, scene.axes,
+                                 plate_corners(view->view.frame, in_view, view->view.thickness_mm));
     picture.polygon(paddle, palette::with_alpha(palette::plate, 0.22));
     picture.outline(paddle, {palette::plate, 1});
   }
   for (const Landmark& lesion : results.lesions())
-    picture.text(place(lesion.prone_in_lps) + Eigen::Vector2d(7, 3), lesion.id, 9, palette::lesion, Anchor::start, true);
+    picture.text(place(lesion.prone_in_lps) + Eigen::Vector2d(7, 3), lesion.id, 9, palette::lesion,
+                 Anchor::start, true);
   if (const auto nipple = results.nipple()) picture.disc(place(*nipple), 3, palette::nipple);
   picture.text({6, 14}, shape.name, 11, palette::ink, Anchor::start, true);
   return {picture, shape.caption,

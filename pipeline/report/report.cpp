@@ -1,12 +1,12 @@
 #include "pipeline/report/report.h"
 
+#include <fstream>
+#include <stdexcept>
+
 #include "pipeline/report/frames_figure.h"
 #include "pipeline/report/overview_picture.h"
 #include "pipeline/report/page_data.h"
 #include "pipeline/report/page_template.h"
-
-#include <fstream>
-#include <stdexcept>
 
 namespace mammotwin {
 

@@ -1,9 +1,9 @@
 #pragma once
 
-#include "pipeline/report/patient_results.h"
-
 #include <filesystem>
 #include <string>
+
+#include "pipeline/report/patient_results.h"
 
 namespace mammotwin {
 

@@ -1,21 +1,21 @@
 #include "pipeline/report/scene_data.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "pipeline/report/base64.h"
 #include "pipeline/report/fit_error.h"
 #include "pipeline/report/mesh_surface.h"
 #include "pipeline/report/palette.h"
 #include "registration/carry/position_grid.h"
 
-#include <algorithm>
-#include <cmath>
-
 namespace mammotwin {
 namespace {
 
 using nlohmann::json;
 
-constexpr int kSamples = 8;          // squares a side of an element's face
-constexpr double kMargin_mm = 10;    // plates reach this far past the breast
+constexpr int kSamples = 8;        // squares a side of an element's face
+constexpr double kMargin_mm = 10;  // plates reach this far past the breast
 
 template <class T>
 std::string packed(const std::vector<T>& numbers) {
@@ -88,7 +88,8 @@ struct Mark {
 std::vector<Mark> marks_of(const PatientResults& results) {
   std::vector<Mark> marks;
   for (const Landmark& lesion : results.lesions()) marks.push_back({lesion, 4.5, palette::lesion});
-  if (const auto nipple = results.nipple()) marks.push_back({{"nipple", *nipple}, 3, palette::nipple});
+  if (const auto nipple = results.nipple())
+    marks.push_back({{"nipple", *nipple}, 3, palette::nipple});
   return marks;
 }
 
@@ -128,9 +129,8 @@ json scene_data(const PatientResults& results) {
   const std::vector<Mark> marks = marks_of(results);
   json mark_list = json::array(), states = json::array(), views = json::array();
   for (const Mark& mark : marks)
-    mark_list.push_back({{"name", mark.landmark.id},
-                         {"radius_mm", mark.radius_mm},
-                         {"colour", hex(mark.colour)}});
+    mark_list.push_back(
+        {{"name", mark.landmark.id}, {"radius_mm", mark.radius_mm}, {"colour", hex(mark.colour)}});
   states.push_back(state_data("Prone", results, results.prone->mesh, faces, marks));
   if (results.unloaded && results.unloaded->num_elements() == results.prone->mesh.num_elements())
     states.push_back(state_data("Unloaded", results, *results.unloaded, faces, marks));

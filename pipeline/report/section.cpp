@@ -30,12 +30,14 @@ Eigen::Vector3d Section::in_space(const Eigen::Vector2d& on_paper) const {
 
 Raster Section::sample(double pixel_mm,
                        const std::function<Colour(const Eigen::Vector3d&)>& colour) const {
-  const auto count = [&](double mm) { return std::max(1, static_cast<int>(std::lround(mm / pixel_mm))); };
+  const auto count = [&](double mm) {
+    return std::max(1, static_cast<int>(std::lround(mm / pixel_mm)));
+  };
   Raster raster(count(width_mm()), count(height_mm()));
   for (int row = 0; row < raster.height; ++row)
     for (int column = 0; column < raster.width; ++column)
-      raster(column, row) = colour(in_space({(column + 0.5) * width_mm() / raster.width,
-                                             (row + 0.5) * height_mm() / raster.height}));
+      raster(column, row) = colour(in_space(
+          {(column + 0.5) * width_mm() / raster.width, (row + 0.5) * height_mm() / raster.height}));
   return raster;
 }
 

@@ -1,17 +1,16 @@
 #pragma once
 
-#include "pipeline/report/picture.h"
-
 #include <Eigen/Geometry>
-
 #include <functional>
+
+#include "pipeline/report/picture.h"
 
 namespace mammotwin {
 
 /// An axis of space as it runs over the paper.
 struct PaperAxis {
-  int axis;                ///< 0, 1, 2
-  bool reversed = false;   ///< towards smaller coordinates
+  int axis;               ///< 0, 1, 2
+  bool reversed = false;  ///< towards smaller coordinates
 };
 
 /// A plane normal to one axis, cut to a window, and how it lies on paper. Coordinates are mm of
@@ -30,8 +29,7 @@ struct Section {
   Eigen::Vector3d in_space(const Eigen::Vector2d& on_paper) const;
 
   /// Colours sampled at pixel centres `pixel_mm` apart.
-  Raster sample(double pixel_mm,
-                const std::function<Colour(const Eigen::Vector3d&)>& colour) const;
+  Raster sample(double pixel_mm, const std::function<Colour(const Eigen::Vector3d&)>& colour) const;
 };
 
 }  // namespace mammotwin

@@ -1,15 +1,14 @@
 #include "pipeline/report/surface_render.h"
 
 #include <Eigen/Geometry>
-
 #include <cmath>
 
 namespace mammotwin {
 
 Eigen::Matrix3d eye_axes(Side side, double turn, double rise) {
   const double sideways = (side == Side::left ? 1 : -1) * turn;
-  const Eigen::Vector3d eye(std::sin(sideways) * std::cos(rise), -std::cos(sideways) * std::cos(rise),
-                            std::sin(rise));
+  const Eigen::Vector3d eye(std::sin(sideways) * std::cos(rise),
+                            -std::cos(sideways) * std::cos(rise), std::sin(rise));
   const Eigen::Vector3d right = Eigen::Vector3d::UnitZ().cross(eye).normalized();
   Eigen::Matrix3d axes;
   axes << right.transpose(), eye.cross(right).transpose(), eye.transpose();

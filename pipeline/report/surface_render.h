@@ -1,10 +1,10 @@
 #pragma once
 
+#include <functional>
+
 #include "pipeline/report/depth_image.h"
 #include "pipeline/report/mesh_surface.h"
 #include "segmentation/segmentation.h"
-
-#include <functional>
 
 namespace mammotwin {
 

@@ -63,8 +63,10 @@ json verdict_data(const PatientResults& results) {
     status = "incomplete";
     verdict = "Incomplete: the chain has not come to lesion positions yet";
   }
-  return {{"status", status},   {"verdict", verdict},
-          {"reasons", reasons}, {"has_reasons", !reasons.empty()},
+  return {{"status", status},
+          {"verdict", verdict},
+          {"reasons", reasons},
+          {"has_reasons", !reasons.empty()},
           {"stages", stages}};
 }
 

@@ -10,9 +10,9 @@ namespace mammotwin {
 Figure compressed_figure(const PatientResults& results, const ViewResult& view,
                          const Landmark& lesion);
 
-/// The view as the detector sees it, with lesions, search ellipses, nipple, and the baseline's lesions
-/// beside them: on the patient's own mammogram where there is one, and last on the simulated one (or
-/// the breast's shadow where there are no tissue fractions), all in one window.
+/// The view as the detector sees it, with lesions, search ellipses, nipple, and the baseline's
+/// lesions beside them: on the patient's own mammogram where there is one, and last on the
+/// simulated one (or the breast's shadow where there are no tissue fractions), all in one window.
 std::vector<Figure> detector_figures(const PatientResults& results, const ViewResult& view);
 
 }  // namespace mammotwin

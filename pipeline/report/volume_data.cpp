@@ -1,13 +1,13 @@
 #include "pipeline/report/volume_data.h"
 
-#include "pipeline/report/base64.h"
-#include "pipeline/report/breast_window.h"
-#include "pipeline/report/palette.h"
-
 #include <zlib.h>
 
 #include <cmath>
 #include <stdexcept>
+
+#include "pipeline/report/base64.h"
+#include "pipeline/report/breast_window.h"
+#include "pipeline/report/palette.h"
 
 namespace mammotwin {
 namespace {
@@ -18,13 +18,16 @@ using Bytes = std::vector<std::uint8_t>;
 constexpr double kMostVoxels = 6e6;  // 8 bit of noise deflate to about 6/8: 6 MB as base64
 
 /// The label map's voxels in the box, thinned out until there are few enough.
-Volume<std::uint8_t> window_grid(const Volume<std::uint8_t>& labels, const Eigen::AlignedBox3d& box) {
+Volume<std::uint8_t> window_grid(const Volume<std::uint8_t>& labels,
+                                 const Eigen::AlignedBox3d& box) {
   const Eigen::Vector3i first = labels.index(box.min()).array().ceil().cast<int>().max(0);
   const Eigen::Vector3i last =
       labels.index(box.max()).cast<int>().cwiseMin(labels.size - Eigen::Vector3i::Ones());
   const Eigen::Vector3i size = last - first + Eigen::Vector3i::Ones();
   Eigen::Vector3i every = Eigen::Vector3i::Ones();
-  const auto count = [&] { return ((size - Eigen::Vector3i::Ones()).cwiseQuotient(every) + Eigen::Vector3i::Ones()).eval(); };
+  const auto count = [&] {
+    return ((size - Eigen::Vector3i::Ones()).cwiseQuotient(every) + Eigen::Vector3i::Ones()).eval();
+  };
   while (count().cast<double>().prod() > kMostVoxels) {
     int finest = 0;
     labels.spacing.cwiseProduct(every.cast<double>()).minCoeff(&finest);
@@ -95,8 +98,8 @@ json volume_data(const PatientResults& results) {
                {"origin", list_of(grid.origin)},
                {"tissues", label_list(results.lesions())},
                {"places", place_list(results)}};
-  data["labels"] = deflated(sampled(
-      grid, [&](const Eigen::Vector3d& x) { return nearest(labels, x, label::air); }));
+  data["labels"] = deflated(
+      sampled(grid, [&](const Eigen::Vector3d& x) { return nearest(labels, x, label::air); }));
   if (!results.mri) return data;
   const GreyWindow window = grey_window(*results.mri, box);
   data["grey"] = deflated(sampled(grid, [&](const Eigen::Vector3d& x) {

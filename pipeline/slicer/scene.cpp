@@ -1,11 +1,11 @@
 #include "pipeline/slicer/scene.h"
 
+#include <algorithm>
+
 #include "pipeline/report/fit_error.h"
 #include "pipeline/report/palette.h"
 #include "pipeline/slicer/scene_nodes.h"
 #include "pipeline/slicer/surface_file.h"
-
-#include <algorithm>
 
 namespace mammotwin {
 namespace {
@@ -15,7 +15,8 @@ constexpr const char* kError = "skin_distance_mm";
 
 class Scene {
  public:
-  Scene(const PatientResults& results, const FileWriter& write) : results_(results), write_(write) {}
+  Scene(const PatientResults& results, const FileWriter& write)
+      : results_(results), write_(write) {}
 
   std::string text() {
     add_images();
@@ -40,10 +41,12 @@ class Scene {
       mri = nodes_.add_volume("MRI", "mri.nrrd");
       nodes_.show_in_slices(mri);
     }
-    if (has("segmentation.seg.nrrd")) nodes_.add_segmentation("Tissue", "segmentation.seg.nrrd", mri);
+    if (has("segmentation.seg.nrrd"))
+      nodes_.add_segmentation("Tissue", "segmentation.seg.nrrd", mri);
   }
 
-  void add_surface(const std::string& state, const HermiteMesh& mesh, const PointNumbers& numbers = {}) {
+  void add_surface(const std::string& state, const HermiteMesh& mesh,
+                   const PointNumbers& numbers = {}) {
     const std::string file = "scene_" + state + ".vtp";
     write_surface(write_(file), triangulate(mesh, outer_faces(*results_.prone), kSamples), numbers);
     nodes_.add_model("Breast " + state, file, palette::skin, state == "prone", numbers.name);
@@ -53,7 +56,8 @@ class Scene {
     PointNumbers errors{kError, fit_errors(results_, outer_faces(*results_.prone), kSamples)};
     if (errors.values.empty()) errors.name.clear();
     add_surface("prone", results_.prone->mesh, errors);
-    if (results_.unloaded && results_.unloaded->num_elements() == results_.prone->mesh.num_elements())
+    if (results_.unloaded &&
+        results_.unloaded->num_elements() == results_.prone->mesh.num_elements())
       add_surface("unloaded", *results_.unloaded);
     for (const ViewResult& view : results_.views) add_surface(view.view.name, view.file.mesh);
   }

@@ -8,10 +8,14 @@ namespace {
 std::string escaped(const std::string& text) {
   std::string out;
   for (const char c : text) {
-    if (c == '&') out += "&amp;";
-    else if (c == '<') out += "&lt;";
-    else if (c == '"') out += "&quot;";
-    else out += c;
+    if (c == '&')
+      out += "&amp;";
+    else if (c == '<')
+      out += "&lt;";
+    else if (c == '"')
+      out += "&quot;";
+    else
+      out += c;
   }
   return out;
 }
@@ -26,7 +30,8 @@ constexpr double kModelOpacity = 0.5;  // lesions show through
 
 }  // namespace
 
-std::string SceneNodes::add(const std::string& tag, const std::string& type, Attributes attributes) {
+std::string SceneNodes::add(const std::string& tag, const std::string& type,
+                            Attributes attributes) {
   const std::string id = "vtkMRML" + type + "Node" + std::to_string(++count_[type]);
   std::string line = "  <" + tag + " id=\"" + id + "\"";
   for (const auto& [key, value] : attributes) line += " " + key + "=\"" + escaped(value) + "\"";
@@ -43,13 +48,16 @@ std::string SceneNodes::add_item(const std::string& tag, const std::string& name
     const std::string type = tag == "Volume" ? "ScalarVolumeDisplay" : display;
     refers += "display:" + add(display, type, std::move(display_attributes)) + ";";
   }
-  return add(tag, tag == "Volume" ? "ScalarVolume" : tag, {{"name", name}, {"references", refers + references}});
+  return add(tag, tag == "Volume" ? "ScalarVolume" : tag,
+             {{"name", name}, {"references", refers + references}});
 }
 
 std::string SceneNodes::add_volume(const std::string& name, const std::string& file) {
-  return add_item("Volume", name, "VolumeArchetypeStorage", {{"fileName", file}, {"centerImage", "0"}},
-                  "VolumeDisplay",
-                  {{"colorNodeRef", "vtkMRMLColorTableNodeGrey"}, {"autoWindowLevel", "1"}, {"interpolate", "1"}});
+  return add_item("Volume", name, "VolumeArchetypeStorage",
+                  {{"fileName", file}, {"centerImage", "0"}}, "VolumeDisplay",
+                  {{"colorNodeRef", "vtkMRMLColorTableNodeGrey"},
+                   {"autoWindowLevel", "1"},
+                   {"interpolate", "1"}});
 }
 
 void SceneNodes::add_segmentation(const std::string& name, const std::string& file,
@@ -61,27 +69,33 @@ void SceneNodes::add_segmentation(const std::string& name, const std::string& fi
 
 void SceneNodes::add_model(const std::string& name, const std::string& file, const Colour& colour,
                            bool visible, const std::string& numbers) {
-  Attributes display = {{"color", shown(colour)}, {"opacity", word::number(kModelOpacity, 2)},
-                        {"visibility", truth(visible)}, {"visibility2D", "true"}};
+  Attributes display = {{"color", shown(colour)},
+                        {"opacity", word::number(kModelOpacity, 2)},
+                        {"visibility", truth(visible)},
+                        {"visibility2D", "true"}};
   if (!numbers.empty())
-    display.insert(display.end(), {{"activeScalarName", numbers}, {"scalarVisibility", "false"},
-                                   {"colorNodeRef", "vtkMRMLColorTableNodeFileDivergingBlueRed.txt"}});
+    display.insert(display.end(),
+                   {{"activeScalarName", numbers},
+                    {"scalarVisibility", "false"},
+                    {"colorNodeRef", "vtkMRMLColorTableNodeFileDivergingBlueRed.txt"}});
   add_item("Model", name, "ModelStorage", {{"fileName", file}, {"coordinateSystem", "LPS"}},
            "ModelDisplay", display);
 }
 
 void SceneNodes::add_markups(const std::string& name, const std::string& file, const Colour& colour,
                              bool visible) {
-  add_item("MarkupsFiducial", name, "MarkupsJsonStorage",
-           {{"fileName", file}, {"coordinateSystem", "LPS"}}, "MarkupsDisplay",
-           {{"selectedColor", shown(colour)}, {"color", shown(colour)}, {"visibility", truth(visible)}});
+  add_item(
+      "MarkupsFiducial", name, "MarkupsJsonStorage",
+      {{"fileName", file}, {"coordinateSystem", "LPS"}}, "MarkupsDisplay",
+      {{"selectedColor", shown(colour)}, {"color", shown(colour)}, {"visibility", truth(visible)}});
 }
 
 void SceneNodes::add_closed_curve(const std::string& name, const std::string& file,
                                   const Colour& colour, bool visible) {
-  add_item("MarkupsClosedCurve", name, "MarkupsJsonStorage",
-           {{"fileName", file}, {"coordinateSystem", "LPS"}}, "MarkupsDisplay",
-           {{"selectedColor", shown(colour)}, {"color", shown(colour)}, {"visibility", truth(visible)}});
+  add_item(
+      "MarkupsClosedCurve", name, "MarkupsJsonStorage",
+      {{"fileName", file}, {"coordinateSystem", "LPS"}}, "MarkupsDisplay",
+      {{"selectedColor", shown(colour)}, {"color", shown(colour)}, {"visibility", truth(visible)}});
 }
 
 void SceneNodes::add_transform(const std::string& name, const std::string& file) {
@@ -96,7 +110,8 @@ void SceneNodes::show_in_slices(const std::string& volume) {
 }
 
 std::string SceneNodes::text() const {
-  std::string text = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<MRML version=\"Slicer 5.0.3\">\n";
+  std::string text =
+      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<MRML version=\"Slicer 5.0.3\">\n";
   for (const std::string& line : lines_) text += line + "\n";
   return text + "</MRML>\n";
 }

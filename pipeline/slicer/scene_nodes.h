@@ -1,10 +1,10 @@
 #pragma once
 
-#include "pipeline/report/picture.h"
-
 #include <map>
 #include <string>
 #include <vector>
+
+#include "pipeline/report/picture.h"
 
 namespace mammotwin {
 
@@ -15,12 +15,15 @@ class SceneNodes {
  public:
   /// Returns the volume's id, for `show_in_slices`.
   std::string add_volume(const std::string& name, const std::string& file);
-  void add_segmentation(const std::string& name, const std::string& file, const std::string& on_volume);
+  void add_segmentation(const std::string& name, const std::string& file,
+                        const std::string& on_volume);
   /// `file` in LPS. `numbers`: the point numbers that colour it, else `colour`.
   void add_model(const std::string& name, const std::string& file, const Colour& colour, bool shown,
                  const std::string& numbers = "");
-  void add_markups(const std::string& name, const std::string& file, const Colour& colour, bool shown);
-  void add_closed_curve(const std::string& name, const std::string& file, const Colour& colour, bool shown);
+  void add_markups(const std::string& name, const std::string& file, const Colour& colour,
+                   bool shown);
+  void add_closed_curve(const std::string& name, const std::string& file, const Colour& colour,
+                        bool shown);
   /// A displacement field as the transform that Slicer applies to what lives on the field's target.
   void add_transform(const std::string& name, const std::string& file);
   /// Behind the three slice views.

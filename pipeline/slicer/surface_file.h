@@ -1,10 +1,10 @@
 #pragma once
 
-#include "pipeline/report/mesh_surface.h"
-
 #include <filesystem>
 #include <string>
 #include <vector>
+
+#include "pipeline/report/mesh_surface.h"
 
 namespace mammotwin {
 

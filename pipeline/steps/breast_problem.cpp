@@ -1,9 +1,9 @@
 #include "pipeline/steps/breast_problem.h"
 
-#include "fitting/tissue/cell_tissue.h"
-
 #include <algorithm>
 #include <utility>
+
+#include "fitting/tissue/cell_tissue.h"
 
 namespace mammotwin {
 

@@ -11,8 +11,8 @@ namespace mammotwin {
 TissueSampler tissue_of(const MeshFile& mesh, const Volume<Fractions>& fractions);
 
 /// The patient's breast as the solver takes it, without plates or gravity: a mesh file's shape (and
-/// its configuration "prone", where it has one), the tissue in it, laws, skin and what holds it. All
-/// stiffnesses are multiplied by `stiffness_factor`.
+/// its configuration "prone", where it has one), the tissue in it, laws, skin and what holds it.
+/// All stiffnesses are multiplied by `stiffness_factor`.
 CompressionProblem breast_problem(MeshFile mesh, TissueSampler tissue,
                                   const CompressionSettings& settings, double stiffness_factor);
 

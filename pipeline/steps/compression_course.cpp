@@ -63,9 +63,12 @@ void write_course(const MeshFile& compressed, const std::vector<CourseStep>& cou
   std::ofstream out(collection);
   out << "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n <Collection>\n";
   for (std::size_t s = 0; s < course.size(); ++s) {
-    MeshFile file{HermiteMesh(course[s].nodes, compressed.mesh.elements()), compressed.faces,
-                  compressed.ties, compressed.configurations,
-                  {{"thickness_mm", {course[s].thickness_mm}}}, {}};
+    MeshFile file{HermiteMesh(course[s].nodes, compressed.mesh.elements()),
+                  compressed.faces,
+                  compressed.ties,
+                  compressed.configurations,
+                  {{"thickness_mm", {course[s].thickness_mm}}},
+                  {}};
     const std::string name = stem + "_" + numbered(s) + ".vtu";
     write_mesh_file(file_named(name), file);
     out << "  <DataSet timestep=\"" << s << "\" part=\"0\" file=\"" << name << "\"/>\n";

@@ -1,9 +1,9 @@
 #include "pipeline/steps/compression_quality.h"
 
-#include "pipeline/steps/quality_limits.h"
-
 #include <cmath>
 #include <cstdio>
+
+#include "pipeline/steps/quality_limits.h"
 
 namespace mammotwin {
 namespace {

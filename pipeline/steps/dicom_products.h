@@ -6,8 +6,8 @@
 namespace mammotwin {
 
 /// dicom/cc_gsps.dcm, cc_sr.dcm and cc_simulated.dcm for a view "cc", in the study of its mammogram
-/// and with its patient attributes (registration/export/dicom_export.h): only where the patient's file
-/// asks for them.
+/// and with its patient attributes (registration/export/dicom_export.h): only where the patient's
+/// file asks for them.
 void write_dicom_products(const RegisteredView& view, const std::vector<Landmark>& lesions,
                           const DetectorImage& shown, const std::filesystem::path& mammogram,
                           Products& products);

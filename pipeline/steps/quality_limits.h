@@ -5,10 +5,10 @@ namespace mammotwin::limits {
 /// Beyond these a stage's result is `look`: what stages judge by and the report shows beside them.
 /// A matter of trust and not of arithmetic: the lesion error that people accept is millimetres, and
 /// tissue keeps its volume.
-inline constexpr double thickness_error_mm = 0.1;   ///< compressed thickness off the one asked for
-inline constexpr double volume_change = 0.01;       ///< share, either way
-inline constexpr double penetration_mm = 0.1;       ///< of a plate
-inline constexpr double share_of_sane_J = 0.99;     ///< of points, at least, with J within half of 1
+inline constexpr double thickness_error_mm = 0.1;  ///< compressed thickness off the one asked for
+inline constexpr double volume_change = 0.01;      ///< share, either way
+inline constexpr double penetration_mm = 0.1;      ///< of a plate
+inline constexpr double share_of_sane_J = 0.99;    ///< of points, at least, with J within half of 1
 /// Strain beyond which a neo-Hookean breast with these moduli is not to be believed unseen.
 inline constexpr double stretch_p95 = 1.5;
 

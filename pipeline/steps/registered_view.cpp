@@ -1,12 +1,12 @@
 #include "pipeline/steps/registered_view.h"
 
+#include <stdexcept>
+#include <utility>
+
 #include "fitting/mesh/mesh_file.h"
 #include "registration/export/landmark_table.h"
 #include "registration/export/view_products.h"
 #include "segmentation/files/segmentation_file.h"
-
-#include <stdexcept>
-#include <utility>
 
 namespace mammotwin {
 namespace {
@@ -47,8 +47,7 @@ std::optional<ViewUncertainty> read_uncertainty(const MeshFile& file) {
     throw std::runtime_error("the fields state_sd and state_covariance have another length than " +
                              std::to_string(kStates) + " and its square");
   uncertainty.sd = ViewState(sd->second.data());
-  uncertainty.covariance =
-      Eigen::Matrix<double, kStates, kStates>(covariance->second.data());
+  uncertainty.covariance = Eigen::Matrix<double, kStates, kStates>(covariance->second.data());
   for (int i = 0; i < kMechanical; ++i)
     if (const auto varied = file.configurations.find(kVaried + kStateNames[i]);
         varied != file.configurations.end())
@@ -82,7 +81,11 @@ RegisteredView read_registered_view(const std::string& name, const std::filesyst
   for (const auto& [state, nodes] : file.configurations)
     if (state != "prone" && !state.starts_with(kVaried))
       states.emplace(state, HermiteMesh(nodes, file.mesh.elements()));
-  return {file, std::move(mesh), file.mesh, std::move(projection), std::move(states),
+  return {file,
+          std::move(mesh),
+          file.mesh,
+          std::move(projection),
+          std::move(states),
           read_uncertainty(file)};
 }
 
@@ -116,8 +119,8 @@ nlohmann::json detector_json(const Detector& detector) {
 }
 
 DetectorImage write_view_files(const RegisteredView& view, const Segmentation& segmentation,
-                      const std::optional<Volume<float>>& mri, Products& products,
-                      nlohmann::json& quality) {
+                               const std::optional<Volume<float>>& mri, Products& products,
+                               nlohmann::json& quality) {
   const CompressedView& geometry = view.projection.view();
   const std::string& name = geometry.name;
   const ViewFields fields = view_fields(view.prone, view.compressed);
@@ -127,8 +130,8 @@ DetectorImage write_view_files(const RegisteredView& view, const Segmentation& s
   quality["field_composition"][name] = {{"mean_mm", fields.error.mean_mm},
                                         {"p99_mm", fields.error.p99_mm},
                                         {"max_mm", fields.error.max_mm}};
-  const SimulatedView simulated = simulate_view(view.prone, view.compressed, &segmentation.fractions,
-                                                geometry, view.projection.detector());
+  const SimulatedView simulated = simulate_view(
+      view.prone, view.compressed, &segmentation.fractions, geometry, view.projection.detector());
   const DetectorImage shown = as_shown(simulated);
   write_view_png(products.write("simulated_" + name + ".png"), shown, geometry.side);
   if (mri)

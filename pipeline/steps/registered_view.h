@@ -1,18 +1,17 @@
 #pragma once
 
-#include "pipeline/patient/compression_settings.h"
-#include "pipeline/frame/products.h"
-#include "registration/view/project_lesions.h"
-#include "registration/search/search_ellipse.h"
-#include "registration/view/simulated_mammogram.h"
-#include "segmentation/segmentation.h"
-
-#include <nlohmann/json.hpp>
-
 #include <filesystem>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+
+#include "pipeline/frame/products.h"
+#include "pipeline/patient/compression_settings.h"
+#include "registration/search/search_ellipse.h"
+#include "registration/view/project_lesions.h"
+#include "registration/view/simulated_mammogram.h"
+#include "segmentation/segmentation.h"
 
 namespace mammotwin {
 
@@ -47,8 +46,8 @@ nlohmann::json detector_json(const Detector& detector);
 /// For a view "cc": cc_from_prone.nrrd and prone_from_cc.nrrd, simulated_cc.png and, with an MRI,
 /// mri_in_cc.nrrd; the fields' composition error goes to `quality`. Returns the view as shown.
 DetectorImage write_view_files(const RegisteredView& view, const Segmentation& segmentation,
-                      const std::optional<Volume<float>>& mri, Products& products,
-                      nlohmann::json& quality);
+                               const std::optional<Volume<float>>& mri, Products& products,
+                               nlohmann::json& quality);
 
 /// Table of target registration errors for a file of landmark pairs.
 /// Throws std::runtime_error where a view that has marks has no pixel spacing.

@@ -1,12 +1,12 @@
 #include "pipeline/steps/searched_views.h"
 
+#include <cstdio>
+#include <stdexcept>
+
 #include "pipeline/steps/breast_problem.h"
 #include "pipeline/steps/view_problem.h"
 #include "registration/mammogram/mammogram_findings.h"
 #include "registration/mammogram/mammogram_header.h"
-
-#include <cstdio>
-#include <stdexcept>
 
 namespace mammotwin {
 namespace {
@@ -67,23 +67,31 @@ std::string sentence(const std::string& view, const char* format, double value) 
 void judge(const SearchedView& view, std::vector<std::string>& reasons) {
   const std::string& name = view.view.name;
   if (view.failed_solves == 2 * kMechanical)
-    reasons.push_back(name + ": no solve near the compressed state succeeded, so neither a search "
-                             "nor ellipses that know the mechanics; run compress again");
+    reasons.push_back(name +
+                      ": no solve near the compressed state succeeded, so neither a search "
+                      "nor ellipses that know the mechanics; run compress again");
   if (!view.after) return;
   if (view.after->outline_rms_mm > kPoorOutline_mm)
-    reasons.push_back(sentence(name, "after the search the model's outline still lies %.1f mm (RMS) "
-                               "off the mammogram's", view.after->outline_rms_mm));
+    reasons.push_back(sentence(name,
+                               "after the search the model's outline still lies %.1f mm (RMS) "
+                               "off the mammogram's",
+                               view.after->outline_rms_mm));
   if (view.after->nipple_mm && *view.after->nipple_mm > kPoorNipple_mm)
-    reasons.push_back(sentence(name, "after the search the model's nipple still lies %.1f mm off the "
-                               "mammogram's", *view.after->nipple_mm));
+    reasons.push_back(sentence(name,
+                               "after the search the model's nipple still lies %.1f mm off the "
+                               "mammogram's",
+                               *view.after->nipple_mm));
   if (!view.complete)
-    reasons.push_back(name + ": the search stopped where no equilibrium was found, with the best state "
-                             "that it had solved");
+    reasons.push_back(name +
+                      ": the search stopped where no equilibrium was found, with the best state "
+                      "that it had solved");
   const ViewState sd = view.uncertainty.sd;
   for (const int i : {kThickness, kRoll, kTurn})
     if (std::abs(view.state[i]) > kFarState * sd[i])
-      reasons.push_back(sentence(name, (std::string("the mammogram asks for another ") +
-                                        kStateNames[i] + " by %.1f; is the header right?").c_str(),
+      reasons.push_back(sentence(name,
+                                 (std::string("the mammogram asks for another ") + kStateNames[i] +
+                                  " by %.1f; is the header right?")
+                                     .c_str(),
                                  view.state[i]));
 }
 
@@ -104,9 +112,12 @@ std::map<std::string, json> search_and_register(const Patient& patient,
   std::vector<SearchInput> inputs;
   for (const RegisteredView& view : views) {
     const CompressedView& geometry = view.projection.view();
-    SearchInput input{view.file, geometry, view.projection.detector(),
-                      nearby_solver(patient, geometry, view.file,
-                                    tissue_of(view.file, segmentation.fractions)), {}};
+    SearchInput input{
+        view.file,
+        geometry,
+        view.projection.detector(),
+        nearby_solver(patient, geometry, view.file, tissue_of(view.file, segmentation.fractions)),
+        {}};
     if (patient.view(geometry.name).mammogram) input.evidence = evidence_of(patient, view);
     inputs.push_back(std::move(input));
   }

@@ -1,12 +1,12 @@
 #include "pipeline/steps/second_state.h"
 
-#include "fitting/surface/label_surface.h"
-#include "fitting/surface/read_surface.h"
-#include "segmentation/files/read_image.h"
-
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+
+#include "fitting/surface/label_surface.h"
+#include "fitting/surface/read_surface.h"
+#include "segmentation/files/read_image.h"
 
 namespace mammotwin {
 namespace {

@@ -1,9 +1,9 @@
 #pragma once
 
-#include "fitting/surface/closest_point.h"
-#include "fitting/mesh/mesh_file.h"
-
 #include <filesystem>
+
+#include "fitting/mesh/mesh_file.h"
+#include "fitting/surface/closest_point.h"
 
 namespace mammotwin {
 

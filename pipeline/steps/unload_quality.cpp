@@ -1,9 +1,9 @@
 #include "pipeline/steps/unload_quality.h"
 
-#include "pipeline/steps/quality_limits.h"
-
 #include <cmath>
 #include <cstdio>
+
+#include "pipeline/steps/quality_limits.h"
 
 namespace mammotwin {
 namespace {
@@ -17,9 +17,7 @@ std::string sentence(const char* format, Values... values) {
   return text;
 }
 
-json optional_number(const std::optional<double>& value) {
-  return value ? json(*value) : json();
-}
+json optional_number(const std::optional<double>& value) { return value ? json(*value) : json(); }
 
 json fit_json(const StiffnessFit& fit) {
   json at_one = std::isfinite(fit.distance_at_one_mm) ? json(fit.distance_at_one_mm) : json();
@@ -61,9 +59,11 @@ std::string too_soft(const UnloadingRecord& record) {
   // A stiffness a little above the smallest: two digits, rounded up.
   const double factor =
       std::ceil(100 * record.stiffness_factor * r.sufficient_stiffness_factor()) / 100;
-  return sentence("no unloaded shape holds with these stiffnesses beyond %.0f %% of the gravity; "
-                  "materials.stiffness_factor = %.2f is enough (",
-                  100 * r.gravity_fraction, factor) + r.reason + ")";
+  return sentence(
+             "no unloaded shape holds with these stiffnesses beyond %.0f %% of the gravity; "
+             "materials.stiffness_factor = %.2f is enough (",
+             100 * r.gravity_fraction, factor) +
+         r.reason + ")";
 }
 
 }  // namespace
@@ -89,7 +89,8 @@ Outcome judge_unloading(const UnloadingRecord& record) {
   };
   doubt(record.report.stretch_p95 > limits::stretch_p95,
         sentence("hanging stretches 5 %% of the breast by more than %.2f; are the stiffnesses too "
-                 "low?", record.report.stretch_p95));
+                 "low?",
+                 record.report.stretch_p95));
   for (const auto& [name, pose] : record.poses) {
     const HangReport& r = pose.result.report;
     doubt(!r.usable(), "the breast does not come to rest " + name + ": " + r.reason +

@@ -1,12 +1,12 @@
 #pragma once
 
-#include "pipeline/frame/outcome.h"
-#include "pipeline/patient/gravity_settings.h"
-#include "solver/gravity/fit_stiffness.h"
-
 #include <map>
 #include <optional>
 #include <string>
+
+#include "pipeline/frame/outcome.h"
+#include "pipeline/patient/gravity_settings.h"
+#include "solver/gravity/fit_stiffness.h"
 
 namespace mammotwin {
 

@@ -1,8 +1,8 @@
 #include "pipeline/steps/view_header.h"
 
-#include "registration/mammogram/header_geometry.h"
-
 #include <stdexcept>
+
+#include "registration/mammogram/header_geometry.h"
 
 namespace mammotwin {
 namespace {

@@ -1,10 +1,10 @@
 #include "pipeline/steps/view_problem.h"
 
-#include "pipeline/steps/breast_problem.h"
-#include "registration/view/view_frame.h"
-
 #include <algorithm>
 #include <cmath>
+
+#include "pipeline/steps/breast_problem.h"
+#include "registration/view/view_frame.h"
 
 namespace mammotwin {
 namespace {
@@ -18,17 +18,17 @@ MeshFile reference_of(const MeshFile& compressed) {
   MeshFile reference = compressed;
   const auto unloaded = compressed.configurations.find("unloaded");
   const bool was_unloaded = unloaded != compressed.configurations.end();
-  reference.mesh = HermiteMesh(
-      was_unloaded ? unloaded->second : compressed.configurations.at("prone"),
-      compressed.mesh.elements());
+  reference.mesh =
+      HermiteMesh(was_unloaded ? unloaded->second : compressed.configurations.at("prone"),
+                  compressed.mesh.elements());
   if (!was_unloaded) reference.configurations.erase("prone");
   return reference;
 }
 
 /// The problem with the mechanical numbers of a state put in.
 CompressionProblem changed(const Patient& patient, const ViewSettings& view, Side side,
-                           const MeshFile& mesh, const TissueSampler& tissue,
-                           double thickness_mm, const ViewState& state) {
+                           const MeshFile& mesh, const TissueSampler& tissue, double thickness_mm,
+                           const ViewState& state) {
   CompressionProblem problem =
       view_problem(patient, view, view_axes(side, view.angle() + state[kRoll]), mesh, tissue);
   CompressionSettings stiffer = patient.compression;
@@ -55,8 +55,7 @@ PlateOptions plates_of(const Patient& patient, const ViewSettings& view,
   plates.lift = view.lift_mm;
   const CompressionSettings& settings = patient.compression;
   settings.shape_plates(plates);
-  if (settings.support_stl)
-    plates.support_mesh = facets(patient.resolve(*settings.support_stl));
+  if (settings.support_stl) plates.support_mesh = facets(patient.resolve(*settings.support_stl));
   if (settings.paddle_stl) plates.paddle_mesh = facets(patient.resolve(*settings.paddle_stl));
   plates.thickness =
       view.thickness_mm.value_or(kDefaultThicknessFraction * free_thickness(mesh, plates));
@@ -79,14 +78,16 @@ CompressionProblem view_problem(const Patient& patient, const ViewSettings& view
 
 void remember_solution(const CompressionResult& result, MeshFile& file) {
   file.metadata["pressure_kpa"] = result.pressure;
-  file.metadata["plates"] = {result.plates.support_height, result.plates.paddle_height,
-                             result.plates.edge, result.plates.lateral_middle,
-                             result.penalty, result.report.target_thickness_mm};
+  file.metadata["plates"] = {result.plates.support_height,
+                             result.plates.paddle_height,
+                             result.plates.edge,
+                             result.plates.lateral_middle,
+                             result.penalty,
+                             result.report.target_thickness_mm};
 }
 
 std::optional<NearbySolver> nearby_solver(const Patient& patient, const CompressedView& view,
-                                          const MeshFile& compressed,
-                                          const TissueSampler& tissue) {
+                                          const MeshFile& compressed, const TissueSampler& tissue) {
   const auto pressure = compressed.metadata.find("pressure_kpa");
   const auto plates = compressed.metadata.find("plates");
   if (pressure == compressed.metadata.end() || plates == compressed.metadata.end())
@@ -105,11 +106,11 @@ std::optional<NearbySolver> nearby_solver(const Patient& patient, const Compress
   result.report.thickness_mm = view.thickness_mm;
   ViewSettings settings = patient.view(view.name);
   settings.angle_deg = view.angle_deg;
-  return NearbySolver(base, [&patient, tissue, settings, side = view.side,
-                             mesh = reference_of(compressed),
-                             thickness = numbers.at(5)](const ViewState& state) {
-    return changed(patient, settings, side, mesh, tissue, thickness, state);
-  });
+  return NearbySolver(
+      base, [&patient, tissue, settings, side = view.side, mesh = reference_of(compressed),
+             thickness = numbers.at(5)](const ViewState& state) {
+        return changed(patient, settings, side, mesh, tissue, thickness, state);
+      });
 }
 
 }  // namespace mammotwin

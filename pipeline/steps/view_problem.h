@@ -24,7 +24,6 @@ void remember_solution(const CompressionResult& result, MeshFile& file);
 /// A solution read back from a compressed mesh, ready for solves near it; empty where the file was
 /// written without one.
 std::optional<NearbySolver> nearby_solver(const Patient& patient, const CompressedView& view,
-                                          const MeshFile& compressed,
-                                          const TissueSampler& tissue);
+                                          const MeshFile& compressed, const TissueSampler& tissue);
 
 }  // namespace mammotwin

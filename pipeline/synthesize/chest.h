@@ -20,7 +20,7 @@ class Chest {
   /// Signed distance to the skin's outside, of first order near it [mm]; negative inside.
   double outside(const Eigen::Vector3d& x) const;
   double chest_wall(const Eigen::Vector3d& x) const { return torso_.chest_wall(x); }
-  double nipple(const Eigen::Vector3d& x) const;  ///< to the nearer of both pegs
+  double nipple(const Eigen::Vector3d& x) const;           ///< to the nearer of both pegs
   double without_nipples(const Eigen::Vector3d& x) const;  ///< `outside`, were there none
 
   const Torso& torso() const { return torso_; }

@@ -1,7 +1,6 @@
 #include "pipeline/synthesize/gel_breast.h"
 
 #include <Eigen/Geometry>
-
 #include <algorithm>
 #include <cmath>
 #include <fstream>
@@ -25,9 +24,8 @@ double stretch(double s, double t) {
 }
 
 bool in_hole(const Eigen::Vector3d& x, const ScanHoles& holes) {
-  return std::any_of(holes.middles.begin(), holes.middles.end(), [&](const Eigen::Vector3d& m) {
-    return (x - m).norm() < holes.radius_mm;
-  });
+  return std::any_of(holes.middles.begin(), holes.middles.end(),
+                     [&](const Eigen::Vector3d& m) { return (x - m).norm() < holes.radius_mm; });
 }
 
 }  // namespace
@@ -44,8 +42,8 @@ TriangleSurface gel_breast_surface(double step_mm) {
   TriangleSurface surface;
   for (int j = 0; j <= n; ++j)
     for (int i = 0; i <= n; ++i)
-      surface.vertices.push_back(gel_breast_skin(half_side_mm * (2.0 * i / n - 1),
-                                                 half_side_mm * (2.0 * j / n - 1)));
+      surface.vertices.push_back(
+          gel_breast_skin(half_side_mm * (2.0 * i / n - 1), half_side_mm * (2.0 * j / n - 1)));
   for (int j = 0; j < n; ++j)
     for (int i = 0; i < n; ++i) {
       const int v = i + (n + 1) * j;

@@ -1,9 +1,9 @@
 #pragma once
 
-#include "fitting/surface/triangle_surface.h"
-
 #include <filesystem>
 #include <vector>
+
+#include "fitting/surface/triangle_surface.h"
 
 namespace mammotwin {
 

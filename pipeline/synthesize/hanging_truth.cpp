@@ -1,12 +1,12 @@
 #include "pipeline/synthesize/hanging_truth.h"
 
+#include <stdexcept>
+
 #include "fitting/fit_breast.h"
-#include "pipeline/steps/breast_problem.h"
 #include "pipeline/patient/gravity_settings.h"
+#include "pipeline/steps/breast_problem.h"
 #include "pipeline/synthesize/mean_fractions.h"
 #include "solver/gravity/unload.h"
-
-#include <stdexcept>
 
 namespace mammotwin {
 namespace {

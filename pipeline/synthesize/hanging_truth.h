@@ -1,10 +1,10 @@
 #pragma once
 
+#include <functional>
+
 #include "fitting/mesh/mesh_file.h"
 #include "pipeline/synthesize/patient.h"
 #include "solver/press/compress.h"
-
-#include <functional>
 
 namespace mammotwin {
 
@@ -18,8 +18,8 @@ inline const Eigen::Vector3i kTruthElements{8, 8, 3};
 MeshFile hanging_truth(const SyntheticPatient& patient,
                        const std::function<void(double, const std::string&)>& progress = {});
 
-/// Calls `use` with the true breast on the given mesh (its configuration "prone", where it has one),
-/// prone gravity on it.
+/// Calls `use` with the true breast on the given mesh (its configuration "prone", where it has
+/// one), prone gravity on it.
 void with_true_breast(const SyntheticPatient& patient, const MeshFile& mesh,
                       const std::function<void(const CompressionProblem&)>& use);
 

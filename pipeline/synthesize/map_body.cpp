@@ -155,7 +155,8 @@ MapBody body_of_map(const Volume<std::uint16_t>& map, const LabelValues& values,
 }
 
 TissueMap MapBody::sample(double voxel_mm, int samples) const {
-  const Vector3d extent = (substance.size - Vector3i::Ones()).cast<double>().cwiseProduct(substance.spacing);
+  const Vector3d extent =
+      (substance.size - Vector3i::Ones()).cast<double>().cwiseProduct(substance.spacing);
   const Vector3i size = (extent / voxel_mm).cast<int>() + Vector3i::Ones();
   TissueMap map{Volume<VoxelMixture>(size, Vector3d::Constant(voxel_mm), substance.origin),
                 samples * samples * samples};

@@ -46,7 +46,8 @@ void add_loops(const ColumnMap& columns, Side side, std::vector<Vector3d>& loops
     for (int i = 0; i < columns.nx; ++i)
       if (r.contains({columns.x(i), 0, columns.z(k)}) && columns.at(columns.front, i, k) < front)
         front = columns.at(columns.front, i, k), thickness = columns.at(columns.thickness, i, k);
-  const Vector3d middle((r.x_min + r.x_max) / 2, front + share * thickness, (r.z_min + r.z_max) / 2);
+  const Vector3d middle((r.x_min + r.x_max) / 2, front + share * thickness,
+                        (r.z_min + r.z_max) / 2);
   const Vector3d across((r.x_max - r.x_min) / 2 + gap_mm, 0, 0);
   const Vector3d along(0, 0, (r.z_max - r.z_min) / 2 + gap_mm);
   for (const Vector3d& offset : {across, along}) {

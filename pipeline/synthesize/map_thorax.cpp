@@ -29,8 +29,8 @@ void bridge(const Mask& map, int k, WallFront& front) {
     if (front.at(i, k) == none) continue;
     for (int n = before + 1; before >= 0 && n < i && i - before <= widest; ++n) {
       const double t = static_cast<double>(n - before) / (i - before);
-      front.at(n, k) = static_cast<int>(
-          std::lround((1 - t) * front.at(before, k) + t * front.at(i, k)));
+      front.at(n, k) =
+          static_cast<int>(std::lround((1 - t) * front.at(before, k) + t * front.at(i, k)));
     }
     before = i;
   }
@@ -50,7 +50,8 @@ class Thorax {
   Substance at(const Vector3d& x, double depth) const {
     const double muscle = std::clamp(mean_mm_ + 5 * muscle_(Vector3d(x.x(), 0, x.z())), 10.0, 25.0);
     if (depth < muscle) return Substance::muscle;
-    if (depth < muscle + rib_mm) return is_rib(x, depth - muscle) ? Substance::rib : Substance::muscle;
+    if (depth < muscle + rib_mm)
+      return is_rib(x, depth - muscle) ? Substance::rib : Substance::muscle;
     const Vector3d h = x - heart_, l = x - liver_;
     if (h.cwiseQuotient(Vector3d(58, 46, 60)).squaredNorm() < 1 + 0.15 * ripple_(x))
       return Substance::heart;
@@ -114,8 +115,8 @@ void fill_thorax(const WallFront& front, std::uint64_t seed, Mask& substance) {
   tbb::parallel_for(0, substance.size.z(), [&](int k) {
     for (int i = 0; i < substance.size.x(); ++i)
       for (int j = front.at(i, k); j < substance.size.y(); ++j)
-        substance(i, j, k) = static_cast<std::uint8_t>(
-            thorax.at(substance.position(i, j, k), depth(i, j, k)));
+        substance(i, j, k) =
+            static_cast<std::uint8_t>(thorax.at(substance.position(i, j, k), depth(i, j, k)));
     // Pieces of muscle that are no front are fat.
     for (int i = 0; i < substance.size.x(); ++i)
       for (int j = 0; j < std::min(front.at(i, k), substance.size.y()); ++j)

@@ -63,7 +63,7 @@ struct PatientOptions {
 /// what is expected.
 void check(const PatientOptions& options);
 
-std::string name_of(Side side);          ///< "left", "right"
+std::string name_of(Side side);              ///< "left", "right"
 std::string name_of(ScanContrast contrast);  ///< "fat_suppressed", "not_suppressed"
 
 }  // namespace mammotwin

@@ -1,12 +1,11 @@
 #include "pipeline/validation/box_fit.h"
 
-#include "fitting/solve/fit_samples.h"
-#include "fitting/mesh/block_mesh.h"
-#include "fitting/solve/newton_step.h"
-
 #include <Eigen/Geometry>
-
 #include <cmath>
+
+#include "fitting/mesh/block_mesh.h"
+#include "fitting/solve/fit_samples.h"
+#include "fitting/solve/newton_step.h"
 
 namespace mammotwin {
 namespace {
@@ -68,8 +67,10 @@ std::vector<HermiteMesh::Node> box_nodes(const Slab& slab) {
 
 Eigen::Vector3d bell_on_box(double u, double v) {
   constexpr double height_mm = 30, width_mm = 22;
-  const double squared = (std::pow(u - 0.45, 2) + std::pow(v - 0.52, 2)) * kBoxSide_mm * kBoxSide_mm;
-  return {kBoxSide_mm * u, -kBoxDepth_mm - height_mm * std::exp(-squared / (2 * width_mm * width_mm)),
+  const double squared =
+      (std::pow(u - 0.45, 2) + std::pow(v - 0.52, 2)) * kBoxSide_mm * kBoxSide_mm;
+  return {kBoxSide_mm * u,
+          -kBoxDepth_mm - height_mm * std::exp(-squared / (2 * width_mm * width_mm)),
           kBoxSide_mm * v};
 }
 
@@ -82,7 +83,8 @@ double fit_box(const Slab& slab, const Skin& skin, const BoxFit& options,
   FitTarget target(slab, points.skin, points.flat, wall, no_nipple);
   const HermiteMesh start(nodes, grid_corners(slab.elements));
   NewtonStep newton(start.elements(), held_parameters(slab));
-  FitModel model(slab, start, kNextToNothing, kNoSmoothing, std::vector<int>(start.num_elements(), 0));
+  FitModel model(slab, start, kNextToNothing, kNoSmoothing,
+                 std::vector<int>(start.num_elements(), 0));
   FitTarget::Weights weights;
   weights.mesh_to_data = 0;  // goes to flat triangles
   for (int step = 0; step < options.steps; ++step) {

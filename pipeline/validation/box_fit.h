@@ -1,8 +1,8 @@
 #pragma once
 
-#include "fitting/slab/slab.h"
-
 #include <functional>
+
+#include "fitting/slab/slab.h"
 
 namespace mammotwin {
 

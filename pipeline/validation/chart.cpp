@@ -1,15 +1,15 @@
 #include "pipeline/validation/chart.h"
 
-#include "pipeline/report/palette.h"
-
 #include <cmath>
 #include <cstdio>
+
+#include "pipeline/report/palette.h"
 
 namespace mammotwin {
 
 namespace {
 
-constexpr double kWidth = 420, kHeight = 270;                      // [pt]
+constexpr double kWidth = 420, kHeight = 270;                       // [pt]
 constexpr double kLeft = 56, kRight = 18, kTop = 24, kBottom = 40;  // [pt] margins
 constexpr double kText = 9.5;
 

@@ -1,9 +1,9 @@
 #pragma once
 
-#include "pipeline/report/picture.h"
-
 #include <string>
 #include <vector>
+
+#include "pipeline/report/picture.h"
 
 namespace mammotwin {
 

@@ -1,9 +1,9 @@
 #include "pipeline/validation/claims.h"
 
+#include <cstdio>
+
 #include "pipeline/validation/lagrange/lagrange_cylinder.h"
 #include "pipeline/validation/lagrange/strain_jump.h"
-
-#include <cstdio>
 
 namespace mammotwin {
 
@@ -77,9 +77,10 @@ std::string penalty_table(const std::vector<ClaimRow>& rows, double force_N) {
       "Penalty (paper, 2.3), lateral cylinder, in units of shear modulus / element size\n"
       " penalty  how        force N   err %  penetration mm  its  condition\n";
   for (const ClaimRow& r : rows) {
-    text += line("%8g  %-9s %8.4f %+7.2f %15.6f %4d  ", r.penalty, r.continued ? "raised to" : "at once",
-                 r.figures.force_N, 100 * (r.figures.force_N / force_N - 1),
-                 r.figures.penetration_mm, r.figures.iterations);
+    text += line("%8g  %-9s %8.4f %+7.2f %15.6f %4d  ", r.penalty,
+                 r.continued ? "raised to" : "at once", r.figures.force_N,
+                 100 * (r.figures.force_N / force_N - 1), r.figures.penetration_mm,
+                 r.figures.iterations);
     text += r.figures.condition > 0 ? line("%9.2g", r.figures.condition) : "";
     text += r.figures.usable ? "\n" : "  not converged\n";
   }

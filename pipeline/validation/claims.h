@@ -1,12 +1,11 @@
 #pragma once
 
-#include "pipeline/validation/gel_cylinder/gel_cylinder.h"
-
-#include <nlohmann/json.hpp>
-
 #include <functional>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
+
+#include "pipeline/validation/gel_cylinder/gel_cylinder.h"
 
 namespace mammotwin {
 
@@ -14,9 +13,9 @@ namespace mammotwin {
 struct ClaimRow {
   std::string name;
   CylinderFigures figures;
-  double strain_jump = 0;      ///< strain_jump.h
-  double penalty = 0;          ///< x shear modulus / element size
-  bool continued = true;       ///< the penalty raised inside the load step
+  double strain_jump = 0;  ///< strain_jump.h
+  double penalty = 0;      ///< x shear modulus / element size
+  bool continued = true;   ///< the penalty raised inside the load step
 };
 
 using Say = std::function<void(const std::string&)>;

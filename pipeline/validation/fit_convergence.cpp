@@ -1,8 +1,14 @@
 #include "pipeline/validation/fit_convergence.h"
 
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <numeric>
+
+#include "fitting/slab/skin_patches.h"
 #include "fitting/surface/closest_point.h"
 #include "fitting/surface/face_mesh.h"
-#include "fitting/slab/skin_patches.h"
 #include "fitting/surface/skin_to_fit.h"
 #include "pipeline/report/palette.h"
 #include "pipeline/validation/box_fit.h"
@@ -10,19 +16,12 @@
 #include "pipeline/validation/skin_distance.h"
 #include "pipeline/validation/true_skin.h"
 
-#include <nlohmann/json.hpp>
-
-#include <algorithm>
-#include <cmath>
-#include <map>
-#include <numeric>
-
 namespace mammotwin {
 namespace {
 
-constexpr double kStep_mm = 0.5;        // of the true skin's triangles: 0.01 mm off on the nipple
-constexpr double kSmoothing = 1e-12;    // the least that the fit takes
-constexpr double kShape = 0.1;          // the same
+constexpr double kStep_mm = 0.5;      // of the true skin's triangles: 0.01 mm off on the nipple
+constexpr double kSmoothing = 1e-12;  // the least that the fit takes
+constexpr double kShape = 0.1;        // the same
 constexpr double kOrder = 4;
 constexpr int kLayers = 2;
 
@@ -35,7 +34,8 @@ ScannedSkin bell(const ScannedBreast& breast) {
     for (int i = 0; i <= n; ++i) {
       const double s = half_side_mm * (2.0 * i / n - 1), t = half_side_mm * (2.0 * j / n - 1);
       const double h = height_mm * std::exp(-(s * s + t * t) / (2 * width_mm * width_mm));
-      skin.surface.vertices.push_back(breast.frame_from_file * Eigen::Vector3d(s, s * s / 800 - h, t));
+      skin.surface.vertices.push_back(breast.frame_from_file *
+                                      Eigen::Vector3d(s, s * s / 800 - h, t));
     }
   for (int j = 0; j < n; ++j)
     for (int i = 0; i < n; ++i) {
@@ -65,18 +65,24 @@ double rms_to_skin(const std::vector<Eigen::Vector3d>& points, const MeshFile& f
 
 const char* name_of(KnownSkin skin) {
   switch (skin) {
-    case KnownSkin::gel_breast: return "gel breast";
-    case KnownSkin::bell: return "smooth bell";
-    case KnownSkin::bell_on_box: return "smooth bell, distance alone";
+    case KnownSkin::gel_breast:
+      return "gel breast";
+    case KnownSkin::bell:
+      return "smooth bell";
+    case KnownSkin::bell_on_box:
+      return "smooth bell, distance alone";
   }
   return "";
 }
 
 const Colour& colour_of(KnownSkin skin) {
   switch (skin) {
-    case KnownSkin::gel_breast: return palette::lesion;
-    case KnownSkin::bell: return palette::nipple;
-    case KnownSkin::bell_on_box: return palette::ink;
+    case KnownSkin::gel_breast:
+      return palette::lesion;
+    case KnownSkin::bell:
+      return palette::nipple;
+    case KnownSkin::bell_on_box:
+      return palette::ink;
   }
   return palette::lesion;
 }
@@ -144,11 +150,11 @@ Picture fit_convergence_picture(const std::vector<FitAccuracy>& accuracies) {
     expected.emplace_back(p.x(), smooth.back().y() * std::pow(smooth.back().x() / p.x(), kOrder));
   highest = std::max(highest, expected.front().y());
   constexpr double room = 1.3;
-  Chart chart({"columns of elements along x and z", smooth.front().x() / 1.1, smooth.back().x() * 1.1, true},
+  Chart chart({"columns of elements along x and z", smooth.front().x() / 1.1,
+               smooth.back().x() * 1.1, true},
               {"skin RMS [mm]", lowest / room, std::pow(room, 13) * highest, true});
   chart.line(expected, palette::baseline, "fourth power of the element size");
-  for (const auto& [skin, line] : points)
-    chart.line(line, colour_of(skin), name_of(skin));
+  for (const auto& [skin, line] : points) chart.line(line, colour_of(skin), name_of(skin));
   return chart.picture();
 }
 

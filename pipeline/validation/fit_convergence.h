@@ -1,12 +1,11 @@
 #pragma once
 
-#include "pipeline/report/picture.h"
-
-#include <nlohmann/json_fwd.hpp>
-
 #include <filesystem>
 #include <functional>
+#include <nlohmann/json_fwd.hpp>
 #include <vector>
+
+#include "pipeline/report/picture.h"
 
 namespace mammotwin {
 
@@ -31,7 +30,8 @@ std::vector<FitAccuracy> fit_convergence(const std::filesystem::path& scan,
 
 nlohmann::json to_json(const std::vector<FitAccuracy>& accuracies);
 
-/// Error against columns, with the fourth power of the element size, the order of cubics, beside it.
+/// Error against columns, with the fourth power of the element size, the order of cubics, beside
+/// it.
 Picture fit_convergence_picture(const std::vector<FitAccuracy>& accuracies);
 
 }  // namespace mammotwin

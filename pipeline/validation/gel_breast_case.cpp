@@ -1,15 +1,14 @@
 #include "pipeline/validation/gel_breast_case.h"
 
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <random>
+
 #include "pipeline/validation/skin_distance.h"
 #include "pipeline/validation/true_skin.h"
 #include "registration/view/view_frame.h"
 #include "solver/material/neo_hookean.h"
-
-#include <nlohmann/json.hpp>
-
-#include <algorithm>
-#include <cmath>
-#include <random>
 
 namespace mammotwin {
 namespace {
@@ -18,7 +17,8 @@ constexpr double kC1 = 3;  // [kPa], the paper's silicone
 constexpr double kNoise_mm = 0.3;
 constexpr double kTrueStep_mm = 1;  // of the formula's triangles
 constexpr double kTarget_mm = 0.3;
-// The base reaches 10 mm before the wall; plates nearer to it would press the base and not the breast.
+// The base reaches 10 mm before the wall; plates nearer to it would press the base and not the
+// breast.
 constexpr double kWallClearance_mm = 20;
 
 /// Points of a skin about 1 mm apart, each moved by a Gaussian, cleaned as any scan is.
@@ -108,8 +108,11 @@ GelBreastResult run_gel_breast(const std::filesystem::path& scan, const GelBreas
   say("gel breast: fitting its scan, and its true skin");
   const FitResult model = fit_breast(breast.segmentation, coarse, {}, &breast.skin);
   const FitResult truth = fit_breast(breast.segmentation, fine, {}, &exact);
-  GelBreastResult result{model.report, truth.report, 24 * model.mesh.mesh.num_nodes(),
-                         24 * truth.mesh.mesh.num_nodes(), {}};
+  GelBreastResult result{model.report,
+                         truth.report,
+                         24 * model.mesh.mesh.num_nodes(),
+                         24 * truth.mesh.mesh.num_nodes(),
+                         {}};
   if (!model.report.usable() || !truth.report.usable()) return result;
   GelBreastState& free = result.states.emplace_back();
   free.reached = true;
@@ -137,15 +140,16 @@ nlohmann::json to_json(const GelBreastResult& r) {
                       {"outline_max_mm", s.outline_max_mm},
                       {"seconds", s.seconds},
                       {"true_seconds", s.true_seconds}});
-  return {{"noise_mm", r.fit.noise_mm}, {"dof", r.dof}, {"true_dof", r.true_dof}, {"states", states}};
+  return {
+      {"noise_mm", r.fit.noise_mm}, {"dof", r.dof}, {"true_dof", r.true_dof}, {"states", states}};
 }
 
 std::vector<std::string> missed_targets(const GelBreastResult& r) {
   std::vector<std::string> missed;
   if (r.states.empty()) missed.push_back("gel breast: no mesh was fitted");
   for (const GelBreastState& s : r.states) {
-    const std::string name =
-        "gel breast, pressed by " + std::to_string(std::lround(100 * s.compressed_fraction)) + " %: ";
+    const std::string name = "gel breast, pressed by " +
+                             std::to_string(std::lround(100 * s.compressed_fraction)) + " %: ";
     if (!s.reached)
       missed.push_back(name + s.reason);
     else if (std::max(s.to_true_rms_mm, s.to_scan_rms_mm) > kTarget_mm)

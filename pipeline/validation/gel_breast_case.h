@@ -1,26 +1,25 @@
 #pragma once
 
+#include <functional>
+#include <nlohmann/json_fwd.hpp>
+
 #include "fitting/scan/scanned_breast.h"
 #include "solver/press/compress.h"
 
-#include <nlohmann/json_fwd.hpp>
-
-#include <functional>
-
 namespace mammotwin {
 
-/// The model made from the scan beside the true breast: the same gel inside the skin of the formula,
-/// on a refined mesh.
+/// The model made from the scan beside the true breast: the same gel inside the skin of the
+/// formula, on a refined mesh.
 struct GelBreastState {
   double compressed_fraction = 0;  ///< of the free extent along the beam, asked
   bool reached = false;            ///< on both meshes
   std::string reason;              ///< why not
   double thickness_mm = 0;
   double force_N = 0, true_force_N = 0;
-  double to_true_rms_mm = 0;       ///< skin to skin, the larger of both directions
+  double to_true_rms_mm = 0;  ///< skin to skin, the larger of both directions
   /// Cleaned points of a scan of the true skin (noise 0.3 mm), as it then is, to the model's.
   double to_scan_rms_mm = 0;
-  double outline_rms_mm = 0;       ///< from the camera beside the patient (side_outline)
+  double outline_rms_mm = 0;  ///< from the camera beside the patient (side_outline)
   double outline_max_mm = 0;
   double seconds = 0, true_seconds = 0;
   MeshFile mesh{HermiteMesh({}, {}), {}, {}, {}, {}, {}};  ///< the model's

@@ -1,18 +1,17 @@
 #include "pipeline/validation/gel_breast_picture.h"
 
-#include "pipeline/report/palette.h"
-
 #include <Eigen/Geometry>
-
 #include <cmath>
+
+#include "pipeline/report/palette.h"
 
 namespace mammotwin {
 namespace {
 
-constexpr double kScale = 2.2;   // [pt/mm]
-constexpr double kMargin = 26;   // [pt]
-constexpr int kPieces = 12;      // of an element's edge
-constexpr int kEvery = 4;        // of the scan's points
+constexpr double kScale = 2.2;  // [pt/mm]
+constexpr double kMargin = 26;  // [pt]
+constexpr int kPieces = 12;     // of an element's edge
+constexpr int kEvery = 4;       // of the scan's points
 
 /// The patient's left side, tip to the left, head up; y downwards as pictures have it.
 Eigen::Vector2d seen(const Eigen::Vector3d& x) { return {x.y(), -x.z()}; }
@@ -46,7 +45,8 @@ void draw_edge(Picture& picture, const HermiteMesh& mesh, int element, int edge,
 void draw(Picture& picture, const GelBreastState& state, const Eigen::Vector2d& origin) {
   for (std::size_t i = 0; i < state.scan.size(); i += kEvery)
     if (state.scan[i].x() > 0)
-      picture.disc(origin + kScale * seen(state.scan[i]), 0.75, palette::with_alpha(palette::lesion, 0.55));
+      picture.disc(origin + kScale * seen(state.scan[i]), 0.75,
+                   palette::with_alpha(palette::lesion, 0.55));
   for (int e = 0; e < state.mesh.mesh.num_elements(); ++e)
     if (state.mesh.faces[e][5] == FaceLabel::skin)
       for (int edge = 0; edge < 4; ++edge) draw_edge(picture, state.mesh.mesh, e, edge, origin);

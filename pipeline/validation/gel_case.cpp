@@ -1,10 +1,10 @@
 #include "pipeline/validation/gel_case.h"
 
+#include <stdexcept>
+
 #include "pipeline/frame/nearest_name.h"
 #include "pipeline/frame/settings.h"
 #include "pipeline/frame/toml_file.h"
-
-#include <stdexcept>
 
 namespace mammotwin {
 
@@ -23,15 +23,19 @@ void declare_mesh(Settings& s, const std::string& prefix, CylinderElements& e) {
   s.integer(prefix + "square", e.square, {1, 20}, "elements along half the square's side");
   s.integer(prefix + "ring", e.ring, {1, 20}, "elements between the square and the mantle");
   s.integer(prefix + "length", e.length, {1, 40}, "elements along half the length");
-  s.number(prefix + "ring_grading", e.ring_grading, {0.01, 100}, "size at the mantle / at the square");
-  s.number(prefix + "length_grading", e.length_grading, {0.01, 100}, "size at the end / in the middle");
+  s.number(prefix + "ring_grading", e.ring_grading, {0.01, 100},
+           "size at the mantle / at the square");
+  s.number(prefix + "length_grading", e.length_grading, {0.01, 100},
+           "size at the end / in the middle");
 }
 
 void declare(Settings& s, GelCase& c) {
   CylinderExperiment& x = c.experiment;
   s.choice("case", x.how,
-           {{"lateral", CylinderCase::lateral}, {"plane_strain", CylinderCase::plane_strain},
-            {"axial", CylinderCase::axial}, {"bonded", CylinderCase::bonded}},
+           {{"lateral", CylinderCase::lateral},
+            {"plane_strain", CylinderCase::plane_strain},
+            {"axial", CylinderCase::axial},
+            {"bonded", CylinderCase::bonded}},
            "how the cylinder is squeezed");
   s.number("diameter_mm", x.diameter, {1, 1000, "mm"}, "of the cylinder");
   s.number("length_mm", x.length, {1, 1000, "mm"}, "of the cylinder");

@@ -1,11 +1,11 @@
 #pragma once
 
-#include "pipeline/validation/gel_cylinder/gel_cylinder.h"
-
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
+
+#include "pipeline/validation/gel_cylinder/gel_cylinder.h"
 
 namespace mammotwin {
 
@@ -17,11 +17,11 @@ struct GelCurvePoint {
 
 /// One file of sample_data/gel_cylinder/: an experiment and what other codes found.
 struct GelCase {
-  std::string name;  ///< "lateral", "plane_strain", "axial", "bonded"
-  CylinderExperiment experiment;          ///< on the recommended mesh, in one load step
-  std::vector<CylinderElements> study;    ///< meshes from coarse to fine
-  int curve_steps = 0;                    ///< load steps of the force-thickness curve; 0: none
-  bool as_the_paper_ran_it = false;       ///< also with half the cylinder and one plate
+  std::string name;                     ///< "lateral", "plane_strain", "axial", "bonded"
+  CylinderExperiment experiment;        ///< on the recommended mesh, in one load step
+  std::vector<CylinderElements> study;  ///< meshes from coarse to fine
+  int curve_steps = 0;                  ///< load steps of the force-thickness curve; 0: none
+  bool as_the_paper_ran_it = false;     ///< also with half the cylinder and one plate
 
   /// Converged values of other codes and their error; empty where there is none to compare with.
   std::optional<double> force_N, half_width_middle_mm, half_width_end_mm, half_length_axis_mm;

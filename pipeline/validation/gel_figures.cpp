@@ -1,9 +1,9 @@
 #include "pipeline/validation/gel_figures.h"
 
+#include <algorithm>
+
 #include "pipeline/report/palette.h"
 #include "pipeline/validation/chart.h"
-
-#include <algorithm>
 
 namespace mammotwin {
 
@@ -19,7 +19,8 @@ Colour others() { return palette::baseline; }
 Picture convergence_picture(const GelResult& r) {
   Picture::Points points;
   for (const CylinderFigures& f : r.study) points.emplace_back(f.dof, f.force_N);
-  std::sort(points.begin(), points.end(), [](const auto& a, const auto& b) { return a.x() < b.x(); });
+  std::sort(points.begin(), points.end(),
+            [](const auto& a, const auto& b) { return a.x() < b.x(); });
   const double expected = r.experiment.force_N.value(), error = r.experiment.force_error_N;
   double low = expected - 2 * error, high = expected + 2 * error;
   for (const auto& p : points) {
@@ -39,7 +40,8 @@ Picture convergence_picture(const GelResult& r) {
 Picture curve_picture(const GelResult& r) {
   Picture::Points points, expected;
   for (const CylinderStep& step : r.curve) points.emplace_back(step.thickness_mm, step.force_N);
-  for (const GelCurvePoint& p : r.experiment.curve) expected.emplace_back(p.thickness_mm, p.force_N);
+  for (const GelCurvePoint& p : r.experiment.curve)
+    expected.emplace_back(p.thickness_mm, p.force_N);
   Chart chart({"thickness [mm]", points.front().x() + 1, points.back().x() - 1},
               {"force [N], " + r.experiment.name, 0, kRoom * points.back().y()});
   chart.line(points, ours(), "this solver");

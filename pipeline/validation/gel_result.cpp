@@ -11,11 +11,12 @@ using Expected = std::optional<double>;
 
 struct Quantity {
   const char* key;
-  double CylinderFigures::* found;
-  Expected GelCase::* expected;
+  double CylinderFigures::*found;
+  Expected GelCase::*expected;
 };
 constexpr Quantity kLengths[] = {
-    {"half_width_middle_mm", &CylinderFigures::half_width_middle_mm, &GelCase::half_width_middle_mm},
+    {"half_width_middle_mm", &CylinderFigures::half_width_middle_mm,
+     &GelCase::half_width_middle_mm},
     {"half_width_end_mm", &CylinderFigures::half_width_end_mm, &GelCase::half_width_end_mm},
     {"half_length_axis_mm", &CylinderFigures::half_length_axis_mm, &GelCase::half_length_axis_mm}};
 
@@ -117,7 +118,8 @@ nlohmann::json to_json(const GelResult& r) {
   nlohmann::json entry = nlohmann::json::object();
   put_figures(entry, r.experiment, r.figures);
   entry["study"] = nlohmann::json::array();
-  for (const CylinderFigures& f : r.study) put_figures(entry["study"].emplace_back(), r.experiment, f);
+  for (const CylinderFigures& f : r.study)
+    put_figures(entry["study"].emplace_back(), r.experiment, f);
   entry["curve"] = curve_of(r);
   entry["as_the_paper_ran_it"] = nullptr;
   if (r.half) {
@@ -132,13 +134,14 @@ std::vector<std::string> missed_targets(const GelResult& r) {
   if (!r.figures.usable) return {c.name + ": did not converge: " + r.figures.reason};
   std::vector<std::string> missed;
   if (c.force_N && c.force_target)
-    check(c.name + ": force", relative_error(r.figures.force_N, c.force_N), *c.force_target, percent,
-          missed);
+    check(c.name + ": force", relative_error(r.figures.force_N, c.force_N), *c.force_target,
+          percent, missed);
   const auto mm = [](double length) { return std::to_string(length) + " mm"; };
   if (c.length_target_mm)
     for (const Quantity& q : kLengths)
       if (const Expected& expected = c.*q.expected)
-        check(c.name + ": " + q.key, r.figures.*q.found - *expected, *c.length_target_mm, mm, missed);
+        check(c.name + ": " + q.key, r.figures.*q.found - *expected, *c.length_target_mm, mm,
+              missed);
   if (c.half_width_middle_mm && c.radial_strain_target)
     check(c.name + ": radial strain",
           (r.figures.half_width_middle_mm - *c.half_width_middle_mm) /

@@ -1,20 +1,19 @@
 #pragma once
 
-#include "pipeline/validation/gel_case.h"
-
+#include <functional>
 #include <nlohmann/json.hpp>
 
-#include <functional>
+#include "pipeline/validation/gel_case.h"
 
 namespace mammotwin {
 
 /// What a case gave, on all its meshes.
 struct GelResult {
   GelCase experiment;
-  CylinderFigures figures;             ///< recommended mesh, one load step
-  std::vector<CylinderFigures> study;  ///< coarse to fine
-  std::vector<CylinderStep> curve;     ///< recommended mesh, many load steps
-  std::optional<CylinderFigures> half; ///< half the cylinder, one plate
+  CylinderFigures figures;              ///< recommended mesh, one load step
+  std::vector<CylinderFigures> study;   ///< coarse to fine
+  std::vector<CylinderStep> curve;      ///< recommended mesh, many load steps
+  std::optional<CylinderFigures> half;  ///< half the cylinder, one plate
 };
 
 /// `say` is told what has been run.

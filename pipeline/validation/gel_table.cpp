@@ -29,14 +29,13 @@ std::string millimetres(double found, const std::optional<double>& expected) {
 std::string row(const GelCase& c, const CylinderFigures& f, const char* name) {
   const auto& width = c.half_width_middle_mm;
   const double strain = f.half_width_middle_mm / c.radius_mm() - 1;
-  const double strain_error =
-      width ? strain / (*width / c.radius_mm() - 1) - 1 : std::nan("");
+  const double strain_error = width ? strain / (*width / c.radius_mm() - 1) - 1 : std::nan("");
   return format("%-12s %6d %9.4f ", name, f.dof, f.force_N) +
          percent(relative_error(f.force_N, c.force_N), 7) + " " +
          millimetres(f.half_width_middle_mm, width) + " " +
          millimetres(f.half_width_end_mm, c.half_width_end_mm) + " " +
-         millimetres(f.half_length_axis_mm, c.half_length_axis_mm) +
-         format(" %8.5f ", strain) + percent(strain_error, 7) +
+         millimetres(f.half_length_axis_mm, c.half_length_axis_mm) + format(" %8.5f ", strain) +
+         percent(strain_error, 7) +
          format(" %8.5f %4d %7.2f%s\n", f.penetration_mm, f.iterations, f.cpu_seconds,
                 f.usable ? "" : "  not converged");
 }

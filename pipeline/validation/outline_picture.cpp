@@ -1,9 +1,9 @@
-#include "pipeline/report/palette.h"
-#include "pipeline/validation/gel_figures.h"
-#include "pipeline/validation/gel_cylinder/gel_cylinder_mesh.h"
-
 #include <algorithm>
 #include <cmath>
+
+#include "pipeline/report/palette.h"
+#include "pipeline/validation/gel_cylinder/gel_cylinder_mesh.h"
+#include "pipeline/validation/gel_figures.h"
 
 namespace mammotwin {
 
@@ -32,7 +32,8 @@ Trace trace(const CylinderFigures& f, const FaceList& faces, int axis, double va
         xi[(across + 1) % 3] = static_cast<double>(i) / kPieces;
         xi[(across + 2) % 3] = static_cast<double>(j) / kPieces;
         const Eigen::Vector3d X = f.before.mesh.position({e, xi});
-        if (std::abs(X[axis] - value) < on_plane) points.push_back({X, f.after.mesh.position({e, xi})});
+        if (std::abs(X[axis] - value) < on_plane)
+          points.push_back({X, f.after.mesh.position({e, xi})});
       }
   std::sort(points.begin(), points.end(),
             [along](const auto& a, const auto& b) { return a.first[along] < b.first[along]; });
@@ -53,7 +54,8 @@ Picture::Points all_round(const std::vector<Eigen::Vector3d>& quarter, int acros
   for (int q = 0; q < 4; ++q)
     for (int k = 0; k < n; ++k) {
       const Eigen::Vector3d& x = quarter[q % 2 == 0 ? k : n - 1 - k];
-      points.push_back(middle + kScale * Eigen::Vector2d(signs[q][0] * x[across], signs[q][1] * x[up]));
+      points.push_back(middle +
+                       kScale * Eigen::Vector2d(signs[q][0] * x[across], signs[q][1] * x[up]));
     }
   return points;
 }
@@ -105,7 +107,8 @@ Picture outline_picture(const GelResult& r) {
   draw(picture, rim, 0, 1, left, palette::lesion);
   draw(picture, middle, 0, 1, left, palette::nipple);
   draw(picture, side, 2, 1, right, palette::nipple);
-  picture.text({kMargin, 16}, "along the axis: middle (blue), end (red); dashed: before", 10, palette::ink);
+  picture.text({kMargin, 16}, "along the axis: middle (blue), end (red); dashed: before", 10,
+               palette::ink);
   picture.text({right.x() - half_length * kScale, 16}, "from the side", 10, palette::ink);
   return picture;
 }

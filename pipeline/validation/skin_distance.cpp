@@ -1,10 +1,10 @@
 #include "pipeline/validation/skin_distance.h"
 
-#include "fitting/surface/closest_point.h"
-#include "fitting/surface/face_mesh.h"
-
 #include <algorithm>
 #include <cmath>
+
+#include "fitting/surface/closest_point.h"
+#include "fitting/surface/face_mesh.h"
 
 namespace mammotwin {
 namespace {

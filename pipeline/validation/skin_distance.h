@@ -1,9 +1,9 @@
 #pragma once
 
+#include <vector>
+
 #include "fitting/mesh/mesh_file.h"
 #include "fitting/surface/triangle_surface.h"
-
-#include <vector>
 
 namespace mammotwin {
 

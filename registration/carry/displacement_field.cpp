@@ -1,15 +1,15 @@
 #include "registration/carry/displacement_field.h"
 
-#include "registration/carry/point_carrier.h"
-#include "registration/carry/position_grid.h"
-#include "segmentation/files/write_image_file.h"
-
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
+
+#include "registration/carry/point_carrier.h"
+#include "registration/carry/position_grid.h"
+#include "segmentation/files/write_image_file.h"
 
 namespace mammotwin {
 namespace {
@@ -22,7 +22,8 @@ bool touches(const Volume<std::uint8_t>& state, int i, int j, int k) {
   for (int c = -1; c <= 1; ++c)
     for (int b = -1; b <= 1; ++b)
       for (int a = -1; a <= 1; ++a)
-        if (state.contains(i + a, j + b, k + c) && state(i + a, j + b, k + c) != unknown) return true;
+        if (state.contains(i + a, j + b, k + c) && state(i + a, j + b, k + c) != unknown)
+          return true;
   return false;
 }
 
@@ -140,8 +141,7 @@ void compose_to_identity(const DisplacementField& there, const HermiteMesh& ther
     }
     if (worst <= tolerance_mm) return;
     for (std::size_t v = 0; v < left.size(); ++v)
-      if (left[v].w() > 0)
-        back.values[v] -= (left[v].head<3>() / left[v].w()).cast<float>();
+      if (left[v].w() > 0) back.values[v] -= (left[v].head<3>() / left[v].w()).cast<float>();
   }
 }
 

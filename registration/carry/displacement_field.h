@@ -1,9 +1,9 @@
 #pragma once
 
+#include <filesystem>
+
 #include "fitting/mesh/hermite_mesh.h"
 #include "segmentation/image/volume.h"
-
-#include <filesystem>
 
 namespace mammotwin {
 
@@ -21,8 +21,8 @@ DisplacementField displacement_field(const HermiteMesh& here, const HermiteMesh&
 /// d at a point by trilinear interpolation, as ITK does it; 0 outside the grid.
 Eigen::Vector3d displacement_at(const DisplacementField& field, const Eigen::Vector3d& x);
 
-/// How far a point comes back from where it was after both fields, over the voxel centres of `there`
-/// inside the mesh `there_mesh`.
+/// How far a point comes back from where it was after both fields, over the voxel centres of
+/// `there` inside the mesh `there_mesh`.
 struct CompositionError {
   double mean_mm = 0, p99_mm = 0, max_mm = 0;
   std::size_t points = 0;

@@ -9,10 +9,10 @@ MarkCurve mark_curve(const ViewRays& marked, const Eigen::Vector2d& on_detector,
   for (const RayPoint& p : curve.on_ray) {
     curve.in_other.push_back({other.project(p.point), {}});
     if (uncertainty)
-      curve.in_other.back().ellipse = search_ellipse(
-          detector_covariance(*uncertainty, other.compressed(), other.view(), other.detector(),
-                              p.point),
-          probability);
+      curve.in_other.back().ellipse =
+          search_ellipse(detector_covariance(*uncertainty, other.compressed(), other.view(),
+                                             other.detector(), p.point),
+                         probability);
   }
   return curve;
 }

@@ -1,10 +1,10 @@
 #pragma once
 
-#include "registration/carry/ray_curve.h"
-#include "registration/search/search_ellipse.h"
-
 #include <optional>
 #include <vector>
+
+#include "registration/carry/ray_curve.h"
+#include "registration/search/search_ellipse.h"
 
 namespace mammotwin {
 
@@ -14,7 +14,8 @@ struct SeenPoint {
   std::optional<SearchEllipse> ellipse;                   ///< 90 % round it
 };
 
-/// A mark's curve in steps of height of 1 mm: in the prone MRI, and point by point in the other view.
+/// A mark's curve in steps of height of 1 mm: in the prone MRI, and point by point in the other
+/// view.
 struct MarkCurve {
   std::vector<RayPoint> on_ray;
   std::vector<SeenPoint> in_other;

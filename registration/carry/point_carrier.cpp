@@ -1,7 +1,6 @@
 #include "registration/carry/point_carrier.h"
 
 #include <Eigen/LU>
-
 #include <stdexcept>
 
 namespace mammotwin {

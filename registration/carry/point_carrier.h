@@ -1,15 +1,15 @@
 #pragma once
 
-#include "fitting/mesh/inverse_map.h"
-
 #include <optional>
+
+#include "fitting/mesh/inverse_map.h"
 
 namespace mammotwin {
 
 /// A point taken from one configuration of the breast to another.
 struct CarriedPoint {
-  MeshPoint point;          ///< the material point, or the mesh's nearest one
-  double outside_mm = 0;    ///< how far the given point lies outside the mesh; 0 inside
+  MeshPoint point;        ///< the material point, or the mesh's nearest one
+  double outside_mm = 0;  ///< how far the given point lies outside the mesh; 0 inside
   Eigen::Vector3d in_lps = Eigen::Vector3d::Zero();  ///< in the target configuration [mm]
 };
 

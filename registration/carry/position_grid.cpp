@@ -1,12 +1,12 @@
 #include "registration/carry/position_grid.h"
 
-#include "fitting/mesh/bezier.h"
-#include "fitting/mesh/inverse_map.h"
-
 #include <tbb/parallel_for.h>
 
 #include <limits>
 #include <optional>
+
+#include "fitting/mesh/bezier.h"
+#include "fitting/mesh/inverse_map.h"
 
 namespace mammotwin {
 

@@ -1,10 +1,10 @@
 #pragma once
 
+#include <Eigen/Geometry>
+
 #include "fitting/mesh/hermite_mesh.h"
 #include "registration/view/view_frame.h"
 #include "segmentation/image/volume.h"
-
-#include <Eigen/Geometry>
 
 namespace mammotwin {
 

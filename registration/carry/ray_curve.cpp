@@ -1,12 +1,11 @@
 #include "registration/carry/ray_curve.h"
 
-#include "registration/carry/position_grid.h"
-
 #include <Eigen/LU>
-
 #include <cmath>
 #include <limits>
 #include <utility>
+
+#include "registration/carry/position_grid.h"
 
 namespace mammotwin {
 namespace {
@@ -59,8 +58,7 @@ ViewRays::ViewRays(HermiteMesh prone, HermiteMesh compressed, CompressedView vie
 
 std::optional<RayPoint> ViewRays::at_height(const Eigen::Vector2d& on_detector, double height,
                                             const std::optional<MeshPoint>& guess) const {
-  const Eigen::Vector3d x =
-      view_.frame.lps_from_view(detector_.point_on_ray(on_detector, height));
+  const Eigen::Vector3d x = view_.frame.lps_from_view(detector_.point_on_ray(on_detector, height));
   const auto point = guess ? inverse_.locate(x, *guess) : inverse_.locate(x);
   if (!point) return std::nullopt;
   return RayPoint{height, *point, prone_.position(*point)};
@@ -80,9 +78,9 @@ std::vector<RayPoint> ViewRays::curve(const Eigen::Vector2d& on_detector, double
 }
 
 Eigen::Vector3d ViewRays::slope(const Eigen::Vector2d& on_detector, const RayPoint& at) const {
-  const Eigen::Vector3d ray = view_.frame.axes.transpose() *
-                              (detector_.point_on_ray(on_detector, 1) -
-                               detector_.point_on_ray(on_detector, 0));
+  const Eigen::Vector3d ray =
+      view_.frame.axes.transpose() *
+      (detector_.point_on_ray(on_detector, 1) - detector_.point_on_ray(on_detector, 0));
   return prone_.jacobian(at.point) * compressed_.jacobian(at.point).inverse() * ray;
 }
 
@@ -115,9 +113,10 @@ std::optional<ClosestApproach> closest_approach(const ViewRays& a, const Eigen::
                           b.curve(mark_b, kSearchStep_mm));
 }
 
-std::optional<ClosestApproach> closest_approach(
-    const ViewRays& a, const Eigen::Vector2d& mark_a, const std::vector<RayPoint>& curve_a,
-    const ViewRays& b, const Eigen::Vector2d& mark_b, const std::vector<RayPoint>& curve_b) {
+std::optional<ClosestApproach> closest_approach(const ViewRays& a, const Eigen::Vector2d& mark_a,
+                                                const std::vector<RayPoint>& curve_a,
+                                                const ViewRays& b, const Eigen::Vector2d& mark_b,
+                                                const std::vector<RayPoint>& curve_b) {
   Pair best = nearest_samples(curve_a, curve_b);
   if (std::isinf(best.squared_distance)) return std::nullopt;
   for (int i = 0; i < kRefinements; ++i) {

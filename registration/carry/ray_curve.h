@@ -1,11 +1,11 @@
 #pragma once
 
+#include <optional>
+#include <vector>
+
 #include "fitting/mesh/inverse_map.h"
 #include "registration/view/compressed_view.h"
 #include "registration/view/detector.h"
-
-#include <optional>
-#include <vector>
 
 namespace mammotwin {
 
@@ -70,8 +70,9 @@ std::optional<ClosestApproach> closest_approach(const ViewRays& a, const Eigen::
                                                 const ViewRays& b, const Eigen::Vector2d& mark_b);
 
 /// The same from curves that are there, in steps of a few millimetres at most.
-std::optional<ClosestApproach> closest_approach(
-    const ViewRays& a, const Eigen::Vector2d& mark_a, const std::vector<RayPoint>& curve_a,
-    const ViewRays& b, const Eigen::Vector2d& mark_b, const std::vector<RayPoint>& curve_b);
+std::optional<ClosestApproach> closest_approach(const ViewRays& a, const Eigen::Vector2d& mark_a,
+                                                const std::vector<RayPoint>& curve_a,
+                                                const ViewRays& b, const Eigen::Vector2d& mark_b,
+                                                const std::vector<RayPoint>& curve_b);
 
 }  // namespace mammotwin

@@ -1,7 +1,6 @@
 #include "registration/export/dicom_export.h"
 
 #include <dcmtk/config/osconfig.h>
-
 #include <dcmtk/dcmdata/dctk.h>
 #include <dcmtk/dcmsr/cmr/tid1500.h>
 #include <dcmtk/dcmsr/dsrdoc.h>
@@ -19,15 +18,23 @@ namespace fs = std::filesystem;
 
 constexpr const char* kMaker = "Mammotwin";
 /// What an object shares with the image that it speaks of.
-const DcmTagKey kShared[] = {
-    DCM_SpecificCharacterSet, DCM_PatientName, DCM_PatientID, DCM_PatientBirthDate, DCM_PatientSex,
-    DCM_StudyInstanceUID, DCM_StudyDate, DCM_StudyTime, DCM_StudyID, DCM_AccessionNumber,
-    DCM_ReferringPhysicianName};
+const DcmTagKey kShared[] = {DCM_SpecificCharacterSet,
+                             DCM_PatientName,
+                             DCM_PatientID,
+                             DCM_PatientBirthDate,
+                             DCM_PatientSex,
+                             DCM_StudyInstanceUID,
+                             DCM_StudyDate,
+                             DCM_StudyTime,
+                             DCM_StudyID,
+                             DCM_AccessionNumber,
+                             DCM_ReferringPhysicianName};
 
 DcmFileFormat load(const fs::path& path) {
   DcmFileFormat file;
   if (const OFCondition status = file.loadFile(path.c_str()); status.bad())
-    throw std::runtime_error(path.filename().string() + ": not readable as DICOM: " + status.text());
+    throw std::runtime_error(path.filename().string() +
+                             ": not readable as DICOM: " + status.text());
   return file;
 }
 
@@ -48,13 +55,15 @@ std::string derived_uid(const std::string& text) {
   unsigned __int128 number = hashed(text, 14695981039346656037ull) >> 2;
   number = (number << 64) | hashed(text + "#", 1469598103934665603ull);
   std::string digits;
-  for (; number > 0; number /= 10) digits.insert(digits.begin(), static_cast<char>('0' + static_cast<int>(number % 10)));
+  for (; number > 0; number /= 10)
+    digits.insert(digits.begin(), static_cast<char>('0' + static_cast<int>(number % 10)));
   return "2.25." + digits;
 }
 
 void put(DcmItem& item, const DcmTagKey& tag, const std::string& value) {
   if (const OFCondition status = item.putAndInsertString(tag, value.c_str()); status.bad())
-    throw std::runtime_error("DICOM export: " + std::string(DcmTag(tag).getTagName()) + ": " + status.text());
+    throw std::runtime_error("DICOM export: " + std::string(DcmTag(tag).getTagName()) + ": " +
+                             status.text());
 }
 
 DcmItem& new_item(DcmItem& parent, const DcmTagKey& sequence) {
@@ -88,7 +97,8 @@ void begin(DcmItem& source, const char* sop_class, const char* modality, const s
 }
 
 void save(DcmFileFormat& file, const fs::path& path) {
-  if (const OFCondition status = file.saveFile(path.c_str(), EXS_LittleEndianExplicit); status.bad())
+  if (const OFCondition status = file.saveFile(path.c_str(), EXS_LittleEndianExplicit);
+      status.bad())
     throw std::runtime_error(path.string() + ": cannot be written: " + status.text());
 }
 
@@ -114,8 +124,10 @@ std::vector<Float32> on_image(const Detector& detector, const std::vector<Eigen:
 std::vector<Eigen::Vector2d> ends_of(const AnnotatedMark& mark) {
   const double t = mark.ellipse.angle_deg * std::numbers::pi / 180;
   const Eigen::Vector2d along(std::cos(t), std::sin(t)), across(-std::sin(t), std::cos(t));
-  return {mark.on_detector - mark.ellipse.major_mm * along, mark.on_detector + mark.ellipse.major_mm * along,
-          mark.on_detector - mark.ellipse.minor_mm * across, mark.on_detector + mark.ellipse.minor_mm * across};
+  return {mark.on_detector - mark.ellipse.major_mm * along,
+          mark.on_detector + mark.ellipse.major_mm * along,
+          mark.on_detector - mark.ellipse.minor_mm * across,
+          mark.on_detector + mark.ellipse.minor_mm * across};
 }
 
 void annotate(const Detector& detector, const AnnotatedMark& mark, DcmItem& annotation) {
@@ -145,7 +157,8 @@ void show_whole(const PixelGrid& grid, DcmItem& object) {
 }
 
 void check(const OFCondition& status, const char* what) {
-  if (status.bad()) throw std::runtime_error(std::string("DICOM report: ") + what + ": " + status.text());
+  if (status.bad())
+    throw std::runtime_error(std::string("DICOM report: ") + what + ": " + status.text());
 }
 
 using Group = CMR_TID1501_in_TID1500;
@@ -167,11 +180,12 @@ void report_mark(const AnnotatedMark& mark, const std::string& uid, Group& group
   const struct {
     const char *code, *meaning;
     double mm;
-  } values[] = {{"detector_u", "Depth on the detector from its chest-wall edge", mark.on_detector.x()},
-                {"detector_v", "Lateral on the detector from its middle", mark.on_detector.y()},
-                {"height", "Height above the support", mark.height_mm},
-                {"ellipse_major", "Semi-major axis of the 90 % search ellipse", mark.ellipse.major_mm},
-                {"ellipse_minor", "Semi-minor axis of the 90 % search ellipse", mark.ellipse.minor_mm}};
+  } values[] = {
+      {"detector_u", "Depth on the detector from its chest-wall edge", mark.on_detector.x()},
+      {"detector_v", "Lateral on the detector from its middle", mark.on_detector.y()},
+      {"height", "Height above the support", mark.height_mm},
+      {"ellipse_major", "Semi-major axis of the 90 % search ellipse", mark.ellipse.major_mm},
+      {"ellipse_minor", "Semi-minor axis of the 90 % search ellipse", mark.ellipse.minor_mm}};
   for (const auto& value : values)
     measure(group, DSRCodedEntryValue(value.code, "99MAMMOTWIN", value.meaning), value.mm);
 }
@@ -209,9 +223,11 @@ void write_measurement_report(const fs::path& path, const fs::path& mammogram,
   DcmItem& source = *source_file.getDataset();
   CMR_TID1500 report(CMR_CID7021::ImagingMeasurementReport);
   check(report.setLanguage(DSRCodedEntryValue("en", "RFC5646", "English")), "language");
-  check(report.addProcedureReported(DSRCodedEntryValue("71651007", "SCT", "Mammography")), "procedure");
+  check(report.addProcedureReported(DSRCodedEntryValue("71651007", "SCT", "Mammography")),
+        "procedure");
   const std::string seed = text_of(source, DCM_SOPInstanceUID) + key;
-  check(report.getObservationContext().addDeviceObserver(derived_uid("device").c_str(), kMaker), "observer");
+  check(report.getObservationContext().addDeviceObserver(derived_uid("device").c_str(), kMaker),
+        "observer");
   for (std::size_t n = 0; n < marks.size(); ++n) {
     if (n > 0) check(report.addIndividualMeasurements(), "group");
     report_mark(marks[n], derived_uid(seed + marks[n].id), report.getIndividualMeasurements());
@@ -219,7 +235,8 @@ void write_measurement_report(const fs::path& path, const fs::path& mammogram,
   DSRDocument document;
   check(document.setTreeFromRootTemplate(report, OFTrue), "tree");
   check(document.getCurrentRequestedProcedureEvidence().addItem(
-            text_of(source, DCM_StudyInstanceUID).c_str(), text_of(source, DCM_SeriesInstanceUID).c_str(),
+            text_of(source, DCM_StudyInstanceUID).c_str(),
+            text_of(source, DCM_SeriesInstanceUID).c_str(),
             text_of(source, DCM_SOPClassUID).c_str(), text_of(source, DCM_SOPInstanceUID).c_str()),
         "evidence");
   check(document.write(*file.getDataset()), "writing");
@@ -234,14 +251,14 @@ void write_measurement_report(const fs::path& path, const fs::path& mammogram,
 }
 
 void write_simulated_mammogram(const fs::path& path, const fs::path& mammogram,
-                               const GreyPixels& pixels, double spacing_mm, const std::string& orientation,
-                               const std::string& key) {
+                               const GreyPixels& pixels, double spacing_mm,
+                               const std::string& orientation, const std::string& key) {
   DcmFileFormat source_file = load(mammogram), file;
   DcmItem &source = *source_file.getDataset(), &object = *file.getDataset();
   begin(source, UID_DigitalMammographyXRayImageStorageForPresentation, "MG", key, object);
   for (const DcmTagKey& tag :
-       {DCM_ViewPosition, DCM_ImageLaterality, DCM_PositionerPrimaryAngle,
-        DCM_BodyPartThickness, DCM_DistanceSourceToDetector, DCM_BodyPartExamined})
+       {DCM_ViewPosition, DCM_ImageLaterality, DCM_PositionerPrimaryAngle, DCM_BodyPartThickness,
+        DCM_DistanceSourceToDetector, DCM_BodyPartExamined})
     if (source.tagExists(tag)) put(object, tag, text_of(source, tag));
   put(object, DCM_PatientOrientation, orientation);
   put(object, DCM_ImageType, "DERIVED\\SECONDARY");

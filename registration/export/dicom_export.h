@@ -1,28 +1,28 @@
 #pragma once
 
-#include "registration/view/detector.h"
-#include "registration/export/png_file.h"
-#include "registration/search/search_ellipse.h"
-
 #include <filesystem>
 #include <string>
 #include <vector>
+
+#include "registration/export/png_file.h"
+#include "registration/search/search_ellipse.h"
+#include "registration/view/detector.h"
 
 namespace mammotwin {
 
 /// A predicted place on one mammogram.
 struct AnnotatedMark {
   std::string id;
-  Eigen::Vector2d on_detector = Eigen::Vector2d::Zero();    ///< u, v [mm]
-  SearchEllipse ellipse;                                    ///< 90 % [mm]
-  Eigen::Vector3d prone_in_lps = Eigen::Vector3d::Zero();   ///< in MRI [mm]
-  double height_mm = 0;                                     ///< above the support
+  Eigen::Vector2d on_detector = Eigen::Vector2d::Zero();   ///< u, v [mm]
+  SearchEllipse ellipse;                                   ///< 90 % [mm]
+  Eigen::Vector3d prone_in_lps = Eigen::Vector3d::Zero();  ///< in MRI [mm]
+  double height_mm = 0;                                    ///< above the support
 };
 
 /// The three write a DICOM object of the study of `mammogram` (a DICOM file with pixels laid out as
 /// `detector.pixels` says), whose patient and study attributes they take. Unique identifiers derive
-/// from `mammogram`, the kind of object and `key`, dates and times from `mammogram`: a rerun is equal.
-/// Throw std::runtime_error naming the file that cannot be read or written.
+/// from `mammogram`, the kind of object and `key`, dates and times from `mammogram`: a rerun is
+/// equal. Throw std::runtime_error naming the file that cannot be read or written.
 
 /// Grayscale softcopy presentation state: each mark's ellipse and name drawn on the mammogram.
 void write_presentation_state(const std::filesystem::path& path,
@@ -35,8 +35,8 @@ void write_measurement_report(const std::filesystem::path& path,
                               const std::filesystem::path& mammogram,
                               const std::vector<AnnotatedMark>& marks, const std::string& key);
 
-/// The simulated view as a mammogram for presentation, DERIVED, of the same view and side. `orientation`
-/// is its PatientOrientation ("A\\F").
+/// The simulated view as a mammogram for presentation, DERIVED, of the same view and side.
+/// `orientation` is its PatientOrientation ("A\\F").
 void write_simulated_mammogram(const std::filesystem::path& path,
                                const std::filesystem::path& mammogram, const GreyPixels& pixels,
                                double spacing_mm, const std::string& orientation,

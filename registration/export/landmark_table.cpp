@@ -1,10 +1,7 @@
 #include "registration/export/landmark_table.h"
 
-#include "registration/export/csv.h"
-
 #include <Eigen/Geometry>
 #include <Eigen/LU>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,6 +9,8 @@
 #include <fstream>
 #include <numeric>
 #include <stdexcept>
+
+#include "registration/export/csv.h"
 
 namespace mammotwin {
 namespace {
@@ -32,7 +31,8 @@ std::optional<Eigen::Matrix<double, n, 1>> numbers(const std::vector<std::string
     }
   if (filled == 0) return std::nullopt;
   if (filled != n)
-    throw std::runtime_error(where + ": " + kColumns[first] + " and its neighbours are only partly "
+    throw std::runtime_error(where + ": " + kColumns[first] +
+                             " and its neighbours are only partly "
                              "filled; expected all or none");
   return values;
 }
@@ -60,7 +60,8 @@ void judge_view(const LandmarkPair& pair, const std::string& name, const JudgedV
 }
 
 /// The ray to a mark, taken to the prone breast by the baseline: a straight line.
-Eigen::ParametrizedLine<double, 3> baseline_line(const JudgedView& view, const Eigen::Vector2d& uv) {
+Eigen::ParametrizedLine<double, 3> baseline_line(const JudgedView& view,
+                                                 const Eigen::Vector2d& uv) {
   const auto at = [&](double height) {
     return view.projection->baseline().prone_from_view(
         view.projection->detector().point_on_ray(uv, height));
@@ -88,7 +89,8 @@ void judge_space(const LandmarkPair& pair, const std::map<std::string, JudgedVie
   if (const auto found = closest_approach(*cc->second.rays, a, *mlo->second.rays, b))
     errors.with_model.push_back((found->prone_in_lps - *pair.mri_in_lps).norm());
   errors.without_model.push_back(
-      (midway(baseline_line(cc->second, a), baseline_line(mlo->second, b)) - *pair.mri_in_lps).norm());
+      (midway(baseline_line(cc->second, a), baseline_line(mlo->second, b)) - *pair.mri_in_lps)
+          .norm());
 }
 
 double quantile(std::vector<double> values, double fraction) {
@@ -99,7 +101,8 @@ double quantile(std::vector<double> values, double fraction) {
   return values[low] + (at - low) * (next - values[low]);
 }
 
-std::string line(const std::string& view, const char* prediction, const std::vector<double>& errors) {
+std::string line(const std::string& view, const char* prediction,
+                 const std::vector<double>& errors) {
   char text[160];
   const double n = static_cast<double>(errors.size());
   if (errors.empty()) {
@@ -120,7 +123,8 @@ std::string line(const std::string& view, const char* prediction, const std::vec
 std::vector<LandmarkPair> read_landmark_pairs(const std::filesystem::path& path) {
   std::ifstream in(path);
   std::string text;
-  if (!std::getline(in, text)) throw std::runtime_error(path.string() + ": cannot be read, or empty");
+  if (!std::getline(in, text))
+    throw std::runtime_error(path.string() + ": cannot be read, or empty");
   const std::vector<std::string> header = csv::cells(text);
   if (!std::equal(header.begin(), header.end(), kColumns.begin(), kColumns.end()))
     throw std::runtime_error(path.string() + ": the first line is \"" + text +
@@ -128,7 +132,8 @@ std::vector<LandmarkPair> read_landmark_pairs(const std::filesystem::path& path)
                              "mlo_column,mlo_row");
   std::vector<LandmarkPair> pairs;
   for (int number = 2; std::getline(in, text); ++number)
-    pairs.push_back(parse_pair(csv::cells(text), path.string() + ": line " + std::to_string(number)));
+    pairs.push_back(
+        parse_pair(csv::cells(text), path.string() + ": line " + std::to_string(number)));
   return pairs;
 }
 

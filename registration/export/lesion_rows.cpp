@@ -1,7 +1,7 @@
-#include "registration/view/breast_position.h"
-#include "registration/export/lesion_table.h"
-
 #include <cmath>
+
+#include "registration/export/lesion_table.h"
+#include "registration/view/breast_position.h"
 
 namespace mammotwin {
 namespace {

@@ -1,7 +1,5 @@
 #include "registration/export/lesion_table.h"
 
-#include "registration/export/csv.h"
-
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -9,6 +7,8 @@
 #include <sstream>
 #include <stdexcept>
 #include <variant>
+
+#include "registration/export/csv.h"
 
 namespace mammotwin {
 namespace {
@@ -20,23 +20,36 @@ struct Column {
   std::variant<Text, Number> field;
 };
 
-#define MAMMOTWIN_COLUMN(name) Column{#name, &LesionRow::name}
+#define MAMMOTWIN_COLUMN(name) \
+  Column { #name, &LesionRow::name }
 const std::array kColumns = {
-    MAMMOTWIN_COLUMN(patient),           MAMMOTWIN_COLUMN(lesion),
-    MAMMOTWIN_COLUMN(view),              MAMMOTWIN_COLUMN(mri_l_mm),
-    MAMMOTWIN_COLUMN(mri_p_mm),          MAMMOTWIN_COLUMN(mri_s_mm),
-    MAMMOTWIN_COLUMN(depth_mm),          MAMMOTWIN_COLUMN(lateral_mm),
-    MAMMOTWIN_COLUMN(height_mm),         MAMMOTWIN_COLUMN(detector_u_mm),
-    MAMMOTWIN_COLUMN(detector_v_mm),     MAMMOTWIN_COLUMN(pixel_column),
-    MAMMOTWIN_COLUMN(pixel_row),         MAMMOTWIN_COLUMN(ellipse_major_mm),
-    MAMMOTWIN_COLUMN(ellipse_minor_mm),  MAMMOTWIN_COLUMN(ellipse_angle_deg),
+    MAMMOTWIN_COLUMN(patient),
+    MAMMOTWIN_COLUMN(lesion),
+    MAMMOTWIN_COLUMN(view),
+    MAMMOTWIN_COLUMN(mri_l_mm),
+    MAMMOTWIN_COLUMN(mri_p_mm),
+    MAMMOTWIN_COLUMN(mri_s_mm),
+    MAMMOTWIN_COLUMN(depth_mm),
+    MAMMOTWIN_COLUMN(lateral_mm),
+    MAMMOTWIN_COLUMN(height_mm),
+    MAMMOTWIN_COLUMN(detector_u_mm),
+    MAMMOTWIN_COLUMN(detector_v_mm),
+    MAMMOTWIN_COLUMN(pixel_column),
+    MAMMOTWIN_COLUMN(pixel_row),
+    MAMMOTWIN_COLUMN(ellipse_major_mm),
+    MAMMOTWIN_COLUMN(ellipse_minor_mm),
+    MAMMOTWIN_COLUMN(ellipse_angle_deg),
     MAMMOTWIN_COLUMN(picture_ellipse_major_mm),
     MAMMOTWIN_COLUMN(picture_ellipse_minor_mm),
     MAMMOTWIN_COLUMN(picture_ellipse_angle_deg),
-    MAMMOTWIN_COLUMN(baseline_u_mm),     MAMMOTWIN_COLUMN(baseline_v_mm),
-    MAMMOTWIN_COLUMN(behind_nipple_mm),  MAMMOTWIN_COLUMN(lateral_of_nipple_mm),
-    MAMMOTWIN_COLUMN(above_nipple_mm),   MAMMOTWIN_COLUMN(nipple_distance_mm),
-    MAMMOTWIN_COLUMN(quadrant),          MAMMOTWIN_COLUMN(clock),
+    MAMMOTWIN_COLUMN(baseline_u_mm),
+    MAMMOTWIN_COLUMN(baseline_v_mm),
+    MAMMOTWIN_COLUMN(behind_nipple_mm),
+    MAMMOTWIN_COLUMN(lateral_of_nipple_mm),
+    MAMMOTWIN_COLUMN(above_nipple_mm),
+    MAMMOTWIN_COLUMN(nipple_distance_mm),
+    MAMMOTWIN_COLUMN(quadrant),
+    MAMMOTWIN_COLUMN(clock),
 };
 #undef MAMMOTWIN_COLUMN
 
@@ -96,7 +109,8 @@ void write_lesion_table(const std::filesystem::path& path, const std::vector<Les
 std::vector<LesionRow> read_lesion_table(const std::filesystem::path& path) {
   std::ifstream in(path);
   std::string line;
-  if (!std::getline(in, line)) throw std::runtime_error(path.string() + ": cannot be read, or empty");
+  if (!std::getline(in, line))
+    throw std::runtime_error(path.string() + ": cannot be read, or empty");
   check_header(line, path.string());
   std::vector<LesionRow> rows;
   for (int number = 2; std::getline(in, line); ++number)

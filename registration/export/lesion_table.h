@@ -1,12 +1,12 @@
 #pragma once
 
-#include "registration/view/project_lesions.h"
-#include "segmentation/segmentation.h"
-
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
+
+#include "registration/view/project_lesions.h"
+#include "segmentation/segmentation.h"
 
 namespace mammotwin {
 
@@ -18,7 +18,8 @@ struct LesionRow {
   std::optional<double> depth_mm, lateral_mm, height_mm;
   std::optional<double> detector_u_mm, detector_v_mm, pixel_column, pixel_row;
   std::optional<double> ellipse_major_mm, ellipse_minor_mm, ellipse_angle_deg;
-  std::optional<double> picture_ellipse_major_mm, picture_ellipse_minor_mm, picture_ellipse_angle_deg;
+  std::optional<double> picture_ellipse_major_mm, picture_ellipse_minor_mm,
+      picture_ellipse_angle_deg;
   std::optional<double> baseline_u_mm, baseline_v_mm;
   std::optional<double> behind_nipple_mm, lateral_of_nipple_mm, above_nipple_mm, nipple_distance_mm;
   std::string quadrant, clock;

@@ -1,8 +1,7 @@
 #include "registration/export/markups.h"
 
-#include <nlohmann/json.hpp>
-
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <stdexcept>
 
 namespace mammotwin {
@@ -42,9 +41,10 @@ void append_points(const nlohmann::json& markup, std::vector<MarkupPoint>& point
     if (point.value("positionStatus", "defined") != "defined") continue;
     const auto position = point.at("position").get<std::vector<double>>();
     if (position.size() != 3)
-      throw std::runtime_error("a control point's position has " +
-                               std::to_string(position.size()) + " numbers; expected 3");
-    points.push_back({point.value("label", ""), signs.cwiseProduct(Eigen::Vector3d(position.data())),
+      throw std::runtime_error("a control point's position has " + std::to_string(position.size()) +
+                               " numbers; expected 3");
+    points.push_back({point.value("label", ""),
+                      signs.cwiseProduct(Eigen::Vector3d(position.data())),
                       point.value("description", "")});
   }
 }
@@ -53,12 +53,9 @@ nlohmann::ordered_json markup(const std::string& type, const std::string& name,
                               const std::vector<MarkupPoint>& points) {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
   for (const MarkupPoint& point : points) list.push_back(control_point(point, list.size() + 1));
-  nlohmann::ordered_json markup = {{"type", type},
-                                   {"coordinateSystem", "LPS"},
-                                   {"coordinateUnits", "mm"},
-                                   {"locked", false},
-                                   {"labelFormat", "%N-%d"},
-                                   {"controlPoints", list}};
+  nlohmann::ordered_json markup = {
+      {"type", type},    {"coordinateSystem", "LPS"}, {"coordinateUnits", "mm"},
+      {"locked", false}, {"labelFormat", "%N-%d"},    {"controlPoints", list}};
   if (!name.empty()) markup["name"] = name;
   return markup;
 }
@@ -93,8 +90,8 @@ std::vector<MarkupPoint> read_markups(const std::filesystem::path& path) {
     const nlohmann::json file = nlohmann::json::parse(in);
     for (const nlohmann::json& markup : file.at("markups")) append_points(markup, points);
   } catch (const std::exception& error) {
-    throw std::runtime_error(path.string() + ": not a readable 3D Slicer markups file: " +
-                             error.what());
+    throw std::runtime_error(path.string() +
+                             ": not a readable 3D Slicer markups file: " + error.what());
   }
   return points;
 }

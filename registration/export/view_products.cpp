@@ -28,8 +28,8 @@ float trilinear(const Volume<float>& image, const Eigen::Vector3d& x) {
 ViewFields view_fields(const HermiteMesh& prone, const HermiteMesh& compressed) {
   constexpr double tolerance = 0.05;  // [mm], where 0.1 is asked
   constexpr double fine = 1.5;        // [mm]; on 2 mm it cannot be corrected below 0.15 mm
-  ViewFields fields{displacement_field(prone, compressed),
-                    displacement_field(compressed, prone, fine), {}};
+  ViewFields fields{
+      displacement_field(prone, compressed), displacement_field(compressed, prone, fine), {}};
   compose_to_identity(fields.compressed_from_prone, prone, tolerance, fields.prone_from_compressed);
   fields.error =
       composition_error(fields.compressed_from_prone, fields.prone_from_compressed, prone);

@@ -1,12 +1,12 @@
 #pragma once
 
+#include <filesystem>
+#include <optional>
+
 #include "registration/carry/displacement_field.h"
 #include "registration/export/png_file.h"
 #include "registration/view/project_lesions.h"
 #include "registration/view/simulated_mammogram.h"
-
-#include <filesystem>
-#include <optional>
 
 namespace mammotwin {
 

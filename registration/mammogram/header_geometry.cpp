@@ -55,16 +55,15 @@ std::string coded_view(const MammogramHeader& h) {
 }
 
 void check_kind(const MammogramHeader& h, HeaderGeometry& geometry) {
-  if (h.modality != "MG")
-    refuse(kModality, "is \"" + h.modality + "\"; expected MG, a mammogram");
+  if (h.modality != "MG") refuse(kModality, "is \"" + h.modality + "\"; expected MG, a mammogram");
   if (!h.positioner_type.empty() && h.positioner_type.rfind("MAMMOGRAPHIC", 0) != 0)
     geometry.remarks.push_back(std::string(kPositioner) + " is \"" + h.positioner_type +
                                "\"; expected MAMMOGRAPHIC");
   if (h.frames && *h.frames > 1)
-    refuse(kFrames, "is " + std::to_string(*h.frames) + ": tomosynthesis cannot be used; give the 2-D view");
+    refuse(kFrames,
+           "is " + std::to_string(*h.frames) + ": tomosynthesis cannot be used; give the 2-D view");
   if (h.implant == "YES") refuse(kImplant, "is YES: the model knows no implant");
-  if (h.partial_view == "YES")
-    refuse(kPartial, "is YES: a partial view has no outline to match");
+  if (h.partial_view == "YES") refuse(kPartial, "is YES: a partial view has no outline to match");
   if (h.presentation_intent.empty())
     geometry.remarks.push_back(std::string(kIntent) + " is missing; taken as FOR PRESENTATION");
 }
@@ -72,10 +71,12 @@ void check_kind(const MammogramHeader& h, HeaderGeometry& geometry) {
 void check_enlargement(const MammogramHeader& h) {
   constexpr double most = 1.15;  // contact views: 1.0 to 1.1
   if (h.magnification && *h.magnification > most)
-    refuse(kMagnification, "is " + text_of(*h.magnification) + ": a magnification view cannot be used");
+    refuse(kMagnification,
+           "is " + text_of(*h.magnification) + ": a magnification view cannot be used");
   for (const std::string& modifier : h.view_modifiers)
     for (const char* bad : {"MAGNIFICATION", "SPOT", "IMPLANT", "TANGENTIAL", "ROLLED", "CLEAVAGE"})
-      if (has(modifier, bad)) refuse(kModifier, "says \"" + modifier + "\": such a view cannot be used");
+      if (has(modifier, bad))
+        refuse(kModifier, "says \"" + modifier + "\": such a view cannot be used");
   for (const char* bad : {"SPOT", "MAG"})
     if (has(h.paddle, bad)) refuse(kPaddle, "is \"" + h.paddle + "\": such a view cannot be used");
 }
@@ -88,13 +89,15 @@ void check_view(const MammogramHeader& h, const std::string& view) {
   if (!h.view_position.empty() && !coded.empty() && coded != h.view_position)
     refuse(kView, "is " + h.view_position + ", but " + kViewCode + " says " + coded);
   std::string asked = view;
-  std::transform(asked.begin(), asked.end(), asked.begin(), [](unsigned char c) { return std::toupper(c); });
+  std::transform(asked.begin(), asked.end(), asked.begin(),
+                 [](unsigned char c) { return std::toupper(c); });
   if (said != asked) refuse(kView, "is " + said + "; patient.toml gives this file as " + asked);
 }
 
 void check_side(const MammogramHeader& h, Side side) {
   if (!h.image_laterality.empty() && !h.laterality.empty() && h.image_laterality != h.laterality)
-    refuse(kLaterality, "is " + h.image_laterality + ", but (0020,0060) Laterality is " + h.laterality);
+    refuse(kLaterality,
+           "is " + h.image_laterality + ", but (0020,0060) Laterality is " + h.laterality);
   const std::string said = h.image_laterality.empty() ? h.laterality : h.image_laterality;
   if (said != "L" && said != "R")
     refuse(kLaterality, said.empty() ? "is missing, and so is (0020,0060) Laterality"
@@ -118,8 +121,8 @@ double angle_of(const MammogramHeader& h, const std::string& view, HeaderGeometr
   if (cc && size <= most_cc) return *h.primary_angle_deg == 0 ? 0 : size;
   if (!cc && size >= least_mlo && size <= most_mlo) return size;
   refuse(kAngle, "is " + text_of(*h.primary_angle_deg) + "; expected " +
-                     (cc ? "-15 to 15 for CC" : "20 to 75, of either sign, for MLO") +
-                     "; views." + view + ".angle_deg overrides it");
+                     (cc ? "-15 to 15 for CC" : "20 to 75, of either sign, for MLO") + "; views." +
+                     view + ".angle_deg overrides it");
 }
 
 std::optional<double> thickness_of(const MammogramHeader& h, const std::string& view,
@@ -155,8 +158,9 @@ double distance_of(const MammogramHeader& h, const std::string& view, HeaderGeom
     return Detector{}.source_distance_mm;
   }
   if (*h.source_to_detector_mm < 550 || *h.source_to_detector_mm > 800)
-    refuse(kDistance, "is " + text_of(*h.source_to_detector_mm) + "; expected 550 to 800 mm; views." +
-                          view + ".detector.source_distance_mm overrides it");
+    refuse(kDistance, "is " + text_of(*h.source_to_detector_mm) +
+                          "; expected 550 to 800 mm; views." + view +
+                          ".detector.source_distance_mm overrides it");
   return *h.source_to_detector_mm;
 }
 
@@ -180,8 +184,8 @@ double square(const char* tag, const std::vector<double>& spacing, const std::st
 
 double spacing_of(const MammogramHeader& h, const std::string& view, HeaderGeometry& geometry) {
   if (h.imager_spacing_mm.empty() && h.pixel_spacing_mm.empty())
-    refuse(kImagerSpacing, std::string("is missing, and so is ") + kPixelSpacing + "; views." + view +
-                               ".detector.pixel_spacing_mm replaces them");
+    refuse(kImagerSpacing, std::string("is missing, and so is ") + kPixelSpacing + "; views." +
+                               view + ".detector.pixel_spacing_mm replaces them");
   if (h.imager_spacing_mm.empty()) {
     geometry.remarks.push_back(std::string(kImagerSpacing) + " is missing; taken from " +
                                kPixelSpacing + ", which may be calibrated to the breast's plane");
@@ -198,8 +202,9 @@ ImageEdge chest_wall_of(const MammogramHeader& h, const std::string& view) {
   const std::string rows = h.patient_orientation.empty() ? "" : h.patient_orientation[0];
   if (rows == "A") return ImageEdge::left;
   if (rows == "P") return ImageEdge::right;
-  refuse(kOrientation, (rows.empty() ? "is missing" : "begins with \"" + rows + "\"; expected A or P") +
-                           "; views." + view + ".detector.chest_wall and lateral replace it");
+  refuse(kOrientation,
+         (rows.empty() ? "is missing" : "begins with \"" + rows + "\"; expected A or P") +
+             "; views." + view + ".detector.chest_wall and lateral replace it");
 }
 
 /// Columns run down: to the feet in MLO, medially in CC, as mammograms are hung.
@@ -212,8 +217,9 @@ bool lateral_at_top_of(const MammogramHeader& h, const std::string& view, Side s
   if (cc && first == lateral) return false;
   if (!cc && (first == 'F' || has(down, "F"))) return true;
   if (!cc && (first == 'H' || has(down, "H"))) return false;
-  refuse(kOrientation, "has no second value that fits " + std::string(cc ? "CC (L or R)" : "MLO (F or H)") +
-                           "; views." + view + ".detector.chest_wall and lateral replace it");
+  refuse(kOrientation, "has no second value that fits " +
+                           std::string(cc ? "CC (L or R)" : "MLO (F or H)") + "; views." + view +
+                           ".detector.chest_wall and lateral replace it");
 }
 
 }  // namespace

@@ -1,18 +1,18 @@
 #include "registration/mammogram/mammogram_findings.h"
 
-#include "registration/mammogram/mammogram_masks.h"
-
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <stdexcept>
+
+#include "registration/mammogram/mammogram_masks.h"
 
 namespace mammotwin {
 namespace {
 
 /// Skin stands out of air by this share of the brightest grey after a light blur.
 constexpr double kAirShare = 0.03;
-constexpr double kBlur = 2;          // [pixels]
+constexpr double kBlur = 2;  // [pixels]
 /// A breast fills at least this share of its mammogram.
 constexpr double kLeastBreast = 0.03;
 
@@ -63,7 +63,8 @@ ImageEdge chest_wall_edge(const std::vector<std::uint8_t>& mask, int columns, in
   return left >= right ? ImageEdge::left : ImageEdge::right;
 }
 
-/// Distance of the skin from the chest wall's edge in each row [pixels]; -1 where there is no breast.
+/// Distance of the skin from the chest wall's edge in each row [pixels]; -1 where there is no
+/// breast.
 std::vector<int> skin_line(const std::vector<std::uint8_t>& mask, const Upright& image) {
   std::vector<int> skin(image.rows(), -1);
   for (int row = 0; row < image.rows(); ++row)
@@ -82,8 +83,8 @@ struct Disc {
 bool is_marker(const Disc& d, int columns) {
   const double size = std::max(d.width(), d.height());
   const double fill = d.pixels / (0.25 * M_PI * d.width() * d.height());
-  return size > 0.01 * columns && size < 0.03 * columns && std::abs(d.width() - d.height()) < 0.2 * size &&
-         fill > 0.9 && fill < 1.1;
+  return size > 0.01 * columns && size < 0.03 * columns &&
+         std::abs(d.width() - d.height()) < 0.2 * size && fill > 0.9 && fill < 1.1;
 }
 
 std::optional<Eigen::Vector2d> find_marker(const MammogramImage& image) {
@@ -178,7 +179,8 @@ MammogramFindings find_breast(const MammogramImage& image, bool oblique) {
   std::optional<Edge> edge;
   if (oblique) {
     const MammogramImage blurred = smoothed(image, image.columns / 200.0);
-    edge = pectoral_edge(Upright(blurred, found.chest_wall), skin[image.rows / 100], brightest(image));
+    edge =
+        pectoral_edge(Upright(blurred, found.chest_wall), skin[image.rows / 100], brightest(image));
   }
   if (edge) {
     const double bottom = std::min<double>(image.rows - 1, edge->end);

@@ -1,20 +1,20 @@
 #pragma once
 
-#include "registration/view/detector.h"
-#include "registration/mammogram/mammogram_image.h"
-
 #include <Eigen/Core>
-
 #include <optional>
 #include <string>
 #include <vector>
+
+#include "registration/mammogram/mammogram_image.h"
+#include "registration/view/detector.h"
 
 namespace mammotwin {
 
 /// How the nipple was found.
 enum class NippleEvidence {
   marker,   ///< a round metal marker (BB) that the radiographer stuck on it
-  profile,  ///< farthest point of the outline: rough, centimetres where the nipple is not in profile
+  profile,  ///< farthest point of the outline: rough, centimetres where the nipple is not in
+            ///< profile
 };
 
 /// The breast in a mammogram, in pixels (column, row).
@@ -23,7 +23,8 @@ struct MammogramFindings {
   std::vector<Eigen::Vector2d> outline;  ///< skin line, from top to bottom, one point a row
   Eigen::Vector2d nipple = Eigen::Vector2d::Zero();
   NippleEvidence evidence = NippleEvidence::profile;
-  /// Edge of the pectoral muscle in an oblique view: from the image's top to the chest wall or bottom.
+  /// Edge of the pectoral muscle in an oblique view: from the image's top to the chest wall or
+  /// bottom.
   std::optional<std::pair<Eigen::Vector2d, Eigen::Vector2d>> pectoral;
 };
 

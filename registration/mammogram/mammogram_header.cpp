@@ -1,7 +1,6 @@
 #include "registration/mammogram/mammogram_header.h"
 
 #include <dcmtk/config/osconfig.h>
-
 #include <dcmtk/dcmdata/dctk.h>
 #include <dcmtk/dcmimgle/dcmimage.h>
 #include <dcmtk/dcmjpeg/djdecode.h>
@@ -69,7 +68,8 @@ void read_view_code(DcmItem& dataset, MammogramHeader& header) {
   header.view_code = text_of(*code, DCM_CodeValue);
   header.view_code_meaning = text_of(*code, DCM_CodeMeaning);
   DcmItem* modifier = nullptr;
-  for (long n = 0; code->findAndGetSequenceItem(DCM_ViewModifierCodeSequence, modifier, n).good(); ++n)
+  for (long n = 0; code->findAndGetSequenceItem(DCM_ViewModifierCodeSequence, modifier, n).good();
+       ++n)
     header.view_modifiers.push_back(text_of(*modifier, DCM_CodeMeaning));
 }
 
@@ -77,7 +77,8 @@ DcmFileFormat load(const std::filesystem::path& path) {
   DcmFileFormat file;
   const OFCondition status = file.loadFile(path.c_str());
   if (status.bad())
-    throw std::runtime_error(path.filename().string() + ": not readable as DICOM: " + status.text());
+    throw std::runtime_error(path.filename().string() +
+                             ": not readable as DICOM: " + status.text());
   return file;
 }
 
@@ -139,18 +140,31 @@ MammogramImage read_mammogram_dicom(const std::filesystem::path& path) {
   if (!pixels)
     throw std::runtime_error(path.filename().string() + ": (7FE0,0010) pixel data: " +
                              DicomImage::getString(decoded.getStatus()));
-  MammogramImage image{static_cast<int>(decoded.getWidth()), static_cast<int>(decoded.getHeight()), {}};
+  MammogramImage image{
+      static_cast<int>(decoded.getWidth()), static_cast<int>(decoded.getHeight()), {}};
   image.grey.resize(static_cast<std::size_t>(image.columns) * image.rows);
   const auto take = [&](const auto* from) {
     for (std::size_t i = 0; i < image.grey.size(); ++i) image.grey[i] = static_cast<float>(from[i]);
   };
   switch (pixels->getRepresentation()) {
-    case EPR_Uint8: take(static_cast<const Uint8*>(pixels->getData())); break;
-    case EPR_Sint8: take(static_cast<const Sint8*>(pixels->getData())); break;
-    case EPR_Uint16: take(static_cast<const Uint16*>(pixels->getData())); break;
-    case EPR_Sint16: take(static_cast<const Sint16*>(pixels->getData())); break;
-    case EPR_Uint32: take(static_cast<const Uint32*>(pixels->getData())); break;
-    case EPR_Sint32: take(static_cast<const Sint32*>(pixels->getData())); break;
+    case EPR_Uint8:
+      take(static_cast<const Uint8*>(pixels->getData()));
+      break;
+    case EPR_Sint8:
+      take(static_cast<const Sint8*>(pixels->getData()));
+      break;
+    case EPR_Uint16:
+      take(static_cast<const Uint16*>(pixels->getData()));
+      break;
+    case EPR_Sint16:
+      take(static_cast<const Sint16*>(pixels->getData()));
+      break;
+    case EPR_Uint32:
+      take(static_cast<const Uint32*>(pixels->getData()));
+      break;
+    case EPR_Sint32:
+      take(static_cast<const Sint32*>(pixels->getData()));
+      break;
   }
   const float most = *std::max_element(image.grey.begin(), image.grey.end());
   for (float& grey : image.grey) {

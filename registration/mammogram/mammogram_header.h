@@ -1,11 +1,11 @@
 #pragma once
 
-#include "registration/mammogram/mammogram_image.h"
-
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
+
+#include "registration/mammogram/mammogram_image.h"
 
 namespace mammotwin {
 
@@ -13,13 +13,13 @@ namespace mammotwin {
 /// empty where a tag is missing. No identifier is read.
 struct MammogramHeader {
   std::string modality, positioner_type, presentation_intent, paddle, implant, partial_view;
-  std::string view_position, view_code, view_code_meaning;   ///< (0018,5101), (0054,0220)
-  std::vector<std::string> view_modifiers;                   ///< meanings in (0054,0222)
-  std::string image_laterality, laterality;                  ///< (0020,0062), (0020,0060)
-  std::vector<std::string> patient_orientation;              ///< of rows, of columns
+  std::string view_position, view_code, view_code_meaning;  ///< (0018,5101), (0054,0220)
+  std::vector<std::string> view_modifiers;                  ///< meanings in (0054,0222)
+  std::string image_laterality, laterality;                 ///< (0020,0062), (0020,0060)
+  std::vector<std::string> patient_orientation;             ///< of rows, of columns
   std::optional<double> primary_angle_deg, thickness_mm, force, source_to_detector_mm,
       source_to_patient_mm, magnification;
-  std::vector<double> imager_spacing_mm, pixel_spacing_mm;   ///< between rows, between columns
+  std::vector<double> imager_spacing_mm, pixel_spacing_mm;  ///< between rows, between columns
   std::optional<int> rows, columns, frames;
 };
 

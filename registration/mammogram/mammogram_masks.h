@@ -1,9 +1,9 @@
 #pragma once
 
-#include "registration/mammogram/mammogram_image.h"
-
 #include <cstdint>
 #include <vector>
+
+#include "registration/mammogram/mammogram_image.h"
 
 namespace mammotwin {
 

@@ -2,7 +2,6 @@
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -29,8 +28,8 @@ double lateral_centroid(const HermiteMesh& mesh, const ViewFrame& frame) {
   const auto weight = [](double xi) { return xi == 0 || xi == 1 ? 0.5 : 1.0; };
   double volume = 0, moment = 0;
   for_each_sample(mesh, [&](const MeshPoint& p) {
-    const double dv = weight(p.xi.x()) * weight(p.xi.y()) * weight(p.xi.z()) *
-                      mesh.jacobian(p).determinant();
+    const double dv =
+        weight(p.xi.x()) * weight(p.xi.y()) * weight(p.xi.z()) * mesh.jacobian(p).determinant();
     volume += dv;
     moment += dv * frame.view_from_lps(mesh.position(p)).y();
   });

@@ -1,18 +1,18 @@
 #include "registration/search/density_map.h"
 
-#include "fitting/mesh/inverse_map.h"
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
+#include "fitting/mesh/inverse_map.h"
+
 namespace mammotwin {
 namespace {
 
-constexpr double kInside_mm = 10;       // from the outline: there the breast is rounded
-constexpr double kBroad_mm = 25;        // half width of the mean that is taken off
+constexpr double kInside_mm = 10;  // from the outline: there the breast is rounded
+constexpr double kBroad_mm = 25;   // half width of the mean that is taken off
 constexpr std::size_t kMostSamples = 25000;
-constexpr double kDense = 0.15;         // least fraction of a sample
+constexpr double kDense = 0.15;  // least fraction of a sample
 
 bool within(const std::vector<Eigen::Vector2d>& outline, const Eigen::Vector2d& uv) {
   bool inside = false;  // crossings of the line to the left, the outline closed by the chest wall
@@ -93,7 +93,8 @@ std::vector<double> grey_in_cells(const DensityGrid& grid, const MammogramImage&
     double sum = 0;
     int count = 0;
     for (int r = std::max(0, row - reach); r <= std::min(image.rows - 1, row + reach); ++r)
-      for (int c = std::max(0, column - reach); c <= std::min(image.columns - 1, column + reach); ++c) {
+      for (int c = std::max(0, column - reach); c <= std::min(image.columns - 1, column + reach);
+           ++c) {
         sum += image.at(c, r);
         ++count;
       }
@@ -113,7 +114,8 @@ DenseTissue::Points DenseTissue::sampled(const HermiteMesh& prone,
                                          const Volume<Fractions>& fractions) {
   std::vector<std::size_t> dense;
   for (std::size_t v = 0; v < fractions.values.size(); ++v)
-    if (fractions.values[v].fibroglandular + fractions.values[v].lesion > kDense) dense.push_back(v);
+    if (fractions.values[v].fibroglandular + fractions.values[v].lesion > kDense)
+      dense.push_back(v);
   const std::size_t step = dense.size() / kMostSamples + 1;
   const InverseMap inverse(prone);
   std::optional<MeshPoint> last;
@@ -126,9 +128,8 @@ DenseTissue::Points DenseTissue::sampled(const HermiteMesh& prone,
     if (!found) continue;
     last = found;
     points.points.push_back(*found);
-    points.volumes.push_back(
-        (fractions.values[v].fibroglandular + fractions.values[v].lesion) *
-        fractions.voxel_volume() * step);
+    points.volumes.push_back((fractions.values[v].fibroglandular + fractions.values[v].lesion) *
+                             fractions.voxel_volume() * step);
   }
   return points;
 }

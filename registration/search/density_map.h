@@ -1,12 +1,12 @@
 #pragma once
 
-#include "registration/view/detector.h"
-#include "registration/mammogram/mammogram_image.h"
-#include "registration/search/view_samples.h"
-#include "segmentation/segmentation.h"
-
 #include <cstdint>
 #include <vector>
+
+#include "registration/mammogram/mammogram_image.h"
+#include "registration/search/view_samples.h"
+#include "registration/view/detector.h"
+#include "segmentation/segmentation.h"
 
 namespace mammotwin {
 
@@ -39,7 +39,8 @@ std::vector<double> grey_in_cells(const DensityGrid& grid, const MammogramImage&
 class DenseTissue {
  public:
   /// Voxels of `fractions` with fibroglandular or lesion tissue inside the prone mesh.
-  DenseTissue(const ReducedView& view, const HermiteMesh& prone, const Volume<Fractions>& fractions);
+  DenseTissue(const ReducedView& view, const HermiteMesh& prone,
+              const Volume<Fractions>& fractions);
 
   /// Dense volume over each cell [mm^3], spread over neighbours.
   std::vector<double> in_cells(const DensityGrid& grid, const ReducedView& view, const ViewState& z,

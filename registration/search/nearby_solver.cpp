@@ -1,10 +1,10 @@
 #include "registration/search/nearby_solver.h"
 
-#include "solver/press/nearby_equilibria.h"
-
 #include <array>
 #include <stdexcept>
 #include <utility>
+
+#include "solver/press/nearby_equilibria.h"
 
 namespace mammotwin {
 namespace {
@@ -12,7 +12,8 @@ namespace {
 // Of a standard deviation, to either side: a derivative. Plates must move by less than what contact
 // lets them sink in (hundredths of a mm), for beyond that the residual is not linear.
 constexpr double kNudge = 1e-4;
-// Of the penalty that the compression ended with: the softest at which the breast stays where it is.
+// Of the penalty that the compression ended with: the softest at which the breast stays where it
+// is.
 constexpr std::array<double, 3> kSofter = {0.1, 0.3, 1};
 constexpr double kLeastRetained = 0.2;  // of the tissue between the plates; less is another breast
 
@@ -20,8 +21,9 @@ CompressionOptions soft_options() {
   CompressionOptions options;
   options.gap_tolerance = 0.5;
   options.thickness_tolerance = 1e3;  // the plates stay where they are put
-  // Whether it slipped out is for the mammogram to say: next to a breast that keeps little more than
-  // half of its tissue between the plates are states that keep less, and the search passes them.
+  // Whether it slipped out is for the mammogram to say: next to a breast that keeps little more
+  // than half of its tissue between the plates are states that keep less, and the search passes
+  // them.
   options.least_retained = kLeastRetained;
   return options;
 }
@@ -125,8 +127,8 @@ Nodes NearbySolver::change_between(const NearbyEquilibria& nearby, const ViewSta
                           const PlacedPlates& plates) {
     CompressionResult result;
     result.plates = plates;
-    const CompressedView view = view_of_plates(base_.view.name, base_.view.side,
-                                               base_.view.angle_deg + state[kRoll], options, result);
+    const CompressedView view = view_of_plates(
+        base_.view.name, base_.view.side, base_.view.angle_deg + state[kRoll], options, result);
     return in_view(combined(1, soft_base_->result.deformed, share, step.nodes), view.frame);
   };
   return combined(1, placed(0.5, to, upper.plates, step.to), -1,

@@ -1,13 +1,13 @@
 #pragma once
 
-#include "fitting/mesh/mesh_file.h"
-#include "registration/search/state_walk.h"
-#include "registration/search/view_state.h"
-
 #include <functional>
 #include <optional>
 #include <string>
 #include <vector>
+
+#include "fitting/mesh/mesh_file.h"
+#include "registration/search/state_walk.h"
+#include "registration/search/view_state.h"
 
 namespace mammotwin {
 
@@ -26,9 +26,9 @@ CompressedView view_of_plates(const std::string& name, Side side, double angle_d
 /// first order; empty where that is not known.
 using Slopes = std::array<Nodes, kMechanical>;
 
-/// Solves the view again near a solution that there is, with plates where the state puts them: contact
-/// is softer than in `compress` (up to 0.5 mm) and the thickness comes out, so that a solve takes a
-/// tenth.
+/// Solves the view again near a solution that there is, with plates where the state puts them:
+/// contact is softer than in `compress` (up to 0.5 mm) and the thickness comes out, so that a solve
+/// takes a tenth.
 class NearbySolver {
  public:
   NearbySolver(SolvedView base, ProblemAt problem_at);

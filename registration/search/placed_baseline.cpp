@@ -32,8 +32,8 @@ AffineBaseline placed_baseline(const MeshFile& compressed, CompressedView view, 
   const HermiteMesh prone = prone_of(compressed);
   AffineBaseline baseline(prone, view);
   if (!evidence) return baseline;
-  const ViewMatch match(rigid_view(prone, baseline), compressed.faces, prone, nullptr, nipple_in_lps,
-                        detector, *evidence);
+  const ViewMatch match(rigid_view(prone, baseline), compressed.faces, prone, nullptr,
+                        nipple_in_lps, detector, *evidence);
   const ViewState state =
       search_pose({&match}, {ViewState::Zero()}, true).states.front().cwiseProduct(prior_sd());
   baseline.place(state[kTurn], {state[kShiftDepth], state[kShiftLateral]});

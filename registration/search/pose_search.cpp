@@ -1,24 +1,24 @@
 #include "registration/search/pose_search.h"
 
-#include "registration/search/huber.h"
-
 #include <tbb/parallel_for.h>
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
-
 #include <algorithm>
 #include <cmath>
+
+#include "registration/search/huber.h"
 
 namespace mammotwin {
 namespace {
 
-constexpr double kNudge = 0.05;     // of a standard deviation: well above the outline's net
-constexpr double kFarthest = 2.5;   // a mechanical number's modes are not believed beyond
+constexpr double kNudge = 0.05;    // of a standard deviation: well above the outline's net
+constexpr double kFarthest = 2.5;  // a mechanical number's modes are not believed beyond
 constexpr int kMostIterations = 25;
-constexpr double kGain = 1e-3;      // of the cost: less is converged
-// Standard deviations beyond which a shift in depth costs its distance, not the square: real detectors'
-// edges stand centimetres behind the chest wall at times, where the model's plates cannot.
+constexpr double kGain = 1e-3;  // of the cost: less is converged
+// Standard deviations beyond which a shift in depth costs its distance, not the square: real
+// detectors' edges stand centimetres behind the chest wall at times, where the model's plates
+// cannot.
 constexpr double kShiftTail = 2;
 constexpr double kOwnObservations = 10;  // what the evidence's stated standard deviations count as
 

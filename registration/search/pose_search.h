@@ -1,16 +1,16 @@
 #pragma once
 
-#include "registration/search/view_match.h"
-
 #include <vector>
+
+#include "registration/search/view_match.h"
 
 namespace mammotwin {
 
 /// Where a search over all views' states ended. States are in standard deviations.
 struct PoseEstimate {
-  std::vector<ViewState> states;  ///< of each view
+  std::vector<ViewState> states;                                     ///< of each view
   std::vector<Eigen::Matrix<double, kStates, kStates>> covariances;  ///< what is left unknown
-  double cost = 0;                ///< half the sum of squares
+  double cost = 0;                                                   ///< half the sum of squares
   /// Of the evidence's differences left, over the one that their standard deviations say, where it
   /// is more (Birge's ratio): these count as ten observations, the mammograms as theirs less the
   /// numbers found from them. Is in the covariances.
@@ -29,8 +29,9 @@ PoseEstimate search_pose(const std::vector<const ViewMatch*>& views,
 PoseEstimate pose_at(const std::vector<const ViewMatch*>& views,
                      const std::vector<ViewState>& states);
 
-/// Before any mammogram: the prior, without turn and lateral shift, as sideways only the breast's own
-/// frame is spoken of then; depth is from the detector's edge, and nobody knows where that stands.
+/// Before any mammogram: the prior, without turn and lateral shift, as sideways only the breast's
+/// own frame is spoken of then; depth is from the detector's edge, and nobody knows where that
+/// stands.
 Eigen::Matrix<double, kStates, kStates> prior_covariance();
 
 }  // namespace mammotwin

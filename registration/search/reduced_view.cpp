@@ -15,13 +15,15 @@ void add(double factor, const Nodes& mode, Nodes& sum) {
   for (std::size_t i = 0; i < mode.size(); ++i) sum[i] += factor * mode[i];
 }
 
-/// Nodes in the view at a share of a standard deviation, which is negative below; 0: none was found.
+/// Nodes in the view at a share of a standard deviation, which is negative below; 0: none was
+/// found.
 struct Sample {
   double share = 0;
   Nodes nodes;
 };
 
-/// The quadratic through the base and what was found on both sides, or the line through one of them.
+/// The quadratic through the base and what was found on both sides, or the line through one of
+/// them.
 ReducedView::Mode mode_of(const Nodes& base, const Sample& up, const Sample& down) {
   const auto slope_to = [&](const Sample& sample) {
     return combined(1 / sample.share, sample.nodes, -1 / sample.share, base);

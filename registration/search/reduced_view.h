@@ -1,8 +1,8 @@
 #pragma once
 
-#include "registration/search/nearby_solver.h"
-
 #include <vector>
+
+#include "registration/search/nearby_solver.h"
 
 namespace mammotwin {
 
@@ -10,9 +10,9 @@ namespace mammotwin {
 ///
 ///   x(z) = x0 + sum_i (z_i a_i + z_i^2 b_i)
 ///
-/// over nodal parameters in the view's own frame, through solves at z_i = +1 and -1, or half of that
-/// where no equilibrium is found so far off; on one side only, then b = 0. Then turn and shifts in the
-/// detector's plane, exactly. A number for which no solve succeeds has no effect.
+/// over nodal parameters in the view's own frame, through solves at z_i = +1 and -1, or half of
+/// that where no equilibrium is found so far off; on one side only, then b = 0. Then turn and
+/// shifts in the detector's plane, exactly. A number for which no solve succeeds has no effect.
 struct ReducedView {
   struct Mode {
     Nodes linear, quadratic;  ///< empty: no effect

@@ -2,7 +2,6 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
-
 #include <cmath>
 #include <numbers>
 
@@ -62,7 +61,8 @@ SearchEllipse search_ellipse(const Eigen::Matrix2d& covariance, double probabili
   double angle = std::atan2(major.y(), major.x()) * 180 / std::numbers::pi;
   if (angle <= -90) angle += 180;  // a direction, not an arrow
   if (angle > 90) angle -= 180;
-  return {scale * std::sqrt(axes.eigenvalues()[1]), scale * std::sqrt(axes.eigenvalues()[0]), angle};
+  return {scale * std::sqrt(axes.eigenvalues()[1]), scale * std::sqrt(axes.eigenvalues()[0]),
+          angle};
 }
 
 std::vector<Eigen::Vector2d> rim(const SearchEllipse& ellipse, int points) {
@@ -70,8 +70,8 @@ std::vector<Eigen::Vector2d> rim(const SearchEllipse& ellipse, int points) {
   std::vector<Eigen::Vector2d> all;
   for (int n = 0; n < points; ++n) {
     const double t = 2 * std::numbers::pi * n / points;
-    all.push_back(turn * Eigen::Vector2d(ellipse.major_mm * std::cos(t),
-                                         ellipse.minor_mm * std::sin(t)));
+    all.push_back(turn *
+                  Eigen::Vector2d(ellipse.major_mm * std::cos(t), ellipse.minor_mm * std::sin(t)));
   }
   return all;
 }

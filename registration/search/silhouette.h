@@ -1,11 +1,11 @@
 #pragma once
 
-#include "fitting/mesh/mesh_file.h"
-#include "registration/view/detector.h"
-#include "registration/search/view_samples.h"
-
 #include <optional>
 #include <vector>
+
+#include "fitting/mesh/mesh_file.h"
+#include "registration/search/view_samples.h"
+#include "registration/view/detector.h"
 
 namespace mammotwin {
 

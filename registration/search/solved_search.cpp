@@ -8,7 +8,8 @@ namespace {
 
 constexpr int kMostRounds = 5;           // of searching and solving
 constexpr double kShortestStep = 0.125;  // of a way on which no equilibrium is found in one
-constexpr double kTrusted = 0.02;    // of the cost: where solve and reduced model differ by less, it ends
+constexpr double kTrusted =
+    0.02;  // of the cost: where solve and reduced model differ by less, it ends
 constexpr double kLeastGain = 0.01;  // of the cost, by a round
 
 using States = std::vector<ViewState>;
@@ -88,8 +89,8 @@ class Rounds {
     return walks;
   }
 
-  /// From where the search began, so that what is found depends on the state alone; where that fails,
-  /// from `here`.
+  /// From where the search began, so that what is found depends on the state alone; where that
+  /// fails, from `here`.
   Walk walk_to(std::size_t v, const ViewState& aim, const Place& here) const {
     const NearbySolver& solver = *views_[v].solver;
     const ViewState& sd = views_[v].match.view().sd;

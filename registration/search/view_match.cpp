@@ -1,23 +1,23 @@
 #include "registration/search/view_match.h"
 
-#include "registration/search/huber.h"
-#include "registration/carry/point_carrier.h"
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
+#include "registration/carry/point_carrier.h"
+#include "registration/search/huber.h"
+
 namespace mammotwin {
 namespace {
 
-constexpr double kOutlineSd_mm = 2;       // of the model's outline, found over synthetic patients
-constexpr double kPiece_mm = 30;          // of outline that counts as one observation
-constexpr double kBehind_mm = 8;          // nearer to the detector's edge no outline is compared
-constexpr double kBorder_mm = 3;          // of the image: an outline there is the image's end
+constexpr double kOutlineSd_mm = 2;  // of the model's outline, found over synthetic patients
+constexpr double kPiece_mm = 30;     // of outline that counts as one observation
+constexpr double kBehind_mm = 8;     // nearer to the detector's edge no outline is compared
+constexpr double kBorder_mm = 3;     // of the image: an outline there is the image's end
 constexpr double kMarker_mm = 3, kProfile_mm = 8;  // sd of a nipple found by either
-constexpr double kPatternSd = 0.7;        // of normalised patterns of the same breast
+constexpr double kPatternSd = 0.7;                 // of normalised patterns of the same breast
 constexpr double kPatternPiece_mm = 15;
-constexpr double kHuber = 2;              // standard deviations beyond which outliers count less
+constexpr double kHuber = 2;  // standard deviations beyond which outliers count less
 
 /// Share of an independent piece of outline that lies between two rays.
 double piece(double radius_mm) {
@@ -98,11 +98,13 @@ Eigen::VectorXd ViewMatch::residuals(const ViewState& z, bool with_pattern) cons
   const RayDistances found = silhouette_.at(view_, z, detector_, centre_);
   for (int ray = 0; ray < kRays; ++ray) {
     if (!seen_[ray] || !found[ray]) continue;
-    r[ray] = std::sqrt(piece(*seen_[ray])) * huber((*found[ray] - *seen_[ray]) / kOutlineSd_mm, kHuber);
+    r[ray] =
+        std::sqrt(piece(*seen_[ray])) * huber((*found[ray] - *seen_[ray]) / kOutlineSd_mm, kHuber);
   }
   if (evidence_.nipple) {
     const Eigen::Vector2d miss =
-        (detector_.project(nipple_.at(view_, z).col(0)) - *evidence_.nipple) / evidence_.nipple_sd_mm;
+        (detector_.project(nipple_.at(view_, z).col(0)) - *evidence_.nipple) /
+        evidence_.nipple_sd_mm;
     r[kRays] = huber(miss.x(), kHuber);
     r[kRays + 1] = huber(miss.y(), kHuber);
   }
@@ -110,7 +112,8 @@ Eigen::VectorXd ViewMatch::residuals(const ViewState& z, bool with_pattern) cons
     const double share = evidence_.grid.cell_mm / kPatternPiece_mm;
     r.tail(evidence_.pattern.size()) =
         (pattern(evidence_.grid, tissue_->in_cells(evidence_.grid, view_, z, detector_)) -
-         evidence_.pattern) * (share / kPatternSd);
+         evidence_.pattern) *
+        (share / kPatternSd);
   }
   return r;
 }
@@ -135,12 +138,12 @@ MatchFigures ViewMatch::figures(const ViewState& z) const {
     }
   figures.outline_rms_mm = std::sqrt(figures.outline_rms_mm / std::max(1, count));
   if (evidence_.nipple)
-    figures.nipple_mm =
-        (detector_.project(nipple_.at(view_, z).col(0)) - *evidence_.nipple).norm();
+    figures.nipple_mm = (detector_.project(nipple_.at(view_, z).col(0)) - *evidence_.nipple).norm();
   if (tissue_ && evidence_.pattern.size() > 0)
     figures.pattern_correlation =
         pattern(evidence_.grid, tissue_->in_cells(evidence_.grid, view_, z, detector_))
-            .dot(evidence_.pattern) / evidence_.pattern.size();
+            .dot(evidence_.pattern) /
+        evidence_.pattern.size();
   return figures;
 }
 

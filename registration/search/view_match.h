@@ -1,10 +1,10 @@
 #pragma once
 
-#include "registration/search/density_map.h"
-#include "registration/mammogram/mammogram_findings.h"
-#include "registration/search/silhouette.h"
-
 #include <memory>
+
+#include "registration/mammogram/mammogram_findings.h"
+#include "registration/search/density_map.h"
+#include "registration/search/silhouette.h"
 
 namespace mammotwin {
 
@@ -14,7 +14,7 @@ struct ViewEvidence {
   std::optional<Eigen::Vector2d> nipple;
   double nipple_sd_mm = 3;
   DensityGrid grid;
-  Eigen::VectorXd pattern;               ///< of dense tissue (density_map.h)
+  Eigen::VectorXd pattern;  ///< of dense tissue (density_map.h)
 };
 
 /// `nipple`: (column, row) where somebody said it; else what was found. Throws std::logic_error

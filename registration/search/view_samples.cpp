@@ -1,6 +1,5 @@
 #include "registration/search/view_samples.h"
 
-
 namespace mammotwin {
 
 ViewSamples::ViewSamples(const ReducedView& view, const std::vector<MeshPoint>& points,

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "registration/search/reduced_view.h"
-
 #include <vector>
+
+#include "registration/search/reduced_view.h"
 
 namespace mammotwin {
 

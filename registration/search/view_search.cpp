@@ -1,9 +1,9 @@
 #include "registration/search/view_search.h"
 
+#include <utility>
+
 #include "registration/search/placed_baseline.h"
 #include "registration/search/solved_search.h"
-
-#include <utility>
 
 namespace mammotwin {
 namespace {
@@ -12,8 +12,8 @@ namespace {
 CompressedView laid_on_detector(CompressedView view, const ViewState& state) {
   view.turn_deg = state[kTurn];
   view.frame.axes = axes_of(view.side, view.angle_deg, view.turn_deg);
-  view.frame.origin_in_lps -= view.frame.axes.transpose() *
-                              Eigen::Vector3d(state[kShiftDepth], state[kShiftLateral], 0);
+  view.frame.origin_in_lps -=
+      view.frame.axes.transpose() * Eigen::Vector3d(state[kShiftDepth], state[kShiftLateral], 0);
   return view;
 }
 
@@ -41,7 +41,8 @@ ReducedView reduced_view(const SearchInput& input) {
   return view;
 }
 
-ViewUncertainty uncertainty(const ReducedView& reduced, const ViewState& z, const ViewFrame& frame) {
+ViewUncertainty uncertainty(const ReducedView& reduced, const ViewState& z,
+                            const ViewFrame& frame) {
   ViewUncertainty result;
   result.sd = reduced.sd;
   for (int i = 0; i < kMechanical; ++i)
@@ -79,8 +80,7 @@ SearchedView matched(const SearchInput& input, const ViewToSearch& found, const 
   result.uncertainty = uncertainty(reduced, z, view.frame);
   result.uncertainty.covariance = end.pose.covariances[number];
   result.state = state;
-  result.state_sd =
-      result.uncertainty.covariance.diagonal().cwiseSqrt().cwiseProduct(reduced.sd);
+  result.state_sd = result.uncertainty.covariance.diagonal().cwiseSqrt().cwiseProduct(reduced.sd);
   result.after = found.match.figures(z);
   result.evidence_variance = end.pose.evidence_variance;
   result.complete = end.complete;
@@ -106,7 +106,8 @@ std::vector<SearchedView> search_views(const std::vector<SearchInput>& inputs,
     if (!input.evidence || !input.solver) continue;
     searched.push_back({ViewMatch(reduced, input.file.faces, prone_of(input.file), &fractions,
                                   nipple_in_lps, input.detector, *input.evidence),
-                        &*input.solver, {{}, input.view}});
+                        &*input.solver,
+                        {{}, input.view}});
     places.push_back(v);
     before.push_back(searched.back().match.figures(ViewState::Zero()));
   }

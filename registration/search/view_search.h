@@ -7,23 +7,23 @@ namespace mammotwin {
 
 /// A view before its search.
 struct SearchInput {
-  MeshFile file;             ///< what compress wrote: the compressed mesh, faces, "prone"
+  MeshFile file;  ///< what compress wrote: the compressed mesh, faces, "prone"
   CompressedView view;
   Detector detector;
-  std::optional<NearbySolver> solver;     ///< absent: no sensitivities, and so no search
-  std::optional<ViewEvidence> evidence;   ///< absent: there is no mammogram
+  std::optional<NearbySolver> solver;    ///< absent: no sensitivities, and so no search
+  std::optional<ViewEvidence> evidence;  ///< absent: there is no mammogram
 };
 
 /// What the search made of it.
 struct SearchedView {
-  CompressedView view;       ///< with the frame that lays the breast on its mammogram
+  CompressedView view;  ///< with the frame that lays the breast on its mammogram
   HermiteMesh compressed;
-  AffineBaseline baseline;   ///< brought to the same outline and nipple by turn and shifts
+  AffineBaseline baseline;  ///< brought to the same outline and nipple by turn and shifts
   ViewUncertainty uncertainty{};
   ViewState state = ViewState::Zero(), state_sd = ViewState::Zero();  ///< physical units
   std::optional<MatchFigures> before{}, after{};
   double evidence_variance = 1;  ///< PoseEstimate's
-  bool complete = true;      ///< false: it stopped where no equilibrium was found, at its best so far
+  bool complete = true;  ///< false: it stopped where no equilibrium was found, at its best so far
   int failed_solves = 0;
 };
 

@@ -1,10 +1,9 @@
 #pragma once
 
-#include "segmentation/segmentation.h"
-
 #include <Eigen/Core>
-
 #include <string>
+
+#include "segmentation/segmentation.h"
 
 namespace mammotwin {
 

@@ -51,10 +51,9 @@ CompressedView compressed_view(const std::string& name, const std::string& file,
   view.side = entry(metadata, file, "view_side", 1)[0] == 0 ? Side::left : Side::right;
   view.angle_deg = entry(metadata, file, "view_angle_deg", 1)[0];
   view.thickness_mm = entry(metadata, file, "thickness_mm", 1)[0];
-  view.frame.origin_in_lps =
-      Eigen::Vector3d(entry(metadata, file, "view_origin_lps_mm", 3).data());
-  view.frame.axes = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>(
-      entry(metadata, file, "view_axes", 9).data());
+  view.frame.origin_in_lps = Eigen::Vector3d(entry(metadata, file, "view_origin_lps_mm", 3).data());
+  view.frame.axes =
+      Eigen::Matrix<double, 3, 3, Eigen::RowMajor>(entry(metadata, file, "view_axes", 9).data());
   if (metadata.contains("view_turn_deg"))
     view.turn_deg = entry(metadata, file, "view_turn_deg", 1)[0];
   const double difference =

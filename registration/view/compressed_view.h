@@ -1,10 +1,10 @@
 #pragma once
 
-#include "registration/view/view_frame.h"
-
 #include <map>
 #include <string>
 #include <vector>
+
+#include "registration/view/view_frame.h"
 
 namespace mammotwin {
 
@@ -15,7 +15,7 @@ struct CompressedView {
   double angle_deg = 0;
   double thickness_mm = 0;  ///< measured extent of the compressed breast along the beam
   ViewFrame frame;
-  double turn_deg = 0;      ///< of the detector about the beam, from lateral towards depth
+  double turn_deg = 0;  ///< of the detector about the beam, from lateral towards depth
 };
 
 /// Axes of the view: those of its angle, turned.

@@ -43,9 +43,8 @@ Eigen::Vector2d Detector::image_from_detector(const Eigen::Vector2d& on_detector
 
 Eigen::Vector2d Detector::detector_from_image(const Eigen::Vector2d& column_row) const {
   const PixelGrid& grid = need_pixels(*this);
-  const double from_edge = grid.chest_wall == ImageEdge::left
-                               ? column_row.x()
-                               : grid.columns - 1 - column_row.x();
+  const double from_edge =
+      grid.chest_wall == ImageEdge::left ? column_row.x() : grid.columns - 1 - column_row.x();
   const double from_middle = column_row.y() - 0.5 * (grid.rows - 1);
   return {(from_edge + 0.5) * grid.spacing_mm,
           from_middle * grid.spacing_mm * (grid.lateral_at_top ? -1 : 1)};

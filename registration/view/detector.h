@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-
 #include <optional>
 
 namespace mammotwin {
@@ -11,16 +10,16 @@ enum class ImageEdge { left, right };
 /// The stored image on the detector. Pixel coordinates are (column, row), zero at the centre of the
 /// first pixel, rows downwards.
 struct PixelGrid {
-  double spacing_mm = 0;                    ///< on the detector (ImagerPixelSpacing), square
+  double spacing_mm = 0;  ///< on the detector (ImagerPixelSpacing), square
   int columns = 0;
   int rows = 0;
-  ImageEdge chest_wall = ImageEdge::left;   ///< image edge on which the detector's edge lies
-  bool lateral_at_top = true;               ///< as mammograms are hung; false: lateral downwards
+  ImageEdge chest_wall = ImageEdge::left;  ///< image edge on which the detector's edge lies
+  bool lateral_at_top = true;              ///< as mammograms are hung; false: lateral downwards
 };
 
 /// Cone-beam geometry of a view. Detector coordinates [mm] are (u, v) in the detector's plane from
-/// the middle of its chest-wall edge: u along the view's depth, v along its lateral axis. The source
-/// stands above that edge's middle, so rays there are vertical and the field is half a cone.
+/// the middle of its chest-wall edge: u along the view's depth, v along its lateral axis. The
+/// source stands above that edge's middle, so rays there are vertical and the field is half a cone.
 struct Detector {
   double source_distance_mm = 660;  ///< source to detector plane (DistanceSourceToDetector)
   double support_gap_mm = 0;        ///< detector plane to support surface: real ones 10 to 20

@@ -1,13 +1,13 @@
 #pragma once
 
-#include "registration/search/affine_baseline.h"
-#include "registration/view/compressed_view.h"
-#include "registration/view/detector.h"
-#include "registration/carry/point_carrier.h"
-
 #include <optional>
 #include <string>
 #include <vector>
+
+#include "registration/carry/point_carrier.h"
+#include "registration/search/affine_baseline.h"
+#include "registration/view/compressed_view.h"
+#include "registration/view/detector.h"
 
 namespace mammotwin {
 
@@ -22,10 +22,10 @@ struct ProjectedLandmark {
   Landmark landmark;
   MeshPoint point;
   double outside_mm = 0;  ///< distance of the landmark from the mesh in the prone MRI
-  Eigen::Vector3d compressed_in_lps = Eigen::Vector3d::Zero();  ///< [mm]
-  Eigen::Vector3d in_view = Eigen::Vector3d::Zero();            ///< depth, lateral, height [mm]
-  Eigen::Vector2d on_detector = Eigen::Vector2d::Zero();        ///< u, v [mm]
-  std::optional<Eigen::Vector2d> in_image;                      ///< column, row
+  Eigen::Vector3d compressed_in_lps = Eigen::Vector3d::Zero();     ///< [mm]
+  Eigen::Vector3d in_view = Eigen::Vector3d::Zero();               ///< depth, lateral, height [mm]
+  Eigen::Vector2d on_detector = Eigen::Vector2d::Zero();           ///< u, v [mm]
+  std::optional<Eigen::Vector2d> in_image;                         ///< column, row
   Eigen::Vector2d baseline_on_detector = Eigen::Vector2d::Zero();  ///< u, v without physics [mm]
 };
 
@@ -48,8 +48,8 @@ class ViewProjection {
   AffineBaseline baseline_;
 };
 
-/// A lesion further outside the mesh than this [mm] has no trustworthy position: `register` refuses.
-/// The nipple may stand out of a smooth skin surface, so it is not held to this.
+/// A lesion further outside the mesh than this [mm] has no trustworthy position: `register`
+/// refuses. The nipple may stand out of a smooth skin surface, so it is not held to this.
 inline constexpr double kLesionOutsideLimit_mm = 3;
 
 }  // namespace mammotwin

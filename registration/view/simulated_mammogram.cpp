@@ -105,7 +105,8 @@ SimulatedView simulate_view(const HermiteMesh& prone, const HermiteMesh& compres
   SimulatedView result{empty, empty};
   tbb::parallel_for(0, empty.rows, [&](int j) {
     for (int i = 0; i < empty.columns; ++i) {
-      const Voxel sum = along_ray(voxels, detector, empty.first + spacing_mm * Eigen::Vector2d(i, j));
+      const Voxel sum =
+          along_ray(voxels, detector, empty.first + spacing_mm * Eigen::Vector2d(i, j));
       const std::size_t pixel = static_cast<std::size_t>(j) * empty.columns + i;
       result.thickness.values[pixel] = sum.inside;
       result.attenuation.values[pixel] = sum.attenuation;

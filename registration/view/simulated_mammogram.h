@@ -1,9 +1,9 @@
 #pragma once
 
 #include "fitting/mesh/hermite_mesh.h"
+#include "registration/carry/position_grid.h"
 #include "registration/view/compressed_view.h"
 #include "registration/view/detector.h"
-#include "registration/carry/position_grid.h"
 #include "segmentation/segmentation.h"
 
 namespace mammotwin {

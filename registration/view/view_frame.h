@@ -1,8 +1,8 @@
 #pragma once
 
-#include "segmentation/segmentation.h"
-
 #include <Eigen/Core>
+
+#include "segmentation/segmentation.h"
 
 namespace mammotwin {
 

@@ -14,9 +14,9 @@ double estimate_noise(const Volume<float>& image);
 /// two voxels, the largest part, with the air that the front and the sides do not reach filled in.
 Volume<std::uint8_t> coarse_body(const Volume<float>& image, double noise);
 
-/// Takes off what hangs on the outside and is dim: ghosts of the breathing or beating body in the air
-/// of its fold, which pass `coarse_body`'s threshold. Peels up to 12 layers of voxels while the body
-/// within 1.5 voxels is darker than `share` of the body within 8 mm (both Gaussian means). For
+/// Takes off what hangs on the outside and is dim: ghosts of the breathing or beating body in the
+/// air of its fold, which pass `coarse_body`'s threshold. Peels up to 12 layers of voxels while the
+/// body within 1.5 voxels is darker than `share` of the body within 8 mm (both Gaussian means). For
 /// fat-suppressed images, whose skin is brighter than what lies below it.
 Volume<std::uint8_t> cut_ghosts(const Volume<float>& image, const Volume<std::uint8_t>& body,
                                 double share);

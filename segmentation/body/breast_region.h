@@ -2,8 +2,8 @@
 
 #include <cstdint>
 
-#include "segmentation/segmentation.h"
 #include "segmentation/image/volume.h"
+#include "segmentation/segmentation.h"
 
 namespace mammotwin {
 

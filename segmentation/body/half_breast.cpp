@@ -8,13 +8,13 @@
 #include <vector>
 
 #include "segmentation/body/body_mask.h"
-#include "segmentation/image/distance.h"
-#include "segmentation/shading/flank_shading.h"
 #include "segmentation/body/half_body.h"
-#include "segmentation/shading/n4.h"
+#include "segmentation/image/distance.h"
 #include "segmentation/image/order_statistics.h"
-#include "segmentation/skin/skin_stage.h"
 #include "segmentation/image/smoothing.h"
+#include "segmentation/shading/flank_shading.h"
+#include "segmentation/shading/n4.h"
+#include "segmentation/skin/skin_stage.h"
 
 namespace mammotwin {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "segmentation/skin/slab_fit.h"
 #include "segmentation/chest_wall/wall_stage.h"
+#include "segmentation/skin/slab_fit.h"
 
 namespace mammotwin {
 

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <vector>
 
+#include "segmentation/body/half_body.h"
 #include "segmentation/image/components.h"
 #include "segmentation/image/distance.h"
-#include "segmentation/body/half_body.h"
 #include "segmentation/label_maps/label_values.h"
 #include "segmentation/landmarks.h"
 

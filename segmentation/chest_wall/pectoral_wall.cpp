@@ -4,13 +4,13 @@
 #include <cmath>
 #include <numbers>
 
-#include "segmentation/image/order_statistics.h"
 #include "segmentation/chest_wall/polar_rays.h"
 #include "segmentation/chest_wall/semi_global_search.h"
-#include "segmentation/image/smoothing.h"
 #include "segmentation/chest_wall/wall_contrast.h"
 #include "segmentation/chest_wall/wall_cost.h"
 #include "segmentation/chest_wall/wall_refinement.h"
+#include "segmentation/image/order_statistics.h"
+#include "segmentation/image/smoothing.h"
 
 namespace mammotwin {
 namespace {

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "segmentation/shading/em_bias.h"
 #include "segmentation/body/half_body.h"
 #include "segmentation/image/smoothing.h"
+#include "segmentation/shading/em_bias.h"
 
 namespace mammotwin {
 namespace {

@@ -20,7 +20,8 @@ constexpr std::size_t most_candidates = 10;
 
 void check_cover(const Volume<float>& post, const Volume<float>& pre) {
   const Eigen::Vector3d low = post.position(0, 0, 0).cwiseMax(pre.position(0, 0, 0));
-  const Eigen::Vector3i a = post.size - Eigen::Vector3i::Ones(), b = pre.size - Eigen::Vector3i::Ones();
+  const Eigen::Vector3i a = post.size - Eigen::Vector3i::Ones(),
+                        b = pre.size - Eigen::Vector3i::Ones();
   const Eigen::Vector3d end = post.position(a.x(), a.y(), a.z());
   const Eigen::Vector3d high = end.cwiseMin(pre.position(b.x(), b.y(), b.z()));
   const Eigen::Vector3d both = (high - low).cwiseMax(0), all = end - post.position(0, 0, 0);

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "segmentation/image/order_statistics.h"
-#include "segmentation/segment_limits.h"
 #include "segmentation/image/smoothing.h"
+#include "segmentation/segment_limits.h"
 
 namespace mammotwin {
 namespace {

@@ -14,15 +14,15 @@ struct DicomSlice {
   std::filesystem::path file;
   int frame = 0;  ///< in a multi-frame object
   SlicePlacement placement;
-  std::string modality;    ///< "MR" serves
+  std::string modality;                ///< "MR" serves
   std::string series_uid, patient_id;  ///< compared, never shown
   std::string series_number;
   std::string series_description;
   std::string image_type;        ///< "ORIGINAL\\PRIMARY", "DERIVED\\SECONDARY\\..."
   std::string acquisition_time;  ///< compared, never shown
-  bool geometry_known = true;  ///< false: the header does not say where the frames stand
+  bool geometry_known = true;    ///< false: the header does not say where the frames stand
   std::string patient_position;  ///< as the header has it, "HFP" for head first, prone
-  std::string phase;           ///< equal within one acquisition of a series in several phases
+  std::string phase;             ///< equal within one acquisition of a series in several phases
 };
 
 /// Slices of one DICOM file (one, or one a frame); empty if the file is not a DICOM image.

@@ -155,9 +155,8 @@ Series choose_series(std::vector<Series> all, const std::string& wanted,
   if (wanted.empty()) check_one_patient(matching);
   if (matching.size() > 1 && wanted.empty()) return choose_by_rule(std::move(matching), notes);
   if (matching.size() > 1)
-    throw std::runtime_error("mri.series names " + std::to_string(matching.size()) +
-                             " series: " + list(matching) +
-                             "; expected one (give its SeriesInstanceUID)");
+    throw std::runtime_error("mri.series names " + std::to_string(matching.size()) + " series: " +
+                             list(matching) + "; expected one (give its SeriesInstanceUID)");
   if (matching.empty() && !wanted.empty())
     throw std::runtime_error("mri.series names no series here; found " + list(all));
   if (matching.empty() && all.size() == 1) return all.front();

@@ -8,10 +8,10 @@
 
 #include "segmentation/body/breast_region.h"
 #include "segmentation/files/grid_image.h"
-#include "segmentation/landmarks.h"
 #include "segmentation/files/read_image.h"
 #include "segmentation/files/read_raw_image.h"
 #include "segmentation/files/write_image_file.h"
+#include "segmentation/landmarks.h"
 
 namespace mammotwin {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <filesystem>
 
-#include "segmentation/segmentation.h"
 #include "segmentation/image/volume.h"
+#include "segmentation/segmentation.h"
 
 namespace mammotwin {
 

@@ -4,8 +4,8 @@
 #include <map>
 #include <string>
 
-#include "segmentation/segmentation.h"
 #include "segmentation/image/volume.h"
+#include "segmentation/segmentation.h"
 
 namespace mammotwin {
 

@@ -1,16 +1,16 @@
 #include "segmentation/label_maps/segment_labels.h"
 
-#include <cmath>
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
 #include <stdexcept>
 
 #include "segmentation/body/half_body.h"
-#include "segmentation/landmarks.h"
-#include "segmentation/lesion/lesion_seed.h"
 #include "segmentation/files/read_image.h"
 #include "segmentation/label_maps/segment_names.h"
+#include "segmentation/landmarks.h"
+#include "segmentation/lesion/lesion_seed.h"
 
 namespace mammotwin {
 namespace {
@@ -126,9 +126,9 @@ std::vector<std::pair<std::uint8_t, std::string>> names_by_segment(
       ++votes[labels.values[v]][foreign.values[v]];
   std::vector<std::pair<std::uint8_t, std::string>> names;
   for (const auto& [value, counts] : votes) {
-    const auto most = std::max_element(counts.begin(), counts.end(), [](const auto& a, const auto& b) {
-      return a.second < b.second;
-    });
+    const auto most =
+        std::max_element(counts.begin(), counts.end(),
+                         [](const auto& a, const auto& b) { return a.second < b.second; });
     const std::string& name = named.lesions.at(most->first);
     const auto before = std::count_if(names.begin(), names.end(), [&](const auto& other) {
       return named.lesions.at(most->first) == other.second.substr(0, name.size());

@@ -58,10 +58,11 @@ ForeignTissue tissue_of(const std::string& name, const std::string& tags, std::u
   if (const auto tissue = tissue_in(tags)) return *tissue;
   const LabelValues own = own_label_values();
   if (const auto known = own.find(value); known != own.end()) return known->second;
-  throw std::runtime_error("the segment \"" + name + "\" has neither a known name nor a known value (" +
-                           std::to_string(value) +
-                           "); expected skin, fat, fibroglandular, muscle or lesion in its name, or "
-                           "its value under [labels] in patient.toml");
+  throw std::runtime_error(
+      "the segment \"" + name + "\" has neither a known name nor a known value (" +
+      std::to_string(value) +
+      "); expected skin, fat, fibroglandular, muscle or lesion in its name, or "
+      "its value under [labels] in patient.toml");
 }
 
 }  // namespace

@@ -12,7 +12,7 @@ namespace mammotwin {
 /// What the segments of a 3D Slicer .seg.nrrd are. Slicer numbers segments anew when it saves, so
 /// that names and terminology are asked, and the value only where neither is known.
 struct NamedSegments {
-  LabelValues values;                             ///< empty: the file names no segments
+  LabelValues values;                            ///< empty: the file names no segments
   std::map<std::uint16_t, std::string> lesions;  ///< names of those that are lesions, by value
 };
 

@@ -5,12 +5,12 @@
 #include <numbers>
 #include <optional>
 
+#include "segmentation/body/half_body.h"
 #include "segmentation/image/components.h"
 #include "segmentation/image/distance.h"
-#include "segmentation/body/half_body.h"
 #include "segmentation/image/order_statistics.h"
-#include "segmentation/lesion/random_walker.h"
 #include "segmentation/image/smoothing.h"
+#include "segmentation/lesion/random_walker.h"
 
 namespace mammotwin {
 namespace {

@@ -35,10 +35,10 @@ using SharpImage =
 
 /// Stops at the lesion's edge. Half maximum, iterated: threshold midway between the inner part and
 /// the surroundings, the part that holds the brightest place within 6 mm of the point, opened by
-/// half of its inscribed radius, 3 mm at most, so that vessels and ducts fall off. Smaller parts that
-/// fell off with a neck of up to 6 mm stay if they are as bright: lobes, and tongues of 0.3 of the
-/// inscribed radius that touch it. Not so of dark lesions, beside which gland is as dark. Last, the
-/// voxels on either side of that part's surface are judged again by half maximum in the sharp
+/// half of its inscribed radius, 3 mm at most, so that vessels and ducts fall off. Smaller parts
+/// that fell off with a neck of up to 6 mm stay if they are as bright: lobes, and tongues of 0.3 of
+/// the inscribed radius that touch it. Not so of dark lesions, beside which gland is as dark. Last,
+/// the voxels on either side of that part's surface are judged again by half maximum in the sharp
 /// image: what is uneven inside would fall to pieces there, but blur hides the edge of what is
 /// small or rough.
 /// A random walker from the same core is the second opinion (random_walker.h).

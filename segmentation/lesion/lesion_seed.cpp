@@ -2,8 +2,8 @@
 
 #include <stdexcept>
 
-#include "segmentation/landmarks.h"
 #include "segmentation/files/read_image.h"
+#include "segmentation/landmarks.h"
 
 namespace mammotwin {
 namespace {

@@ -5,10 +5,10 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "segmentation/image/distance.h"
 #include "segmentation/body/half_body.h"
-#include "segmentation/lesion/lesion.h"
+#include "segmentation/image/distance.h"
 #include "segmentation/image/restored_scan.h"
+#include "segmentation/lesion/lesion.h"
 
 namespace mammotwin {
 namespace {

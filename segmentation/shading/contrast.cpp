@@ -7,8 +7,8 @@
 #include <stdexcept>
 #include <vector>
 
-#include "segmentation/shading/em_bias.h"
 #include "segmentation/image/order_statistics.h"
+#include "segmentation/shading/em_bias.h"
 
 namespace mammotwin {
 namespace {

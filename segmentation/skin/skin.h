@@ -2,8 +2,8 @@
 
 #include <cstdint>
 
-#include "segmentation/skin/slab_fit.h"
 #include "segmentation/image/volume.h"
+#include "segmentation/skin/slab_fit.h"
 
 namespace mammotwin {
 

@@ -4,8 +4,8 @@
 
 #include "segmentation/body/body_mask.h"
 #include "segmentation/image/distance.h"
-#include "segmentation/skin/skin.h"
 #include "segmentation/image/smoothing.h"
+#include "segmentation/skin/skin.h"
 
 namespace mammotwin {
 namespace {

@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "segmentation/body/body_mask.h"
-#include "segmentation/skin/skin.h"
 #include "segmentation/image/smoothing.h"
+#include "segmentation/skin/skin.h"
 
 namespace mammotwin {
 namespace {

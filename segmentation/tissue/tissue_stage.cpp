@@ -4,11 +4,11 @@
 #include <cmath>
 #include <sstream>
 
-#include "segmentation/image/distance.h"
-#include "segmentation/tissue/fibroglandular.h"
 #include "segmentation/body/half_body.h"
+#include "segmentation/image/distance.h"
 #include "segmentation/image/restored_scan.h"
 #include "segmentation/image/smoothing.h"
+#include "segmentation/tissue/fibroglandular.h"
 
 namespace mammotwin {
 namespace {

@@ -1,13 +1,13 @@
 #include "solver/breast/breast_model.h"
 
-#include "solver/element/skin_membrane.h"
-#include "solver/load/spring_bed.h"
-
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
 #include <utility>
+
+#include "solver/element/skin_membrane.h"
+#include "solver/load/spring_bed.h"
 
 namespace mammotwin {
 
@@ -15,7 +15,8 @@ namespace {
 
 using Faces = std::vector<std::pair<int, int>>;
 
-constexpr int kContactPoints = 12;  // a face of 27 mm passes 3 mm through an edge between 5 x 5 points
+constexpr int kContactPoints =
+    12;  // a face of 27 mm passes 3 mm through an edge between 5 x 5 points
 constexpr double kWallPenalty = 1000;  // x modulus/size: 10 kPa moves the wall by about 0.05 mm
 
 void check(bool good, const std::string& message) {
@@ -34,8 +35,9 @@ void check_problem(const CompressionProblem& p) {
   check(std::isfinite(b.chest_wall_spring) && b.chest_wall_spring >= 0,
         "chest-wall spring is " + std::to_string(b.chest_wall_spring) +
             " kPa/mm; expected at least 0");
-  check(std::isfinite(b.cut_face_depth) && b.cut_face_depth > 0,
-        "cut-face depth is " + std::to_string(b.cut_face_depth) + " mm; expected a positive length");
+  check(
+      std::isfinite(b.cut_face_depth) && b.cut_face_depth > 0,
+      "cut-face depth is " + std::to_string(b.cut_face_depth) + " mm; expected a positive length");
   check(std::isfinite(p.density) && p.density > 0 && p.gravity.allFinite(),
         "density must be positive and gravity finite");
 }
@@ -56,9 +58,8 @@ HermiteMesh prone_mesh(const CompressionProblem& problem) {
 SolidElement prone_element(const HermiteMesh& mesh, int e) {
   SolidElement::Coefficients x;
   for (int a = 0; a < kFunctions; ++a)
-    x.row(a) = mesh.node(mesh.corners(e)[corner_of_function(a)])
-                   .col(parameter_of_function(a))
-                   .transpose();
+    x.row(a) =
+        mesh.node(mesh.corners(e)[corner_of_function(a)]).col(parameter_of_function(a)).transpose();
   return SolidElement(x);
 }
 
@@ -75,10 +76,9 @@ ProneTissue prone_tissue(const CompressionProblem& problem, const HermiteMesh& m
     const SolidElement element = prone_element(mesh, e);
     tissue.volume += element.volume();
     for (int q = 0; q < kPoints; ++q)
-      tissue.materials.push_back(
-          mix(problem.laws.mixing,
-              problem.tissue(element.point_position(q), element.point_weight(q)),
-              problem.laws.laws));
+      tissue.materials.push_back(mix(
+          problem.laws.mixing, problem.tissue(element.point_position(q), element.point_weight(q)),
+          problem.laws.laws));
   }
   return tissue;
 }
@@ -175,14 +175,12 @@ BreastModel make_breast_model(const CompressionProblem& problem, const SolidOpti
   const ProneTissue tissue = prone_tissue(problem, prone);
   breast.model = std::make_unique<Model>(mesh, in_turn(tissue.materials), solid);
   if (!problem.gravity.isZero())
-    breast.model->set_body_force(
-        [weight = (problem.density * problem.gravity).eval()](const Eigen::Vector3d&) {
-          return weight;
-        });
+    breast.model->set_body_force([weight = (problem.density * problem.gravity).eval()](
+                                     const Eigen::Vector3d&) { return weight; });
   for (int e = 0; e < mesh.num_elements(); ++e)
     for (int q = 0; q < kPoints; ++q)
-      breast.largest_modulus = std::max(
-          breast.largest_modulus, breast.model->element(e).material(q).shear_modulus());
+      breast.largest_modulus =
+          std::max(breast.largest_modulus, breast.model->element(e).material(q).shear_modulus());
   breast.element_size = std::cbrt(tissue.volume / mesh.num_elements());
   breast.dofs = std::make_unique<DofMap>(mesh);
   tie_nodes(problem.mesh, *breast.dofs);

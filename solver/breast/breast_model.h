@@ -1,13 +1,13 @@
 #pragma once
 
-#include "solver/press/compress.h"
-#include "solver/contact/plate_friction.h"
-#include "solver/load/wall_surface.h"
-#include "solver/newton/dof_map.h"
-
 #include <memory>
 #include <utility>
 #include <vector>
+
+#include "solver/contact/plate_friction.h"
+#include "solver/load/wall_surface.h"
+#include "solver/newton/dof_map.h"
+#include "solver/press/compress.h"
 
 namespace mammotwin {
 
@@ -17,7 +17,7 @@ struct BreastModel {
   std::unique_ptr<DofMap> dofs;
   std::shared_ptr<PlateContact> contact;
   std::shared_ptr<PlateFriction> friction;  ///< null if there is none
-  std::shared_ptr<WallSurface> wall;  ///< null if the chest wall is clamped
+  std::shared_ptr<WallSurface> wall;        ///< null if the chest wall is clamped
   std::vector<std::pair<int, int>> contact_faces, wall_faces;  ///< (element, face)
   double largest_modulus = 0;  ///< of the tissue at the quadrature points [kPa]
   double element_size = 0;     ///< cube root of the mean element volume [mm]

@@ -1,7 +1,6 @@
 #include "solver/contact/contact_figures.h"
 
 #include <Eigen/Geometry>
-
 #include <algorithm>
 
 namespace mammotwin {
@@ -17,8 +16,8 @@ void add_face(const Face& face, const SolidElement::Coefficients& x, const Plate
     const Gap gap = contact.plates[plate].gap(y.head<3>());
     if (gap.gap >= kTouching) continue;
     const SurfacePoint& point = face.point(q);
-    const double stretch = y.segment<3>(3).cross(y.segment<3>(6)).norm() /
-                           point.A1.cross(point.A2).norm();
+    const double stretch =
+        y.segment<3>(3).cross(y.segment<3>(6)).norm() / point.A1.cross(point.A2).norm();
     Eigen::Vector3d force = contact.pressure(gap.gap) * point.area * gap.normal;
     if (friction) force += point.area * friction->traction(y.head<3>(), point, plate);
     figures.force += force;
@@ -31,8 +30,7 @@ void add_face(const Face& face, const SolidElement::Coefficients& x, const Plate
 }  // namespace
 
 ContactFigures contact_figures(const Model& model, const State& state, const PlateContact& contact,
-                               int plate, const FaceList& faces,
-                               const PlateFriction* friction) {
+                               int plate, const FaceList& faces, const PlateFriction* friction) {
   ContactFigures figures;
   for (const auto& [e, number] : faces) {
     const auto x = model.coefficients(state.x, e);

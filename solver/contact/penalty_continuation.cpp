@@ -43,7 +43,8 @@ NewtonReport resettle(Newton& newton, PlateContact& contact, const NewtonOptions
       return report;
     report = then(report, settle(newton, contact, loosened(options, reduction * left), state));
   }
-  if (report.usable()) report.reason = "friction finds no equilibrium with the pressures it comes of";
+  if (report.usable())
+    report.reason = "friction finds no equilibrium with the pressures it comes of";
   report.converged = false;
   return report;
 }

@@ -1,17 +1,17 @@
 #pragma once
 
+#include <functional>
+
 #include "solver/contact/plate_contact.h"
 #include "solver/newton/newton.h"
-
-#include <functional>
 
 namespace mammotwin {
 
 /// The penalties of one load step, in units of shear modulus / element size, so that nothing is
 /// left to tune.
 struct PenaltyOptions {
-  double first = 0.1;    ///< soft: the active set is found with next to no chatter
-  double last = 100;     ///< leaves a penetration of about 1e-3 element sizes
+  double first = 0.1;  ///< soft: the active set is found with next to no chatter
+  double last = 100;   ///< leaves a penetration of about 1e-3 element sizes
   double growth = 10;
   NewtonOptions newton;
 };

@@ -1,10 +1,9 @@
 #include "solver/contact/plate.h"
 
-#include "solver/contact/plate_mesh.h"
-
 #include <Eigen/Geometry>
-
 #include <cmath>
+
+#include "solver/contact/plate_mesh.h"
 
 namespace mammotwin {
 
@@ -52,7 +51,9 @@ Gap mesh_gap(const Plate& plate, const Vector3d& x) {
 
 }  // namespace
 
-Vector3d Plate::to_local(const Vector3d& x) const { return axes_of(*this).transpose() * (x - point); }
+Vector3d Plate::to_local(const Vector3d& x) const {
+  return axes_of(*this).transpose() * (x - point);
+}
 
 Vector3d Plate::from_local(const Vector3d& x_local) const {
   return point + axes_of(*this) * x_local;
@@ -67,12 +68,12 @@ Gap Plate::gap(const Vector3d& x) const {
   if (ahead == 0 && beside == 0) return flat(above, normal);
   const bool corner = ahead != 0 && beside != 0;
   const double beyond = corner ? std::hypot(ahead, beside) : std::abs(ahead + beside);
-  const Vector3d out = corner ? ((ahead * depth + beside * sideways(*this)) / beyond).eval()
+  const Vector3d out = corner       ? ((ahead * depth + beside * sideways(*this)) / beyond).eval()
                        : ahead != 0 ? (ahead < 0 ? (-depth).eval() : depth)
                                     : (beside < 0 ? (-sideways(*this)).eval() : sideways(*this));
   const double above_centre = above + rounding;
-  Gap gap = above_centre <= 0 ? flat(beyond - rounding, out)
-                              : rounded(beyond, above_centre, out, *this);
+  Gap gap =
+      above_centre <= 0 ? flat(beyond - rounding, out) : rounded(beyond, above_centre, out, *this);
   if (corner) add_corner(beyond, out, *this, gap);
   return gap;
 }

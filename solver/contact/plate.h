@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-
 #include <limits>
 #include <memory>
 
@@ -16,8 +15,9 @@ struct Gap {
   Eigen::Matrix3d hessian;  ///< ∂²gap/∂x² [1/mm]
 };
 
-/// Rigid compression plate: a flat rectangle whose straight edges are rounded and go on as walls away
-/// from the tissue. Endless sideways and to the front unless `half_width` and `length` say otherwise.
+/// Rigid compression plate: a flat rectangle whose straight edges are rounded and go on as walls
+/// away from the tissue. Endless sideways and to the front unless `half_width` and `length` say
+/// otherwise.
 ///
 ///          tissue                        depth → (towards the nipple)
 ///        (      ________ face ________
@@ -32,7 +32,7 @@ struct Plate {
   double rounding = 0;     ///< radius [mm]; infinite flat face if `endless`
   bool endless = false;    ///< no edge: a half space
   double half_width = std::numeric_limits<double>::infinity();  ///< of the flat part, sideways [mm]
-  double length = std::numeric_limits<double>::infinity();      ///< of the flat part, along depth [mm]
+  double length = std::numeric_limits<double>::infinity();  ///< of the flat part, along depth [mm]
   std::shared_ptr<const PlateMesh> mesh = nullptr;  ///< instead of all this: facets about `point`
 
   Gap gap(const Eigen::Vector3d& x) const;

@@ -48,14 +48,15 @@ void PlateFriction::track(const Model& model, const State& state,
                           const std::vector<std::pair<int, int>>& faces) {
   const std::size_t plates = contact_->plates.size();
   history_.resize(model.num_surface_points() * plates);
-  for_points(model, state, contact_->points1d, faces, [&](const SurfacePoint& point, const Vector3d& x) {
-    for (std::size_t p = 0; p < plates; ++p) {
-      const Gap gap = contact_->plates[p].gap(x);
-      Contact& contact = history_[point.index * plates + p];
-      contact.normal = gap.normal.normalized();  // of smoothed facets it is no unit vector
-      contact.pressure = contact_->pressure(gap.gap);
-    }
-  });
+  for_points(
+      model, state, contact_->points1d, faces, [&](const SurfacePoint& point, const Vector3d& x) {
+        for (std::size_t p = 0; p < plates; ++p) {
+          const Gap gap = contact_->plates[p].gap(x);
+          Contact& contact = history_[point.index * plates + p];
+          contact.normal = gap.normal.normalized();  // of smoothed facets it is no unit vector
+          contact.pressure = contact_->pressure(gap.gap);
+        }
+      });
 }
 
 void PlateFriction::commit(const Model& model, const State& state,
@@ -63,17 +64,18 @@ void PlateFriction::commit(const Model& model, const State& state,
   const bool first = history_.empty();
   track(model, state, faces);
   const std::size_t plates = contact_->plates.size();
-  for_points(model, state, contact_->points1d, faces, [&](const SurfacePoint& point, const Vector3d& x) {
-    for (std::size_t p = 0; p < plates; ++p) {
-      const Plate& plate = contact_->plates[p];
-      Contact& contact = history_[point.index * plates + p];
-      const Vector3d s = slip(x, contact, plate);
-      if (first || contact.pressure == 0)
-        contact.anchor = plate.to_local(x);
-      else if (s.norm() > slip_)
-        contact.anchor = plate.to_local(x - slip_ * s.normalized());
-    }
-  });
+  for_points(model, state, contact_->points1d, faces,
+             [&](const SurfacePoint& point, const Vector3d& x) {
+               for (std::size_t p = 0; p < plates; ++p) {
+                 const Plate& plate = contact_->plates[p];
+                 Contact& contact = history_[point.index * plates + p];
+                 const Vector3d s = slip(x, contact, plate);
+                 if (first || contact.pressure == 0)
+                   contact.anchor = plate.to_local(x);
+                 else if (s.norm() > slip_)
+                   contact.anchor = plate.to_local(x - slip_ * s.normalized());
+               }
+             });
 }
 
 Vector3d PlateFriction::traction(const Vector3d& x, const SurfacePoint& point, int plate) const {
@@ -103,8 +105,8 @@ bool PlateFriction::respond(const Eigen::Matrix<double, 9, 1>& y, const SurfaceP
     response.gradient.head<3>() += stiffness * s;
     if (order < 2) continue;
     auto hessian = response.hessian.topLeftCorner<3, 3>();
-    hessian += stiffness * (Eigen::Matrix3d::Identity() -
-                            contact.normal * contact.normal.transpose());
+    hessian +=
+        stiffness * (Eigen::Matrix3d::Identity() - contact.normal * contact.normal.transpose());
     if (slides) hessian -= stiffness / (length * length) * s * s.transpose();
   }
   return touches;

@@ -1,13 +1,12 @@
 #pragma once
 
-#include "solver/contact/plate_contact.h"
-#include "solver/newton/model.h"
-
 #include <Eigen/Core>
-
 #include <memory>
 #include <utility>
 #include <vector>
+
+#include "solver/contact/plate_contact.h"
+#include "solver/newton/model.h"
 
 namespace mammotwin {
 
@@ -22,16 +21,16 @@ namespace mammotwin {
 /// are the state's own (resettle); each round leaves about μ of the error.
 /// anchor: the place on the plate where the point sticks, carried by the plate.
 ///
-/// Approximations: a point that sticks creeps by up to δ (Wriggers, Computational Contact Mechanics,
-/// section 5.2); slip is counted along the chord of a load step, from where the point was at the end
-/// of the last one even if it came into contact later, so the path is followed to first order in
-/// the step. Tilting of the plate moves its anchors with it.
+/// Approximations: a point that sticks creeps by up to δ (Wriggers, Computational Contact
+/// Mechanics, section 5.2); slip is counted along the chord of a load step, from where the point
+/// was at the end of the last one even if it came into contact later, so the path is followed to
+/// first order in the step. Tilting of the plate moves its anchors with it.
 class PlateFriction : public SurfacePotential {
  public:
-  struct Contact {  ///< of one surface point with one plate
+  struct Contact {                                     ///< of one surface point with one plate
     Eigen::Vector3d anchor = Eigen::Vector3d::Zero();  ///< in the plate's frame [mm]
     Eigen::Vector3d normal = Eigen::Vector3d::Zero();
-    double pressure = 0;                               ///< [kPa]
+    double pressure = 0;  ///< [kPa]
   };
   using History = std::vector<Contact>;  ///< all that a load step leaves to the next
 
@@ -39,8 +38,7 @@ class PlateFriction : public SurfacePotential {
   PlateFriction(std::shared_ptr<const PlateContact> contact, double coefficient, double slip);
 
   /// Takes pressures and normals from a state.
-  void track(const Model& model, const State& state,
-             const std::vector<std::pair<int, int>>& faces);
+  void track(const Model& model, const State& state, const std::vector<std::pair<int, int>>& faces);
 
   /// Ends a load step: anchors of sliding points follow to within δ, those of free points all the
   /// way. The first call, with the plates at their start, sets them.

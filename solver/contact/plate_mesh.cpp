@@ -1,6 +1,5 @@
 #include "solver/contact/plate_mesh.h"
 
-#include <Eigen/Geometry>
 #include <tbb/parallel_for.h>
 #include <vtkCellArray.h>
 #include <vtkImplicitPolyDataDistance.h>
@@ -9,6 +8,7 @@
 #include <vtkSTLReader.h>
 #include <vtkSmartPointer.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <sstream>
@@ -22,9 +22,9 @@ using Eigen::Vector3d;
 
 constexpr int kMostFacets = 1'000'000;
 constexpr double kLeastSize = 20, kMostSize = 1000;  // [mm] a compression plate's longest side
-constexpr double kMargin = 10;          // [mm] of the grid around the facets
-constexpr double kFinest = 2;           // [mm]
-constexpr double kMostSamples = 200'000;  // 2.5 mm on a plate of 240 x 180 x 40 mm
+constexpr double kMargin = 10;                       // [mm] of the grid around the facets
+constexpr double kFinest = 2;                        // [mm]
+constexpr double kMostSamples = 200'000;             // 2.5 mm on a plate of 240 x 180 x 40 mm
 
 void check(bool good, const std::filesystem::path& file, const std::string& what) {
   if (!good) throw std::invalid_argument(file.string() + ": " + what);
@@ -60,7 +60,8 @@ vtkSmartPointer<vtkPolyData> read_facets(const std::filesystem::path& file) {
   const auto count = facets->GetNumberOfPolys();
   check(count > 0, file, "holds no facets; expected a plate in STL");
   check(count <= kMostFacets, file,
-        "holds " + std::to_string(count) + " facets; expected at most " + std::to_string(kMostFacets));
+        "holds " + std::to_string(count) + " facets; expected at most " +
+            std::to_string(kMostFacets));
   return facets;
 }
 
@@ -160,7 +161,8 @@ Gap PlateMesh::smoothed(const Vector3d& x) const {
       return {kMargin, Vector3d::UnitZ(), Eigen::Matrix3d::Zero()};
     first[d] = static_cast<int>(u[d]);
   }
-  const Weights w[3] = {Weights(u[0] - first[0]), Weights(u[1] - first[1]), Weights(u[2] - first[2])};
+  const Weights w[3] = {Weights(u[0] - first[0]), Weights(u[1] - first[1]),
+                        Weights(u[2] - first[2])};
   Gap gap{0, Vector3d::Zero(), Eigen::Matrix3d::Zero()};
   for (int k = 0; k < 4; ++k)
     for (int j = 0; j < 4; ++j)

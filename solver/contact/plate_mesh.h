@@ -1,12 +1,11 @@
 #pragma once
 
-#include "solver/contact/plate.h"
-
 #include <Eigen/Core>
-
 #include <array>
 #include <filesystem>
 #include <vector>
+
+#include "solver/contact/plate.h"
 
 class vtkPolyData;
 
@@ -19,10 +18,10 @@ namespace mammotwin {
 ///
 /// Newton needs a gap with two derivatives, which facets do not have. So their signed distance is
 /// sampled on a grid of spacing h and carried by cubic B-splines (the quasi-interpolant
-/// c = f − δ²f/6 along each axis, which reproduces cubics): twice continuously differentiable, exact
-/// on flat parts, fourth order on curved ones; a sharp edge is rounded over about h. Facets that
-/// face down are left out and the plate goes on below them, so that tissue which a soft penalty lets
-/// deep inside comes out again through the face.
+/// c = f − δ²f/6 along each axis, which reproduces cubics): twice continuously differentiable,
+/// exact on flat parts, fourth order on curved ones; a sharp edge is rounded over about h. Facets
+/// that face down are left out and the plate goes on below them, so that tissue which a soft
+/// penalty lets deep inside comes out again through the face.
 class PlateMesh {
  public:
   /// Throws std::invalid_argument that names the file and what is wrong: missing, no facets, too
@@ -32,9 +31,9 @@ class PlateMesh {
   /// Beyond the grid (10 mm and more from the facets) not in contact, without derivatives.
   Gap gap(const Eigen::Vector3d& x_local) const;
 
-  const Eigen::Vector3d& low() const { return low_; }    ///< corners of the facets' box [mm]
+  const Eigen::Vector3d& low() const { return low_; }  ///< corners of the facets' box [mm]
   const Eigen::Vector3d& high() const { return high_; }
-  double spacing() const { return spacing_; }            ///< h [mm]
+  double spacing() const { return spacing_; }  ///< h [mm]
 
  private:
   void sample(vtkPolyData& facets);

@@ -1,17 +1,16 @@
 #include "solver/contact/plate_placement.h"
 
-#include "solver/element/face.h"
-#include "solver/element/gauss.h"
-
 #include <Eigen/Geometry>
 #include <Eigen/LU>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <stdexcept>
 #include <string>
+
+#include "solver/element/face.h"
+#include "solver/element/gauss.h"
 
 namespace mammotwin {
 
@@ -23,8 +22,8 @@ constexpr double kRadians = std::numbers::pi / 180;
 constexpr int kSamples1d = 9;  // every 2 mm of a 16 mm element: flat contact is found to 0.01 mm
 
 void check_directions(const PlateOptions& o) {
-  const double error = std::abs(o.up.norm() - 1) + std::abs(o.depth.norm() - 1) +
-                       std::abs(o.up.dot(o.depth));
+  const double error =
+      std::abs(o.up.norm() - 1) + std::abs(o.depth.norm() - 1) + std::abs(o.up.dot(o.depth));
   if (!(error < 1e-9))
     throw std::invalid_argument("plates: up and depth must be unit vectors at a right angle");
 }
@@ -71,7 +70,8 @@ void for_face_samples(const MeshFile& mesh, Visit visit) {
     for (int face = 0; face < 6; ++face)
       for (int k = 0; k < kSamples1d * kSamples1d; ++k)
         visit(e, mesh.faces[e][face],
-              on_face(face, k % kSamples1d / (kSamples1d - 1.0), k / kSamples1d / (kSamples1d - 1.0)));
+              on_face(face, k % kSamples1d / (kSamples1d - 1.0),
+                      k / kSamples1d / (kSamples1d - 1.0)));
 }
 
 Eigen::Vector3d volume_centroid(const HermiteMesh& mesh) {
@@ -114,8 +114,9 @@ PlateFrame::PlateFrame(const MeshFile& mesh, const PlateOptions& options)
     right = std::max(right, lateral.dot(x));
   });
   if (wall == -kInfinity)
-    throw std::invalid_argument("the mesh has no face labelled chest_wall; the plates' edge is "
-                                "placed by it");
+    throw std::invalid_argument(
+        "the mesh has no face labelled chest_wall; the plates' edge is "
+        "placed by it");
   edge_ = wall + options.wall_clearance;
   lateral_middle_ = (left + right) / 2;
   centroid_height_ = options.up.dot(volume_centroid(mesh.mesh));
@@ -129,9 +130,9 @@ PlateFrame::PlateFrame(const MeshFile& mesh, const PlateOptions& options)
   touching_ = {touching_height(false, touching_.first, touching_.second),
                touching_height(true, touching_.first, touching_.second)};
   if (heights(mesh.mesh.nodes()).first == kInfinity)
-    throw std::invalid_argument("plates never touch: no skin lies between their flat parts, which begin " +
-                                std::to_string(options.wall_clearance + options.rounding) +
-                                " mm before the chest wall");
+    throw std::invalid_argument(
+        "plates never touch: no skin lies between their flat parts, which begin " +
+        std::to_string(options.wall_clearance + options.rounding) + " mm before the chest wall");
 }
 
 std::vector<Eigen::Vector3d> PlateFrame::outer_points(
@@ -204,8 +205,8 @@ bool PlateFrame::over_flat_part(const Eigen::Vector3d& x) const {
 
 /// Where a plate just touches a breast that reaches from low to high in front of the edge.
 double PlateFrame::touching_height(bool paddle, double low, double high) const {
-  const bool level = paddle ? options_.paddle_tilt == 0 && !options_.paddle_mesh
-                            : !options_.support_mesh;
+  const bool level =
+      paddle ? options_.paddle_tilt == 0 && !options_.paddle_mesh : !options_.support_mesh;
   if (level) return paddle ? high : low;
   const auto points = outer_points(reference_);
   const auto clear = [&](double height) {
@@ -231,16 +232,20 @@ PlacedPlates PlateFrame::place(double support_height, double paddle_height, doub
     const double start = mesh ? 0 : options_.rounding;  // facets count from the edge
     const Eigen::Vector3d point =
         (edge_ + start) * depth + lateral_middle_ * depth.cross(up) + height * up;
-    return Plate{point, normal, along, options_.rounding, false,
-                 options_.width / 2 - options_.rounding, options_.length - 2 * options_.rounding,
+    return Plate{point,
+                 normal,
+                 along,
+                 options_.rounding,
+                 false,
+                 options_.width / 2 - options_.rounding,
+                 options_.length - 2 * options_.rounding,
                  mesh};
   };
   PlacedPlates placed;
   placed.support = plate(support_height, up, depth, options_.support_mesh);
-  placed.paddle = tilt == 0
-                      ? plate(paddle_height, -up, depth, options_.paddle_mesh)
-                      : plate(paddle_height, -c * up - s * depth, c * depth - s * up,
-                              options_.paddle_mesh);
+  placed.paddle = tilt == 0 ? plate(paddle_height, -up, depth, options_.paddle_mesh)
+                            : plate(paddle_height, -c * up - s * depth, c * depth - s * up,
+                                    options_.paddle_mesh);
   placed.paddle_tilt = tilt;
   placed.edge = edge_;
   placed.support_height = support_height;

@@ -1,22 +1,21 @@
 #pragma once
 
-#include "fitting/mesh/mesh_file.h"
-#include "solver/contact/plate_mesh.h"
-
 #include <Eigen/Core>
-
 #include <limits>
 #include <memory>
 #include <utility>
 #include <vector>
+
+#include "fitting/mesh/mesh_file.h"
+#include "solver/contact/plate_mesh.h"
 
 namespace mammotwin {
 
 /// Where the plates should stand. The three directions are orthonormal.
 ///
 /// A tilted paddle turns about the line where the flat part of its face begins at the chest wall;
-/// positive lowers its front. `thickness` is then the extent where the breast is thickest between the
-/// flat parts, as it is with facets.
+/// positive lowers its front. `thickness` is then the extent where the breast is thickest between
+/// the flat parts, as it is with facets.
 struct PlateOptions {
   Eigen::Vector3d up = Eigen::Vector3d::UnitZ();      ///< from the support to the paddle
   Eigen::Vector3d depth = -Eigen::Vector3d::UnitY();  ///< from the chest wall to the nipple
@@ -39,18 +38,18 @@ struct PlateOptions {
 /// The pair of plates in place.
 struct PlacedPlates {
   Plate support, paddle;
-  double paddle_tilt = 0;            ///< [deg]
-  double edge = 0;                   ///< depth coordinate of both rear edges: depth · x [mm]
-  double support_height = 0;         ///< up · x of the support's face [mm]
-  double paddle_height = 0;          ///< up · x of the paddle's face [mm]
-  double lateral_middle = 0;         ///< (depth x up) · x of the breast's middle [mm]
+  double paddle_tilt = 0;     ///< [deg]
+  double edge = 0;            ///< depth coordinate of both rear edges: depth · x [mm]
+  double support_height = 0;  ///< up · x of the support's face [mm]
+  double paddle_height = 0;   ///< up · x of the paddle's face [mm]
+  double lateral_middle = 0;  ///< (depth x up) · x of the breast's middle [mm]
 };
 
 /// Measures a breast along the plates' directions, on a grid of points of its outer faces.
 class PlateFrame {
  public:
-  /// Throws std::invalid_argument if the directions are not orthonormal or a length is out of range,
-  /// or if the mesh has no chest wall or no skin in front of the plates' edge.
+  /// Throws std::invalid_argument if the directions are not orthonormal or a length is out of
+  /// range, or if the mesh has no chest wall or no skin in front of the plates' edge.
   PlateFrame(const MeshFile& mesh, const PlateOptions& options);
 
   double edge() const { return edge_; }

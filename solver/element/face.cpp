@@ -1,11 +1,10 @@
 #include "solver/element/face.h"
 
+#include <Eigen/Geometry>
+#include <cassert>
+
 #include "fitting/mesh/hermite_basis.h"
 #include "solver/element/gauss.h"
-
-#include <Eigen/Geometry>
-
-#include <cassert>
 
 namespace mammotwin {
 
@@ -75,7 +74,7 @@ Face::Face(int element, int face, const SolidElement::Coefficients& X, int point
     const Eigen::Vector3d A1 = Y.segment<3>(3), A2 = Y.segment<3>(6);
     const Eigen::Vector3d area_vector = orientation(face) * A1.cross(A2);
     const double weight = table(points1d).weights[q];
-    points_[q] = {Y.head<3>(), A1, A2, area_vector.normalized(), weight * area_vector.norm(),
+    points_[q] = {Y.head<3>(),    A1, A2, area_vector.normalized(), weight * area_vector.norm(),
                   first_index + q};
   }
 }
@@ -153,8 +152,8 @@ void Face::add_reference(const SurfacePotential& potential, const SolidElement::
     area_change << Eigen::Vector3d::Zero(), point.A2.cross(n), n.cross(point.A1);
     area_change /= area_vector.norm();
     const Eigen::Matrix<double, 9, 9> change =
-        point.area * (potential.reference_derivative(y, point) +
-                      response.gradient * area_change.transpose());
+        point.area *
+        (potential.reference_derivative(y, point) + response.gradient * area_change.transpose());
     for (int s = first; s < end; ++s)
       for (int r = 0; r < 3; ++r) {
         const Eigen::Matrix<double, kFunctions, kFunctions> NN =

@@ -1,10 +1,10 @@
 #pragma once
 
-#include "solver/element/solid_element.h"
-#include "solver/element/surface_potential.h"
-
 #include <array>
 #include <vector>
+
+#include "solver/element/solid_element.h"
+#include "solver/element/surface_potential.h"
 
 namespace mammotwin {
 
@@ -51,8 +51,9 @@ class Face {
 
 /// The two element directions of a face in ascending order.
 constexpr std::array<int, 2> face_directions(int face) {
-  return face < 2 ? std::array<int, 2>{1, 2}
-                  : face < 4 ? std::array<int, 2>{0, 2} : std::array<int, 2>{0, 1};
+  return face < 2   ? std::array<int, 2>{1, 2}
+         : face < 4 ? std::array<int, 2>{0, 2}
+                    : std::array<int, 2>{0, 1};
 }
 
 }  // namespace mammotwin

@@ -5,13 +5,13 @@
 //   pressure residual  ψ (det g − (1 + p/κ) det H)
 // Differentiated by H: ∂F = −F ∂H H⁻¹, ∂det H = cof H : ∂H.
 
+#include <Eigen/LU>
+
+#include "solver/element/dilation.h"
 #include "solver/element/face.h"
 #include "solver/element/solid_element.h"
-#include "solver/element/dilation.h"
 #include "solver/element/tensor_kernels.h"
 #include "solver/material/kinematics.h"
-
-#include <Eigen/LU>
 
 namespace mammotwin {
 
@@ -51,8 +51,7 @@ Eigen::Matrix<double, kFunctions, 3> gradients_at(int q) {
   for (int a = 0; a < kFunctions; ++a)
     for (int J = 0; J < 3; ++J) {
       double product = 1;
-      for (int d = 0; d < 3; ++d)
-        product *= (d == J ? slope : value)[at[d]][a >> (2 * d) & 3];
+      for (int d = 0; d < 3; ++d) product *= (d == J ? slope : value)[at[d]][a >> (2 * d) & 3];
       gradients(a, J) = product;
     }
   return gradients;
@@ -108,16 +107,15 @@ void subtract_load(const ReferenceFields& fields, const Eigen::Vector3d& body_fo
   }
 }
 
-void assemble_pressures(const ReferenceFields& fields,
-                        const Eigen::Matrix<double, kPoints, 8>& psi, int num_pressures,
-                        ReferenceSystem& system) {
+void assemble_pressures(const ReferenceFields& fields, const Eigen::Matrix<double, kPoints, 8>& psi,
+                        int num_pressures, ReferenceSystem& system) {
   using Flux = Eigen::Array<double, kPoints, 3>;
   system.coupling.setZero();
   system.pressure_tangent.setZero();
   for (int m = 0; m < num_pressures; ++m)
     for (int i = 0; i < 3; ++i) {
-      const Flux force = Eigen::Map<const Flux>(fields.volume_flux[i]).colwise() *
-                         psi.col(m).array();
+      const Flux force =
+          Eigen::Map<const Flux>(fields.volume_flux[i]).colwise() * psi.col(m).array();
       add_gradient_transposed(force.data(), system.coupling.col(m).data() + kFunctions * i);
       const Flux volume = Eigen::Map<const Flux>(fields.volume_tangent[i]).colwise() *
                           (psi.col(m).cwiseProduct(fields.compression)).array();

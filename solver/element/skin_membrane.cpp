@@ -1,11 +1,10 @@
 #include "solver/element/skin_membrane.h"
 
-#include "solver/material/positive_modulus.h"
-
 #include <Eigen/Geometry>
 #include <Eigen/LU>
-
 #include <limits>
+
+#include "solver/material/positive_modulus.h"
 
 namespace mammotwin {
 
@@ -16,14 +15,14 @@ using Tangents = Eigen::Matrix<double, 3, 2>;
 /// ∂bᵅ/∂a_β for the contravariant base bᵅ = a^αβ a_β: −bᵝ (bᵅ)ᵀ + a^αβ n nᵀ.
 Eigen::Matrix3d dual_derivative(const Tangents& b, const Eigen::Matrix2d& inverse_metric,
                                 const Eigen::Vector3d& n, int alpha, int beta) {
-  return -b.col(beta) * b.col(alpha).transpose() +
-         inverse_metric(alpha, beta) * n * n.transpose();
+  return -b.col(beta) * b.col(alpha).transpose() + inverse_metric(alpha, beta) * n * n.transpose();
 }
 
 }  // namespace
 
 SkinMembrane::SkinMembrane(double c1, double thickness)
-    : stiffness_(positive_modulus("c1 (skin)", c1) * positive_modulus("thickness (skin)", thickness)) {}
+    : stiffness_(positive_modulus("c1 (skin)", c1) *
+                 positive_modulus("thickness (skin)", thickness)) {}
 
 bool SkinMembrane::respond(const Eigen::Matrix<double, 9, 1>& y, const SurfacePoint& point,
                            int order, SurfaceResponse& response) const {
@@ -58,9 +57,10 @@ bool SkinMembrane::respond(const Eigen::Matrix<double, 9, 1>& y, const SurfacePo
   return true;
 }
 
-// With B = A⁻¹ (reference metric) and δ its change: δB = −B δ B, and det A/det a changes by tr(B δ).
-Eigen::Matrix<double, 9, 9> SkinMembrane::reference_derivative(
-    const Eigen::Matrix<double, 9, 1>& y, const SurfacePoint& point) const {
+// With B = A⁻¹ (reference metric) and δ its change: δB = −B δ B, and det A/det a changes by tr(B
+// δ).
+Eigen::Matrix<double, 9, 9> SkinMembrane::reference_derivative(const Eigen::Matrix<double, 9, 1>& y,
+                                                               const SurfacePoint& point) const {
   Tangents a, A;
   a << y.segment<3>(3), y.segment<3>(6);
   A << point.A1, point.A2;
@@ -74,8 +74,8 @@ Eigen::Matrix<double, 9, 9> SkinMembrane::reference_derivative(
       dA(i, beta) = 1;
       const Eigen::Matrix2d change = dA.transpose() * A + A.transpose() * dA;
       const double trace = G.cwiseProduct(change).sum();
-      const Tangents force = -2 * stiffness_ *
-                             (a * (G * change * G) + squared_thinning * trace * a * inverse_metric);
+      const Tangents force =
+          -2 * stiffness_ * (a * (G * change * G) + squared_thinning * trace * a * inverse_metric);
       derivative.col(3 + 3 * beta + i).tail<6>() = force.reshaped();
     }
   return derivative;

@@ -1,16 +1,15 @@
 #include "solver/element/solid_element.h"
 
-#include "fitting/mesh/hermite_basis.h"
-#include "solver/element/dilation.h"
-#include "solver/element/tensor_kernels.h"
-#include "solver/material/kinematics.h"
-
 #include <Eigen/LU>
-
 #include <cmath>
 #include <limits>
 #include <stdexcept>
 #include <string>
+
+#include "fitting/mesh/hermite_basis.h"
+#include "solver/element/dilation.h"
+#include "solver/element/tensor_kernels.h"
+#include "solver/material/kinematics.h"
 
 namespace mammotwin {
 
@@ -65,9 +64,9 @@ Eigen::Matrix<double, kPoints, 8> legendre_products() {
 
 /// The fields of one evaluation at the Gauss points, in the layout of the kernels.
 struct PointFields {
-  double flux[3][3 * kPoints];           ///< [i][64 J + q]: w P_ij ∂ξ_J/∂X_j
-  double volume_flux[3][3 * kPoints];    ///< the same with cof F for P
-  double tangent[6][9 * kPoints];        ///< [component pair][64 (3 J + L) + q]
+  double flux[3][3 * kPoints];         ///< [i][64 J + q]: w P_ij ∂ξ_J/∂X_j
+  double volume_flux[3][3 * kPoints];  ///< the same with cof F for P
+  double tangent[6][9 * kPoints];      ///< [component pair][64 (3 J + L) + q]
 };
 
 /// Pairs of components (row, column) of the tangent's lower blocks.

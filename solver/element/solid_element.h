@@ -1,14 +1,13 @@
 #pragma once
 
-#include "solver/element/tensor_basis.h"
-#include "solver/material/material.h"
-
 #include <Eigen/Core>
-
 #include <array>
 #include <functional>
 #include <memory>
 #include <vector>
+
+#include "solver/element/tensor_basis.h"
+#include "solver/material/material.h"
 
 namespace mammotwin {
 
@@ -24,7 +23,7 @@ struct SolidOptions {
 
 /// One element's contributions to the linear system. Unknowns: tensor_basis.h.
 struct ElementSystem {
-  double energy = 0;           ///< [mJ * 1e-3 = mN mm]; infinite where J ≤ 0 at a point
+  double energy = 0;  ///< [mJ * 1e-3 = mN mm]; infinite where J ≤ 0 at a point
   double min_J = 1, max_J = 1;
   double squared_flow = 0;     ///< |residual|² before assembly: the scale of "out of balance"
   double deformed_volume = 0;  ///< [mm³]
@@ -37,18 +36,18 @@ struct ElementSystem {
 /// Derivatives of one element's residuals by its reference shape X, at fixed x: rows as in
 /// ElementSystem, columns the unknowns of X.
 struct ReferenceSystem {
-  Eigen::MatrixXd tangent{kUnknowns, kUnknowns};           ///< ∂residual/∂X, not symmetric
-  Eigen::Matrix<double, 8, kUnknowns> pressure_tangent;    ///< ∂pressure_residual/∂X
-  Eigen::Matrix<double, kUnknowns, 8> coupling;            ///< ∂residual/∂p
+  Eigen::MatrixXd tangent{kUnknowns, kUnknowns};         ///< ∂residual/∂X, not symmetric
+  Eigen::Matrix<double, 8, kUnknowns> pressure_tangent;  ///< ∂pressure_residual/∂X
+  Eigen::Matrix<double, kUnknowns, 8> coupling;          ///< ∂residual/∂p
 };
 
 /// Mixed displacement-pressure element on a tri-cubic Hermite hexahedron:
 ///
 ///     Π(x, p) = ∫ W(F) + p (J − 1) − p²/(2κ) + U(J)  dV
 ///
-/// stationary in x and p (design, section 3). The last term is the grad-div stabilisation: γ/2 (J − 1)²
-/// near J = 1, growing without bound towards J = 0; it vanishes at the exact solution. 4 x 4 x 4
-/// Gauss points, tissue at each.
+/// stationary in x and p (design, section 3). The last term is the grad-div stabilisation: γ/2 (J −
+/// 1)² near J = 1, growing without bound towards J = 0; it vanishes at the exact solution. 4 x 4 x
+/// 4 Gauss points, tissue at each.
 class SolidElement {
  public:
   using Coefficients = Eigen::Matrix<double, kFunctions, 3>;
@@ -61,7 +60,7 @@ class SolidElement {
   void set_materials(const Materials& materials, const SolidOptions& options);
 
   int num_pressures() const { return num_pressures_; }
-  double volume() const;                          ///< of the reference shape [mm³]
+  double volume() const;                                    ///< of the reference shape [mm³]
   double point_weight(int q) const { return weights_[q]; }  ///< reference volume of a point [mm³]
   Eigen::Vector3d point_position(int q) const { return positions_.row(q); }  ///< X [mm]
 
@@ -70,8 +69,8 @@ class SolidElement {
                 ElementSystem& system) const;
 
   /// Fills `system` for the element under a constant force per reference volume [mN/mm³].
-  void evaluate_reference(const Coefficients& x, const double* p,
-                          const Eigen::Vector3d& body_force, ReferenceSystem& system) const;
+  void evaluate_reference(const Coefficients& x, const double* p, const Eigen::Vector3d& body_force,
+                          ReferenceSystem& system) const;
 
   /// ∫ψψᵀ/κ, whose inverse eliminates the pressures.
   Eigen::MatrixXd pressure_compliance() const;

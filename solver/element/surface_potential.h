@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-
 #include <stdexcept>
 
 namespace mammotwin {
@@ -17,8 +16,8 @@ struct SurfacePoint {
 
 /// Energy per reference area as a function of y = (x, a₁, a₂): position and face tangents.
 struct SurfaceResponse {
-  double energy = 0;                    ///< [kPa mm]
-  Eigen::Matrix<double, 9, 1> gradient; ///< ∂energy/∂y; only the slots in use are read
+  double energy = 0;                     ///< [kPa mm]
+  Eigen::Matrix<double, 9, 1> gradient;  ///< ∂energy/∂y; only the slots in use are read
   Eigen::Matrix<double, 9, 9> hessian;
 };
 
@@ -39,8 +38,8 @@ class SurfacePotential {
   virtual bool respond(const Eigen::Matrix<double, 9, 1>& y, const SurfacePoint& point, int order,
                        SurfaceResponse& response) const = 0;
 
-  /// ∂gradient/∂(X, A₁, A₂) with y and `area` fixed; column slots as those of y. Only unloading asks
-  /// (element/reference_tangent.cpp); throws std::logic_error where a potential cannot say.
+  /// ∂gradient/∂(X, A₁, A₂) with y and `area` fixed; column slots as those of y. Only unloading
+  /// asks (element/reference_tangent.cpp); throws std::logic_error where a potential cannot say.
   virtual Eigen::Matrix<double, 9, 9> reference_derivative(const Eigen::Matrix<double, 9, 1>& y,
                                                            const SurfacePoint& point) const;
 };

@@ -1,9 +1,9 @@
 #include "solver/element/tensor_basis.h"
 
+#include <algorithm>
+
 #include "fitting/mesh/hermite_basis.h"
 #include "solver/element/gauss.h"
-
-#include <algorithm>
 
 namespace mammotwin {
 

@@ -6,7 +6,8 @@ namespace mammotwin {
 
 /// How an element's arrays are laid out, everywhere in solver/element.
 ///
-/// Functions are products of one-dimensional cubic Hermite functions (fitting/mesh/hermite_basis.h):
+/// Functions are products of one-dimensional cubic Hermite functions
+/// (fitting/mesh/hermite_basis.h):
 ///   function a = t₁ + 4 t₂ + 16 t₃,   tᵢ = 2 (end of ξᵢ) + (derivative along ξᵢ),
 /// points of the 4 x 4 x 4 Gauss rule are q = q₁ + 4 q₂ + 16 q₃, and a displacement unknown is
 /// component i of function a at index 64 i + a.

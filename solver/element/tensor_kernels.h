@@ -16,8 +16,8 @@ void add_gradient_transposed(const double* flux, double* residual);
 /// block[a + 64 b] = Σ_q Σ_JL ∂φₐ/∂ξ_J coefficients[64 (3 J + L) + q] ∂φ_b/∂ξ_L.
 void tangent_block(const double* coefficients, double* block);
 
-/// matrix += factor factorᵀ, lower triangle (and whatever of the upper is convenient); matrix is 192 x 192, factor 192 x columns, both
-/// column by column.
+/// matrix += factor factorᵀ, lower triangle (and whatever of the upper is convenient); matrix is
+/// 192 x 192, factor 192 x columns, both column by column.
 void add_outer_product(const double* factor, int columns, double* matrix);
 
 }  // namespace mammotwin

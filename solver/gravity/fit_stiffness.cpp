@@ -21,8 +21,7 @@ double distance_with(double factor, CompressionProblem prone, const Eigen::Vecto
   HangOptions hanging;
   hanging.solid = options.solid;
   const HangResult state = hang(second, hanging);
-  return state.report.usable() ? distance(state.deformed)
-                               : std::numeric_limits<double>::infinity();
+  return state.report.usable() ? distance(state.deformed) : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace

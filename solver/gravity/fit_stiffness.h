@@ -9,10 +9,11 @@ using StateDistance = std::function<double(const std::vector<HermiteMesh::Node>&
 
 struct StiffnessFit {
   double factor = 1;
-  double distance_mm = 0;        ///< at that factor
-  double distance_at_one_mm = 0; ///< with the stiffnesses as given; infinite if it did not converge
+  double distance_mm = 0;  ///< at that factor
+  double distance_at_one_mm =
+      0;  ///< with the stiffnesses as given; infinite if it did not converge
   int trials = 0;
-  std::string reason;            ///< why no factor was found; empty otherwise
+  std::string reason;  ///< why no factor was found; empty otherwise
   bool usable() const { return reason.empty(); }
 };
 

@@ -1,12 +1,12 @@
 #include "solver/gravity/general_matrix.h"
 
-#include "solver/element/tensor_basis.h"
-
 #include <suitesparse/umfpack.h>
 
 #include <algorithm>
 #include <array>
 #include <stdexcept>
+
+#include "solver/element/tensor_basis.h"
 
 namespace mammotwin {
 
@@ -52,7 +52,8 @@ GeneralMatrix::GeneralMatrix(const SparsePattern& pattern) : pattern_(pattern), 
           positions.push_back(-1);
           continue;
         }
-        const auto begin = rows_.begin() + starts_[column], end = rows_.begin() + starts_[column + 1];
+        const auto begin = rows_.begin() + starts_[column],
+                   end = rows_.begin() + starts_[column + 1];
         positions.push_back(static_cast<int>(std::lower_bound(begin, end, row) - rows_.begin()));
       }
   }

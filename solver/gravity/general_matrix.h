@@ -1,10 +1,9 @@
 #pragma once
 
-#include "solver/newton/sparse_pattern.h"
-
 #include <Eigen/Core>
-
 #include <vector>
+
+#include "solver/newton/sparse_pattern.h"
 
 namespace mammotwin {
 

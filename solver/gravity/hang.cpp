@@ -1,8 +1,8 @@
 #include "solver/gravity/hang.h"
 
-#include "solver/breast/breast_model.h"
-
 #include <algorithm>
+
+#include "solver/breast/breast_model.h"
 
 namespace mammotwin {
 
@@ -15,8 +15,8 @@ LoadSteppingReport raise_body_force(BreastModel& breast, Newton& newton,
   return step_load(
       state, options.load,
       [&](double fraction, State& trial) {
-        breast.model->set_body_force([force = (fraction * body_force).eval()](
-                                         const Eigen::Vector3d&) { return force; });
+        breast.model->set_body_force(
+            [force = (fraction * body_force).eval()](const Eigen::Vector3d&) { return force; });
         return newton.solve(trial, balance);
       },
       [](const LoadSteppingReport&, const State&, const NewtonReport&) {});
@@ -34,8 +34,8 @@ HangResult hang(const CompressionProblem& problem, const HangOptions& options) {
   BreastModel breast = make_breast_model(problem, options.solid);
   Newton newton(*breast.model, *breast.dofs);
   State state = breast.model->rest();
-  const LoadSteppingReport load = raise_body_force(
-      breast, newton, problem.density * problem.gravity, options, state);
+  const LoadSteppingReport load =
+      raise_body_force(breast, newton, problem.density * problem.gravity, options, state);
   const Balance balance = newton.balance(state);
   HangReport report;
   report.converged = load.complete();

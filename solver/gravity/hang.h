@@ -1,8 +1,8 @@
 #pragma once
 
-#include "solver/press/compress.h"
 #include "solver/load/load_stepping.h"
 #include "solver/newton/newton.h"
+#include "solver/press/compress.h"
 
 namespace mammotwin {
 

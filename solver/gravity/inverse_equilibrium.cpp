@@ -1,9 +1,9 @@
 #include "solver/gravity/inverse_equilibrium.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
 #include <tbb/parallel_for.h>
 
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -70,8 +70,8 @@ State InverseEquilibrium::start() const { return prone_.model->rest(); }
 
 bool InverseEquilibrium::folded(const std::vector<HermiteMesh::Node>& X) const {
   for (int e = 0; e < prone_.model->num_elements(); ++e)
-    for (const auto& F : prone_.model->element(e).deformation_gradients(
-             prone_.model->coefficients(X, e)))
+    for (const auto& F :
+         prone_.model->element(e).deformation_gradients(prone_.model->coefficients(X, e)))
       if (!(F.determinant() > 0)) return true;
   return false;
 }
@@ -110,8 +110,8 @@ InverseEquilibrium::Evaluation InverseEquilibrium::evaluate(
   // Below a strain of 1e-3 balance is absolute, as in the forward problem: rest has no flow.
   constexpr double small_strain = 1e-3;
   const double size = now.breast.element_size;
-  now.flow = std::sqrt(now.flow + count * std::pow(small_strain * now.breast.largest_modulus *
-                                                       size * size, 2));
+  now.flow = std::sqrt(
+      now.flow + count * std::pow(small_strain * now.breast.largest_modulus * size * size, 2));
   return now;
 }
 
@@ -150,9 +150,9 @@ Eigen::VectorXd InverseEquilibrium::correction(const Evaluation& here) const {
 InverseEquilibrium::Step InverseEquilibrium::step_of(const Eigen::VectorXd& correction,
                                                      const Evaluation& here) const {
   const Model& model = *prone_.model;
-  Step step{std::vector<HermiteMesh::Node>(model.reference().num_nodes(),
-                                           HermiteMesh::Node::Zero()),
-            std::vector<double>(8 * model.num_elements(), 0.0)};
+  Step step{
+      std::vector<HermiteMesh::Node>(model.reference().num_nodes(), HermiteMesh::Node::Zero()),
+      std::vector<double>(8 * model.num_elements(), 0.0)};
   for (std::size_t node = 0; node < step.nodes.size(); ++node)
     for (int k = 0; k < 24; ++k)
       if (const int dof = 24 * static_cast<int>(node) + k; !prone_.dofs->prescribed(dof))

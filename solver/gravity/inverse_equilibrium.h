@@ -1,11 +1,11 @@
 #pragma once
 
-#include "solver/breast/breast_model.h"
-#include "solver/load/load_stepping.h"
-#include "solver/gravity/general_matrix.h"
-
 #include <memory>
 #include <vector>
+
+#include "solver/breast/breast_model.h"
+#include "solver/gravity/general_matrix.h"
+#include "solver/load/load_stepping.h"
 
 namespace mammotwin {
 
@@ -35,14 +35,14 @@ class InverseEquilibrium {
 
  private:
   struct Evaluation {
-    bool valid = false;         ///< neither X nor x is folded
-    BreastModel breast;         ///< of which X is the reference
-    Eigen::VectorXd residual;   ///< per equation [mN]
+    bool valid = false;                 ///< neither X nor x is folded
+    BreastModel breast;                 ///< of which X is the reference
+    Eigen::VectorXd residual;           ///< per equation [mN]
     Eigen::MatrixXd pressure_residual;  ///< 8 x elements [mm³]
-    double flow = 0;            ///< √Σ|element residual|², at least that of a small strain [mN]
-    double largest_volume_error = 0;    ///< relative to the element's volume
+    double flow = 0;  ///< √Σ|element residual|², at least that of a small strain [mN]
+    double largest_volume_error = 0;  ///< relative to the element's volume
   };
-  struct Elimination {          ///< of one element's pressures
+  struct Elimination {  ///< of one element's pressures
     Eigen::MatrixXd coupling, pressure_tangent, stiffness;
   };
   struct Step {

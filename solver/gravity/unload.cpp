@@ -1,13 +1,12 @@
 #include "solver/gravity/unload.h"
 
-#include "solver/gravity/inverse_equilibrium.h"
-
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+
+#include "solver/gravity/inverse_equilibrium.h"
 
 namespace mammotwin {
 
@@ -44,7 +43,9 @@ class Unloading {
  public:
   Unloading(const CompressionProblem& problem, const UnloadOptions& options,
             const Progress& progress)
-      : problem_(problem), options_(options), progress_(progress),
+      : problem_(problem),
+        options_(options),
+        progress_(progress),
         inverse_(problem, options.solid) {}
   UnloadResult run();
 
@@ -117,8 +118,8 @@ std::optional<double> Unloading::naive_error() const {
   return reload(naive.deformed, 1).error_mm;
 }
 
-/// An unloaded shape that balances may yet fall elsewhere when it is loaded. Bisection for the share
-/// of the gravity up to which it does not.
+/// An unloaded shape that balances may yet fall elsewhere when it is loaded. Bisection for the
+/// share of the gravity up to which it does not.
 void Unloading::find_largest_share(UnloadResult& result) {
   constexpr int trials = 4;  // to a sixteenth
   double low = 0, high = result.report.gravity_fraction;
@@ -148,8 +149,8 @@ void Unloading::check(UnloadResult& result) {
     return;
   }
   report.converged = false;
-  report.reason = "the unloaded shape, loaded again, does not come to rest in the imaged one; " +
-                  again.reason;
+  report.reason =
+      "the unloaded shape, loaded again, does not come to rest in the imaged one; " + again.reason;
   find_largest_share(result);
 }
 
@@ -165,8 +166,7 @@ UnloadResult Unloading::run() {
   report.cutbacks = load.cutbacks;
   report.newton_iterations = load.iterations;
   report.dof = inverse_.num_equations();
-  report.seconds =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   const bool loaded = !problem_.gravity.isZero() && report.gravity_fraction > 0;
   if (options_.check && loaded) check(result);
   report.sag_max_mm = largest_distance(result.unloaded, problem_.mesh.mesh.nodes());

@@ -6,26 +6,26 @@ namespace mammotwin {
 
 struct UnloadOptions {
   SolidOptions solid;
-  double tolerance = 1e-10;  ///< of both balances, relative: 1e-7 mm in position
-  LoadSteppingOptions load;  ///< parts of the gravity
-  int max_iterations = 12;   ///< Newton iterations a step: a good step needs 4 to 6
-  bool check = true;         ///< loads the result again, and the naive reversal beside it
+  double tolerance = 1e-10;            ///< of both balances, relative: 1e-7 mm in position
+  LoadSteppingOptions load;            ///< parts of the gravity
+  int max_iterations = 12;             ///< Newton iterations a step: a good step needs 4 to 6
+  bool check = true;                   ///< loads the result again, and the naive reversal beside it
   double round_trip_tolerance = 1e-3;  ///< farther off [mm], the breast fell elsewhere
 };
 
 struct UnloadReport {
   bool converged = false;
-  std::string reason;           ///< why not
+  std::string reason;  ///< why not
   /// Largest part of the gravity that could be taken off and, where checked, put on again.
   double gravity_fraction = 0;
   int steps = 0, cutbacks = 0, newton_iterations = 0;
-  double sag_max_mm = 0;        ///< largest way of a node from unloaded to prone
+  double sag_max_mm = 0;                    ///< largest way of a node from unloaded to prone
   double stretch_p95 = 1, stretch_max = 1;  ///< largest principal stretch at quadrature points
   double min_J = 1, max_J = 1;
   double round_trip_max_mm = 0;  ///< nodes: unloaded, loaded again, against prone
   /// The same for the prone shape solved with gravity reversed; empty where that does not converge.
   std::optional<double> naive_reversal_error_mm;
-  double seconds = 0;            ///< without the checks
+  double seconds = 0;  ///< without the checks
   int dof = 0;
   bool usable() const { return converged; }
 
@@ -39,8 +39,8 @@ struct UnloadResult {
   UnloadReport report;
 };
 
-/// The shape free of stress that `problem.gravity` turns into `problem.mesh`, which is the breast as
-/// imaged (`problem.prone` is not looked at; plates neither).
+/// The shape free of stress that `problem.gravity` turns into `problem.mesh`, which is the breast
+/// as imaged (`problem.prone` is not looked at; plates neither).
 ///
 /// Springs are taken to be relaxed, and the skin unstressed, in the unloaded shape; the chest wall
 /// stands where the prone one does, and tissue slides on it.

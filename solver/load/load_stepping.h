@@ -1,9 +1,9 @@
 #pragma once
 
-#include "solver/newton/newton.h"
-
 #include <functional>
 #include <string>
+
+#include "solver/newton/newton.h"
 
 namespace mammotwin {
 
@@ -18,7 +18,7 @@ struct LoadSteppingOptions {
 struct LoadSteppingReport {
   double reached = 0;  ///< fraction of the load at the last good state
   int steps = 0, cutbacks = 0, iterations = 0, indefinite = 0;
-  std::string reason;  ///< why it stopped short
+  std::string reason;    ///< why it stopped short
   double next_step = 0;  ///< fraction of the load that is tried next; 0: the first
   bool complete() const { return reached >= 1; }
 };
@@ -31,8 +31,8 @@ using StepDone = std::function<void(const LoadSteppingReport& so_far, const Stat
                                     const NewtonReport& last)>;
 
 /// Raises the load from 0 to 1 with a step that is halved after a failure, from the last good
-/// state, and grown after a success. `state` ends at the last good state. `from`: what a StepDone was
-/// given, with its state, to go on from there.
+/// state, and grown after a success. `state` ends at the last good state. `from`: what a StepDone
+/// was given, with its state, to go on from there.
 LoadSteppingReport step_load(State& state, const LoadSteppingOptions& options,
                              const Equilibrate& equilibrate, const StepDone& step_done,
                              const LoadSteppingReport& from = {});

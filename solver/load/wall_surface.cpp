@@ -1,13 +1,12 @@
 #include "solver/load/wall_surface.h"
 
-#include "fitting/mesh/hermite_basis.h"
-#include "solver/element/face.h"
-
 #include <Eigen/Dense>
-
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+
+#include "fitting/mesh/hermite_basis.h"
+#include "solver/element/face.h"
 
 namespace mammotwin {
 
@@ -91,9 +90,10 @@ WallSurface::WallSurface(const HermiteMesh& mesh, const std::vector<std::pair<in
     const auto [d1, d2] = face_directions(face);
     Patch patch;
     for (int a = 0; a < 16; ++a) {
-      const int f = 2 * (face % 2) * stride(face / 2) + (a & 3) * stride(d1) + (a >> 2) * stride(d2);
-      patch.coefficients.col(a) = mesh.node(mesh.corners(element)[corner_of_function(f)])
-                                      .col(parameter_of_function(f));
+      const int f =
+          2 * (face % 2) * stride(face / 2) + (a & 3) * stride(d1) + (a >> 2) * stride(d2);
+      patch.coefficients.col(a) =
+          mesh.node(mesh.corners(element)[corner_of_function(f)]).col(parameter_of_function(f));
     }
     for (int k = 0; k < kSamples1d * kSamples1d; ++k) {
       const Eigen::Vector2d xi(k % kSamples1d, k / kSamples1d);
@@ -128,7 +128,7 @@ WallSurface::Foot WallSurface::project_from(const Patch& patch, Eigen::Vector2d 
 
 /// From every sample that is nearer than its neighbours.
 WallSurface::Foot WallSurface::project(const Patch& patch, const Eigen::Vector3d& x) const {
-  const Eigen::Array<double, 1, kSamples1d * kSamples1d> flat =
+  const Eigen::Array<double, 1, kSamples1d* kSamples1d> flat =
       (patch.samples.colwise() - x).colwise().squaredNorm();
   const Eigen::Map<const Eigen::Array<double, kSamples1d, kSamples1d>> grid(flat.data());
   Foot best{nullptr, {}, 0, false};
@@ -192,8 +192,8 @@ Eigen::Matrix<double, 9, 9> WallHold::reference_derivative(const Eigen::Matrix<d
                                                            const SurfacePoint& point) const {
   Eigen::Matrix<double, 9, 9> derivative = Eigen::Matrix<double, 9, 9>::Zero();
   if (rest_ == WallRest::as_reference)
-    derivative.topLeftCorner<3, 3>() = -penalty_ * surface_->gap(y.head<3>()).normal *
-                                       surface_->gap(point.X).normal.transpose();
+    derivative.topLeftCorner<3, 3>() =
+        -penalty_ * surface_->gap(y.head<3>()).normal * surface_->gap(point.X).normal.transpose();
   return derivative;
 }
 

@@ -1,14 +1,13 @@
 #pragma once
 
-#include "fitting/mesh/hermite_mesh.h"
-#include "solver/contact/plate.h"
-#include "solver/element/surface_potential.h"
-
 #include <Eigen/Geometry>
-
 #include <memory>
 #include <utility>
 #include <vector>
+
+#include "fitting/mesh/hermite_mesh.h"
+#include "solver/contact/plate.h"
+#include "solver/element/surface_potential.h"
 
 namespace mammotwin {
 

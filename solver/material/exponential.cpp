@@ -1,11 +1,10 @@
 #include "solver/material/exponential.h"
 
+#include <Eigen/LU>
+#include <cmath>
+
 #include "solver/material/kinematics.h"
 #include "solver/material/positive_modulus.h"
-
-#include <Eigen/LU>
-
-#include <cmath>
 
 namespace mammotwin {
 

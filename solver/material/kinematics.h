@@ -1,12 +1,11 @@
 #pragma once
 
-#include "solver/material/material.h"
-
 #include <Eigen/Geometry>
 #include <Eigen/LU>
-
 #include <cmath>
 #include <limits>
+
+#include "solver/material/material.h"
 
 namespace mammotwin {
 

@@ -8,7 +8,8 @@ namespace mammotwin {
 ///
 /// Every law is stress-free at rest without a pressure, so W contains a logarithm of J. The
 /// pressure's part, p (J − 1) − p²/(2κ), is the element's (element/solid_element.h) and makes the
-/// material incompressible. A new law passes tests/solver/material/material_laws.h before its own tests.
+/// material incompressible. A new law passes tests/solver/material/material_laws.h before its own
+/// tests.
 class Material {
  public:
   /// ∂P/∂F with F and P unrolled column by column: row i+3j, column k+3l is ∂P_ij/∂F_kl.

@@ -1,10 +1,10 @@
 #include "solver/material/mixture.h"
 
-#include "solver/material/neo_hookean.h"
-
 #include <cmath>
 #include <stdexcept>
 #include <string>
+
+#include "solver/material/neo_hookean.h"
 
 namespace mammotwin {
 
@@ -39,8 +39,8 @@ Mixture::Mixture(Mixing mixing, const std::array<double, 3>& fractions, const La
     : laws_(laws) {
   check_fractions(fractions);
   const auto mu = shear_moduli(laws);
-  const double scale = mixed_modulus(mixing, fractions, mu) /
-                       mixed_modulus(Mixing::arithmetic, fractions, mu);
+  const double scale =
+      mixed_modulus(mixing, fractions, mu) / mixed_modulus(Mixing::arithmetic, fractions, mu);
   for (int t = 0; t < 3; ++t) weights_[t] = scale * fractions[t];
 }
 

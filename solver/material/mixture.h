@@ -1,9 +1,9 @@
 #pragma once
 
-#include "solver/material/material.h"
-
 #include <array>
 #include <memory>
+
+#include "solver/material/material.h"
 
 namespace mammotwin {
 

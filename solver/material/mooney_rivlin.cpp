@@ -1,9 +1,9 @@
 #include "solver/material/mooney_rivlin.h"
 
+#include <Eigen/LU>
+
 #include "solver/material/kinematics.h"
 #include "solver/material/positive_modulus.h"
-
-#include <Eigen/LU>
 
 namespace mammotwin {
 
@@ -33,8 +33,8 @@ Material::Tangent MooneyRivlin::tangent(const Eigen::Matrix3d& F) const {
       for (int j = 0; j < 3; ++j)
         for (int i = 0; i < 3; ++i)
           A(i + 3 * j, k + 3 * l) +=
-              2 * c2_ * (2 * F(i, j) * F(k, l) - F(i, l) * F(k, j) - (i == k) * C(l, j) -
-                         (j == l) * b(i, k));
+              2 * c2_ *
+              (2 * F(i, j) * F(k, l) - F(i, l) * F(k, j) - (i == k) * C(l, j) - (j == l) * b(i, k));
   add_inverse_tangent(2 * (c1_ + 2 * c2_), F, A);
   return A;
 }

@@ -1,9 +1,9 @@
 #include "solver/material/neo_hookean.h"
 
+#include <Eigen/LU>
+
 #include "solver/material/kinematics.h"
 #include "solver/material/positive_modulus.h"
-
-#include <Eigen/LU>
 
 namespace mammotwin {
 

@@ -1,13 +1,13 @@
 #include "solver/newton/assembler.h"
 
-#include "solver/element/tensor_kernels.h"
-
-#include <Eigen/Cholesky>
 #include <tbb/parallel_for.h>
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "solver/element/tensor_kernels.h"
 
 namespace mammotwin {
 
@@ -48,7 +48,8 @@ Assembler::Assembler(const Model& model, const DofMap& dofs)
   eliminations_.resize(model.num_elements());
   for (int e = 0; e < model.num_elements(); ++e)
     smallest_flow_ += std::pow(kSmallStrain * model.element(e).material(0).shear_modulus() *
-                                   std::pow(model.element(e).volume(), 2.0 / 3), 2);
+                                   std::pow(model.element(e).volume(), 2.0 / 3),
+                               2);
   smallest_flow_ = std::sqrt(smallest_flow_);
   values_.resize(pattern_.rows.size());
 }

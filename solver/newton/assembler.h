@@ -1,23 +1,22 @@
 #pragma once
 
+#include <Eigen/Core>
+#include <vector>
+
 #include "solver/newton/dof_map.h"
 #include "solver/newton/model.h"
 #include "solver/newton/sparse_pattern.h"
-
-#include <Eigen/Core>
-
-#include <vector>
 
 namespace mammotwin {
 
 /// How far a state is from equilibrium.
 struct Balance {
-  double energy = 0;           ///< total potential [mN mm]; infinite where an element is inverted
+  double energy = 0;  ///< total potential [mN mm]; infinite where an element is inverted
   double min_J = 1, max_J = 1;
   double deformed_volume = 0;  ///< [mm³]
-  double flow = 0;             ///< √Σ|element residual|², at least that of a strain of 1e-3 [mN]
-  double constraint = 0;       ///< largest |∫ψ (J − 1 − p/κ)| / element volume [-]
-  Eigen::VectorXd residual;    ///< ∂Π/∂x per equation [mN]
+  double flow = 0;           ///< √Σ|element residual|², at least that of a strain of 1e-3 [mN]
+  double constraint = 0;     ///< largest |∫ψ (J − 1 − p/κ)| / element volume [-]
+  Eigen::VectorXd residual;  ///< ∂Π/∂x per equation [mN]
 };
 
 /// Sums the elements of a model into the equations of a DofMap: in parallel, in an order that does
@@ -34,7 +33,8 @@ class Assembler {
   /// Fills matrix() and right_hand_side() with the condensed tangent and residual; `shift` times
   /// the μ-weighted Laplacian is added to the tangent. `pending` are increments of prescribed
   /// dofs that this linear step makes too (empty: none).
-  Balance linearise(const State& state, double shift, const std::vector<HermiteMesh::Node>& pending);
+  Balance linearise(const State& state, double shift,
+                    const std::vector<HermiteMesh::Node>& pending);
   const std::vector<double>& matrix() const { return values_; }
   const Eigen::VectorXd& right_hand_side() const { return right_hand_side_; }
 

@@ -20,8 +20,6 @@ std::string blas_core_type() {
 
 std::string blas_core_in_use() { return openblas_get_corename(); }
 
-void use_one_blas_thread() {
-  openblas_set_num_threads(1);
-}
+void use_one_blas_thread() { openblas_set_num_threads(1); }
 
 }  // namespace mammotwin

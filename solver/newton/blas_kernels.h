@@ -9,8 +9,8 @@ namespace mammotwin {
 /// same kernels on all processors with AVX2: with those for AVX-512, which round otherwise, two
 /// solves of the tests find no equilibrium (sliding friction, tissue almost too soft to stand).
 ///
-/// Debian 12's OpenBLAS 0.3.21 does not know recent Intel cores and falls back to SSE3 kernels, 4 to
-/// 5 times slower. It reads the variable when the library loads, so a program sets it and runs
+/// Debian 12's OpenBLAS 0.3.21 does not know recent Intel cores and falls back to SSE3 kernels, 4
+/// to 5 times slower. It reads the variable when the library loads, so a program sets it and runs
 /// itself again before main does anything else.
 std::string blas_core_type();
 

@@ -1,11 +1,11 @@
 #include "solver/newton/cholesky.h"
 
-#include "solver/newton/blas_kernels.h"
-#include "solver/newton/dense_kernels.h"
-
 #include <tbb/task_group.h>
 
 #include <algorithm>
+
+#include "solver/newton/blas_kernels.h"
+#include "solver/newton/dense_kernels.h"
 
 namespace mammotwin {
 
@@ -16,16 +16,18 @@ constexpr double kMostKept = 1e8;   // doubles, 0.8 GB: up to some 40,000 unknow
 
 using ConstMap = Eigen::Map<const Eigen::MatrixXd>;
 
-/// Adds a child's update into its parent's panel and update; both lists ascend, so lower stays lower.
+/// Adds a child's update into its parent's panel and update; both lists ascend, so lower stays
+/// lower.
 void extend_add(const Eigen::VectorXd& update, const std::vector<int>& to_parent, int pivots,
                 int parent_size, double* panel, double* parent_update) {
   const int n = static_cast<int>(to_parent.size());
   const int rest = parent_size - pivots;
   for (int j = 0; j < n; ++j) {
     const int column = to_parent[j];
-    double* target = column < pivots
-                         ? panel + static_cast<std::ptrdiff_t>(column) * parent_size
-                         : parent_update + static_cast<std::ptrdiff_t>(column - pivots) * rest - pivots;
+    double* target =
+        column < pivots
+            ? panel + static_cast<std::ptrdiff_t>(column) * parent_size
+            : parent_update + static_cast<std::ptrdiff_t>(column - pivots) * rest - pivots;
     const double* source = update.data() + static_cast<std::ptrdiff_t>(j) * n;
     for (int i = j; i < n; ++i) target[to_parent[i]] += source[i];
   }

@@ -1,12 +1,11 @@
 #pragma once
 
-#include "solver/newton/front_tree.h"
-#include "solver/newton/sparse_pattern.h"
-
 #include <Eigen/Core>
-
 #include <atomic>
 #include <vector>
+
+#include "solver/newton/front_tree.h"
+#include "solver/newton/sparse_pattern.h"
 
 namespace mammotwin {
 

@@ -5,8 +5,8 @@ namespace mammotwin {
 /// Dense kernels on column-major lower triangles, tiled in a fixed way and run in parallel where
 /// the work is worth it.
 
-/// Cholesky of the leading `pivots` columns of a panel of `rows` rows: the pivot block becomes L₁, the
-/// rows below L₂ = A₂ L₁⁻ᵀ. False where it is not positive definite.
+/// Cholesky of the leading `pivots` columns of a panel of `rows` rows: the pivot block becomes L₁,
+/// the rows below L₂ = A₂ L₁⁻ᵀ. False where it is not positive definite.
 bool factor_panel(double* panel, int rows, int pivots);
 
 /// update −= L₂ L₂ᵀ, lower triangle; L₂ is `size` x `pivots` inside a panel of `stride` rows.

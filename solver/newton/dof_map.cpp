@@ -1,15 +1,17 @@
 #include "solver/newton/dof_map.h"
 
-#include "solver/newton/model.h"
-#include "solver/newton/nested_dissection.h"
-
 #include <algorithm>
 #include <set>
+
+#include "solver/newton/model.h"
+#include "solver/newton/nested_dissection.h"
 
 namespace mammotwin {
 
 DofMap::DofMap(const HermiteMesh& mesh)
-    : leader_(24 * mesh.num_nodes()), link_factor_(leader_.size(), 1), prescribed_(leader_.size(), 0) {
+    : leader_(24 * mesh.num_nodes()),
+      link_factor_(leader_.size(), 1),
+      prescribed_(leader_.size(), 0) {
   for (std::size_t i = 0; i < leader_.size(); ++i) leader_[i] = static_cast<int>(i);
 }
 

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "fitting/mesh/hermite_mesh.h"
-
 #include <vector>
+
+#include "fitting/mesh/hermite_mesh.h"
 
 namespace mammotwin {
 
@@ -21,7 +21,8 @@ class DofMap {
   /// (ParameterTie of a mesh file). factor is not 0.
   void tie(int follower, int leader, double factor);
 
-  /// Numbers the equations: nested dissection (METIS) on the nodes, all unknowns of a node together.
+  /// Numbers the equations: nested dissection (METIS) on the nodes, all unknowns of a node
+  /// together.
   void number(const HermiteMesh& mesh);
 
   int num_dofs() const { return static_cast<int>(leader_.size()); }

@@ -81,8 +81,9 @@ bool worth_merging(const Supernode& child, const Supernode& parent) {
   const double rows = width + parent.structure_width;
   const double zeros = double(child.pivot_width) *
                        (parent.pivot_width + parent.structure_width - child.structure_width);
-  const double allowed =
-      width <= small ? small_zeros : width <= medium ? medium_zeros : large_zeros;
+  const double allowed = width <= small    ? small_zeros
+                         : width <= medium ? medium_zeros
+                                           : large_zeros;
   return zeros <= allowed * width * (rows - width / 2);
 }
 
@@ -151,9 +152,10 @@ void link_front(const SparsePattern& pattern, const std::vector<std::vector<int>
     for (int k = pattern.starts[pivot]; k < pattern.starts[pivot + 1]; ++k)
       if (position[pattern.rows[k]] >= position[pivot]) add(k, pattern.rows[k], pivot);
     for (int k : transposed[pivot]) {  // entries of the pivot's row
-      const int column = static_cast<int>(
-          std::upper_bound(pattern.starts.begin(), pattern.starts.end(), k) -
-          pattern.starts.begin()) - 1;
+      const int column =
+          static_cast<int>(std::upper_bound(pattern.starts.begin(), pattern.starts.end(), k) -
+                           pattern.starts.begin()) -
+          1;
       if (position[column] > position[pivot]) add(k, column, pivot);
     }
   }

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "solver/newton/sparse_pattern.h"
-
 #include <vector>
+
+#include "solver/newton/sparse_pattern.h"
 
 namespace mammotwin {
 

@@ -8,7 +8,7 @@ namespace mammotwin {
 namespace {
 
 constexpr int kMostTrials = 14;
-constexpr double kNarrow = 0.1;                         // of the bracket's upper end
+constexpr double kNarrow = 0.1;                          // of the bracket's upper end
 constexpr double kMostOvershoot = 0.9, kMostLeft = 0.5;  // of the slope at the start
 
 }  // namespace

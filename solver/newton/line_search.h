@@ -18,9 +18,9 @@ class LineSearch {
   /// Has a trial with this slope passed the place by too much to be taken at all?
   bool overshoots(double slope) const;
 
-  void go_farther();              ///< the trial fell short
-  void go_back(double slope);     ///< it overshot, and the slope is known
-  void go_back();                 ///< it was not even valid
+  void go_farther();           ///< the trial fell short
+  void go_back(double slope);  ///< it overshot, and the slope is known
+  void go_back();              ///< it was not even valid
 
  private:
   void try_within(double share);

@@ -62,8 +62,7 @@ void Model::add_surface_potential(int e, int face, std::shared_ptr<const Surface
   potentials_[e].push_back({static_cast<int>(found - faces.begin()), std::move(p)});
 }
 
-void Model::set_body_force(
-    const std::function<Eigen::Vector3d(const Eigen::Vector3d& X)>& force) {
+void Model::set_body_force(const std::function<Eigen::Vector3d(const Eigen::Vector3d& X)>& force) {
   loads_.clear();
   for (const SolidElement& element : elements_) loads_.push_back(element.integrate(force));
 }

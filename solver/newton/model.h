@@ -1,13 +1,13 @@
 #pragma once
 
+#include <functional>
+#include <memory>
+#include <vector>
+
 #include "fitting/mesh/hermite_mesh.h"
 #include "solver/element/face.h"
 #include "solver/element/solid_element.h"
 #include "solver/element/surface_potential.h"
-
-#include <functional>
-#include <memory>
-#include <vector>
 
 namespace mammotwin {
 

@@ -1,16 +1,17 @@
 #include "solver/newton/newton.h"
 
-#include "solver/newton/line_search.h"
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
+
+#include "solver/newton/line_search.h"
 
 namespace mammotwin {
 
 namespace {
 
-constexpr double kNearBalance = 0.02;  // of the flow: from here on the step is trusted by its length
+constexpr double kNearBalance =
+    0.02;  // of the flow: from here on the step is trusted by its length
 
 State moved(const State& from, const std::vector<HermiteMesh::Node>& step,
             const std::vector<double>& pressure, double fraction) {
@@ -32,9 +33,8 @@ bool is_zero(const std::vector<HermiteMesh::Node>& nodes) {
 
 NewtonReport& stopped(NewtonReport& report, const Balance& balance, const NewtonOptions& options,
                       bool pending_done, const char* reason) {
-  report.converged =
-      pending_done && report.residual <= options.acceptable &&
-      balance.constraint <= options.acceptable;
+  report.converged = pending_done && report.residual <= options.acceptable &&
+                     balance.constraint <= options.acceptable;
   if (!report.converged) report.reason = reason;
   return report;
 }

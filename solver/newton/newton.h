@@ -73,7 +73,7 @@ class Newton {
   Assembler assembler_;
   Cholesky cholesky_;
   double shift_ = 0;
-  double damping_ = 0;  ///< shift that short steps ask for
+  double damping_ = 0;                 ///< shift that short steps ask for
   bool indefinite_ = false;            ///< the last matrix had to be stabilised
   bool cut_while_indefinite_ = false;  ///< and its step was cut: the next will be no better
 };

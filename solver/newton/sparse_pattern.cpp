@@ -1,9 +1,9 @@
 #include "solver/newton/sparse_pattern.h"
 
+#include <algorithm>
+
 #include "solver/element/tensor_basis.h"
 #include "solver/newton/model.h"
-
-#include <algorithm>
 
 namespace mammotwin {
 
@@ -51,7 +51,8 @@ void list_rows(const std::vector<std::vector<int>>& elements, SparsePattern& pat
   }
 }
 
-std::vector<int> element_positions(const SparsePattern& pattern, const std::vector<int>& equations) {
+std::vector<int> element_positions(const SparsePattern& pattern,
+                                   const std::vector<int>& equations) {
   std::vector<int> positions;
   positions.reserve(kUnknowns * (kUnknowns + 1) / 2);
   for (int c = 0; c < kUnknowns; ++c)
@@ -64,7 +65,8 @@ std::vector<int> element_positions(const SparsePattern& pattern, const std::vect
       }
       const auto first = pattern.rows.begin() + pattern.starts[column];
       const auto last = pattern.rows.begin() + pattern.starts[column + 1];
-      positions.push_back(static_cast<int>(std::lower_bound(first, last, row) - pattern.rows.begin()));
+      positions.push_back(
+          static_cast<int>(std::lower_bound(first, last, row) - pattern.rows.begin()));
     }
   return positions;
 }

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "solver/newton/dof_map.h"
-
 #include <vector>
+
+#include "solver/newton/dof_map.h"
 
 namespace mammotwin {
 

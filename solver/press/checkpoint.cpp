@@ -1,7 +1,6 @@
 #include "solver/press/checkpoint.h"
 
 #include <nlohmann/json.hpp>
-
 #include <stdexcept>
 
 namespace mammotwin {
@@ -14,7 +13,8 @@ constexpr int kNodeDoubles = 24;
 
 json to_json(const std::vector<HermiteMesh::Node>& nodes) {
   std::vector<double> x;
-  for (const HermiteMesh::Node& node : nodes) x.insert(x.end(), node.data(), node.data() + node.size());
+  for (const HermiteMesh::Node& node : nodes)
+    x.insert(x.end(), node.data(), node.data() + node.size());
   return x;
 }
 
@@ -42,7 +42,7 @@ CompressionCheckpoint::GoodStep good_step_from(const json& from) {
 }
 
 json to_json(const LoadSteppingReport& load) {
-  return {load.reached, load.steps,  load.cutbacks, load.iterations,
+  return {load.reached,    load.steps,  load.cutbacks, load.iterations,
           load.indefinite, load.reason, load.next_step};
 }
 
@@ -111,10 +111,14 @@ CompressionCheckpoint decode_checkpoint(const std::vector<std::uint8_t>& bytes,
   try {
     const json from = json::from_cbor(bytes);
     if (from.at("run") != run) throw std::runtime_error("it is of another run");
-    return {load_from(from.at("load")),     good_step_from(from.at("before")),
-            good_step_from(from.at("reached")), from.at("tilt"),
-            from.at("penalty"),             from.at("friction"),
-            history_from(from.at("sticking")), report_from(from.at("report"))};
+    return {load_from(from.at("load")),
+            good_step_from(from.at("before")),
+            good_step_from(from.at("reached")),
+            from.at("tilt"),
+            from.at("penalty"),
+            from.at("friction"),
+            history_from(from.at("sticking")),
+            report_from(from.at("report"))};
   } catch (const std::exception& error) {
     throw std::runtime_error(std::string("checkpoint cannot be used: ") + error.what());
   }

@@ -1,11 +1,11 @@
 #pragma once
 
-#include "solver/press/compress.h"
-#include "solver/contact/plate_friction.h"
-#include "solver/load/load_stepping.h"
-
 #include <cstdint>
 #include <vector>
+
+#include "solver/contact/plate_friction.h"
+#include "solver/load/load_stepping.h"
+#include "solver/press/compress.h"
 
 namespace mammotwin {
 

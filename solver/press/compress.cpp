@@ -1,5 +1,12 @@
 #include "solver/press/compress.h"
 
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
 #include "fitting/mesh/jacobian_bound.h"
 #include "solver/gravity/hang.h"
 #include "solver/load/load_stepping.h"
@@ -10,13 +17,6 @@
 #include "solver/press/plate_way.h"
 #include "solver/press/press.h"
 #include "solver/press/solution_fields.h"
-
-#include <algorithm>
-#include <chrono>
-#include <cmath>
-#include <stdexcept>
-#include <utility>
-#include <vector>
 
 namespace mammotwin {
 
@@ -39,8 +39,8 @@ void check_finite(const HermiteMesh& mesh) {
                                   " of the mesh has a parameter that is not a finite number");
 }
 
-/// The imaged shape, in which points are sought, must be valid everywhere. A shape that was computed from
-/// it need only be so at the quadrature points, which the elements check.
+/// The imaged shape, in which points are sought, must be valid everywhere. A shape that was
+/// computed from it need only be so at the quadrature points, which the elements check.
 void check_shape(const CompressionProblem& problem) {
   check_finite(problem.mesh.mesh);
   const HermiteMesh imaged = problem.prone.empty()
@@ -147,9 +147,8 @@ void Compression::count(const NewtonReport& newton) {
 void Compression::record(const LoadSteppingReport& load, const State& state,
                          const NewtonReport& newton) {
   const Balance balance = press_.newton().balance(state);
-  report_.history.push_back({press_.thickness(state), press_.paddle_force(state),
-                             newton.iterations, press_.penalty(), balance.min_J, balance.max_J,
-                             state.x});
+  report_.history.push_back({press_.thickness(state), press_.paddle_force(state), newton.iterations,
+                             press_.penalty(), balance.min_J, balance.max_J, state.x});
   good_.load = load;
   good_.before = std::exchange(good_.reached, {load.reached, state});
   good_.tilt = press_.placed().paddle_tilt;
@@ -188,8 +187,8 @@ bool Compression::settle(State& state) {
   press_.put(way_.start());
   press_.take_plates_away();
   if (problem_.gravity.isZero()) return true;
-  const LoadSteppingReport load = raise_body_force(
-      press_.breast(), press_.newton(), problem_.density * problem_.gravity, {}, state);
+  const LoadSteppingReport load = raise_body_force(press_.breast(), press_.newton(),
+                                                   problem_.density * problem_.gravity, {}, state);
   report_.newton_iterations += load.iterations;
   report_.indefinite_matrices += load.indefinite;
   if (!load.complete()) report_.reason = "does not come to rest under gravity: " + load.reason;
@@ -215,10 +214,8 @@ bool Compression::begin(State& state) {
   report_.newton_iterations = good_.report.newton_iterations;
   report_.indefinite_matrices = good_.report.indefinite_matrices;
   if (!problem_.gravity.isZero())
-    press_.breast().model->set_body_force(
-        [force = (problem_.density * problem_.gravity).eval()](const Eigen::Vector3d&) {
-          return force;
-        });
+    press_.breast().model->set_body_force([force = (problem_.density * problem_.gravity).eval()](
+                                              const Eigen::Vector3d&) { return force; });
   place(good_.reached.fraction);
   press_.set_penalty(good_.penalty);
   press_.restore_friction(good_.sticking);
@@ -256,8 +253,7 @@ CompressionResult Compression::run() {
   measure_compression(press_, state, report_);
   judge(load);
   if (report_.usable()) report_.energy_force_N = force_from_energy(press_, state);
-  report_.seconds =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  report_.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (progress_) progress_(1, "compressed to " + in_mm(report_.thickness_mm));
   CompressionResult result{state.x, state.pressure, press_.placed(), press_.penalty(), {}, report_};
   if (report_.usable()) result.fields = solution_fields(press_, state);

@@ -1,13 +1,6 @@
 #pragma once
 
-#include "fitting/mesh/mesh_file.h"
-#include "solver/contact/plate_placement.h"
-#include "solver/element/solid_element.h"
-#include "solver/material/mixture.h"
-#include "solver/newton/model.h"
-
 #include <Eigen/Core>
-
 #include <array>
 #include <functional>
 #include <map>
@@ -15,6 +8,12 @@
 #include <optional>
 #include <string>
 #include <vector>
+
+#include "fitting/mesh/mesh_file.h"
+#include "solver/contact/plate_placement.h"
+#include "solver/element/solid_element.h"
+#include "solver/material/mixture.h"
+#include "solver/newton/model.h"
 
 namespace mammotwin {
 
@@ -76,7 +75,7 @@ struct CompressionProblem {
   PlateOptions plates;
   /// [mm/s²]; where it is not zero the breast first comes to rest under it, then plates close.
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();
-  double density = 1e-6;                              ///< [kg/mm³] > 0
+  double density = 1e-6;  ///< [kg/mm³] > 0
 };
 
 enum class Moving {
@@ -87,18 +86,18 @@ enum class Moving {
 struct CompressionOptions {
   SolidOptions solid;
   Moving moving = Moving::both;
-  double gap_tolerance = 0.01;       ///< largest penetration [mm] > 0
-  double thickness_tolerance = 0.02; ///< |measured − asked| [mm] > 0
-  double first_step = 1;             ///< of the way, in (0, 1]
-  double longest_move = 10;          ///< of a plate in one load step [mm] > 0
-  double smallest_step = 1.0 / 64;   ///< give up below this part of the way
-  int max_iterations = 500;          ///< Newton iterations in all, of each attempt
+  double gap_tolerance = 0.01;        ///< largest penetration [mm] > 0
+  double thickness_tolerance = 0.02;  ///< |measured − asked| [mm] > 0
+  double first_step = 1;              ///< of the way, in (0, 1]
+  double longest_move = 10;           ///< of a plate in one load step [mm] > 0
+  double smallest_step = 1.0 / 64;    ///< give up below this part of the way
+  int max_iterations = 500;           ///< Newton iterations in all, of each attempt
   /// A breast that slips out from between frictionless plates, or finds no equilibrium there, is
   /// pressed again with this coefficient of friction, then with twice it, and the report says so;
   /// 0: it is not. In [0, 1].
   double holding_friction = 0.2;
-  /// Of the tissue in front of the plates' edges, in [0, 1): where less stays there the breast counts
-  /// as slipped out.
+  /// Of the tissue in front of the plates' edges, in [0, 1): where less stays there the breast
+  /// counts as slipped out.
   double least_retained = 0.5;
 };
 
@@ -106,7 +105,7 @@ struct CompressionStep {
   double thickness_mm = 0;  ///< measured
   double force_N = 0;       ///< of the paddle
   int iterations = 0;
-  double penalty = 0;       ///< [kPa/mm]
+  double penalty = 0;  ///< [kPa/mm]
   double min_J = 1, max_J = 1;
   std::vector<HermiteMesh::Node> deformed;
 };
@@ -115,23 +114,23 @@ enum class CompressionStatus { converged, not_converged };
 
 struct CompressionReport {
   CompressionStatus status = CompressionStatus::not_converged;
-  std::string reason;              ///< why not, with the last good thickness
+  std::string reason;  ///< why not, with the last good thickness
   int steps = 0, cutbacks = 0, newton_iterations = 0, indefinite_matrices = 0;
   double target_thickness_mm = 0;
-  double thickness_mm = 0;         ///< extent along `up` of the deformed skin between the plates
-  double free_thickness_mm = 0;    ///< the same of the uncompressed breast
-  double force_N = 0;              ///< of the paddle, from contact
-  double energy_force_N = 0;       ///< the same from the change of stored energy, a check
-  double paddle_tilt_deg = 0;      ///< in the end
-  double contact_area_cm2 = 0;     ///< deformed, within 0.1 mm of the paddle
-  double volume_change = 0;        ///< fraction
+  double thickness_mm = 0;       ///< extent along `up` of the deformed skin between the plates
+  double free_thickness_mm = 0;  ///< the same of the uncompressed breast
+  double force_N = 0;            ///< of the paddle, from contact
+  double energy_force_N = 0;     ///< the same from the change of stored energy, a check
+  double paddle_tilt_deg = 0;    ///< in the end
+  double contact_area_cm2 = 0;   ///< deformed, within 0.1 mm of the paddle
+  double volume_change = 0;      ///< fraction
   double min_J = 1, max_J = 1;
-  double J_within_half = 0;        ///< fraction of quadrature points with J in [0.5, 1.5]
+  double J_within_half = 0;  ///< fraction of quadrature points with J in [0.5, 1.5]
   double max_penetration_mm = 0;
-  double retained_fraction = 1;    ///< of the tissue in front of the plates' edges, how much stays
-  bool slipped_out = false;        ///< backwards from between the plates
-  double held_by_friction = 0;     ///< coefficient of friction that was needed; 0: none
-  double wall_gap_mm = 0;          ///< largest distance of the chest-wall face from its surface
+  double retained_fraction = 1;  ///< of the tissue in front of the plates' edges, how much stays
+  bool slipped_out = false;      ///< backwards from between the plates
+  double held_by_friction = 0;   ///< coefficient of friction that was needed; 0: none
+  double wall_gap_mm = 0;        ///< largest distance of the chest-wall face from its surface
   double seconds = 0;
   int dof = 0;
   std::vector<CompressionStep> history;
@@ -139,10 +138,10 @@ struct CompressionReport {
 };
 
 struct CompressionResult {
-  std::vector<HermiteMesh::Node> deformed;  ///< at the last good step
-  std::vector<double> pressure;             ///< 8 an element (State::pressure)
-  PlacedPlates plates;                      ///< where they ended
-  double penalty = 0;                       ///< of contact in the end [kPa/mm]
+  std::vector<HermiteMesh::Node> deformed;   ///< at the last good step
+  std::vector<double> pressure;              ///< 8 an element (State::pressure)
+  PlacedPlates plates;                       ///< where they ended
+  double penalty = 0;                        ///< of contact in the end [kPa/mm]
   std::map<std::string, PointField> fields;  ///< press/solution_fields.h; empty if not usable
   CompressionReport report;
 };
@@ -151,8 +150,9 @@ struct CompressionCheckpoint;
 
 /// How a compression that was interrupted goes on (press/checkpoint.h).
 struct CompressionRestart {
-  const CompressionCheckpoint* from = nullptr;              ///< of the same problem; null: anew
-  std::function<void(const CompressionCheckpoint&)> keep;  ///< called after each load step; or empty
+  const CompressionCheckpoint* from = nullptr;  ///< of the same problem; null: anew
+  std::function<void(const CompressionCheckpoint&)>
+      keep;  ///< called after each load step; or empty
 };
 
 using Progress = std::function<void(double fraction, const std::string& what)>;

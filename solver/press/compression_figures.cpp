@@ -1,12 +1,11 @@
 #include "solver/press/compression_figures.h"
 
-#include "solver/element/tensor_basis.h"
-
 #include <Eigen/LU>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "solver/element/tensor_basis.h"
 
 namespace mammotwin {
 

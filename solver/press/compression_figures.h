@@ -7,8 +7,8 @@ namespace mammotwin {
 /// Fills in what can be measured on a state: thickness, force, area, J, penetration, tissue kept.
 void measure_compression(const Press& press, const State& state, CompressionReport& report);
 
-/// Whether most of the tissue in front of the plates' edges went behind them. Breasts that stay keep
-/// two thirds of it or more, those that slip out under a quarter.
+/// Whether most of the tissue in front of the plates' edges went behind them. Breasts that stay
+/// keep two thirds of it or more, those that slip out under a quarter.
 bool slipped_out(const Press& press, const State& state);
 
 /// The paddle's force as the central difference of the total potential over its height, friction's

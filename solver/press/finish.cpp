@@ -36,7 +36,7 @@ struct Place {
 constexpr double kLoosely = 1e-3;  // residual of rounds after which a plate is still inside
 constexpr double kLeastGrowth = 1.5, kMostGrowth = 5;  // of the penalty in a round
 constexpr double kNearly = 0.09;  // [mm]: an error with which a breast still counts as compressed
-constexpr double kFar = 1;  // [mm]: stiff contact does not follow a paddle that moves by more
+constexpr double kFar = 1;        // [mm]: stiff contact does not follow a paddle that moves by more
 
 /// Rounds that each raise the penalty, move the paddle, or do both.
 class Finish {

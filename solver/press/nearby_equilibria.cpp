@@ -1,9 +1,9 @@
 #include "solver/press/nearby_equilibria.h"
 
-#include "solver/breast/breast_model.h"
-
 #include <stdexcept>
 #include <utility>
+
+#include "solver/breast/breast_model.h"
 
 namespace mammotwin {
 
@@ -14,8 +14,7 @@ struct NearbyEquilibria::Posed {
   std::unique_ptr<Assembler> assembler;
 };
 
-NearbyEquilibria::NearbyEquilibria(const CompressionResult& near,
-                                   const CompressionProblem& problem,
+NearbyEquilibria::NearbyEquilibria(const CompressionResult& near, const CompressionProblem& problem,
                                    const CompressionOptions& options)
     : near_(near), options_(options), state_{near.deformed, near.pressure} {
   if (near.deformed.size() != static_cast<std::size_t>(problem.mesh.mesh.num_nodes()))
@@ -36,8 +35,8 @@ NearbyEquilibria::Posed NearbyEquilibria::posed(const CompressionProblem& proble
       PlateWay(frame, problem, options_.moving).at(1, problem.plates.paddle_tilt);
   const double apart = near_.plates.paddle_height - near_.plates.support_height +
                        problem.plates.thickness - near_.report.target_thickness_mm;
-  posed.plates = frame.place(asked.support_height, asked.support_height + apart,
-                             problem.plates.paddle_tilt);
+  posed.plates =
+      frame.place(asked.support_height, asked.support_height + apart, problem.plates.paddle_tilt);
   posed.breast.contact->plates = {posed.plates.support, posed.plates.paddle};
   posed.breast.contact->penalty = near_.penalty;
   posed.assembler = std::make_unique<Assembler>(*posed.breast.model, *posed.breast.dofs);
@@ -49,8 +48,8 @@ NearbyEquilibria::Step NearbyEquilibria::step(const CompressionProblem& from,
                                               const CompressionProblem& to) const {
   if (!usable_) throw std::logic_error("no step from an equilibrium that is not stable");
   const Posed a = posed(from), b = posed(to);
-  const Eigen::VectorXd change = factor_->solve(b.assembler->right_hand_side() -
-                                                a.assembler->right_hand_side());
+  const Eigen::VectorXd change =
+      factor_->solve(b.assembler->right_hand_side() - a.assembler->right_hand_side());
   return {here_->assembler->nodal_step(change, {}), a.plates, b.plates};
 }
 

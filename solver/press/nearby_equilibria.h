@@ -1,16 +1,16 @@
 #pragma once
 
-#include "solver/press/compress.h"
+#include <memory>
+
 #include "solver/newton/assembler.h"
 #include "solver/newton/cholesky.h"
+#include "solver/press/compress.h"
 #include "solver/press/plate_way.h"
-
-#include <memory>
 
 namespace mammotwin {
 
-/// The equilibria next to one that `compress_from` found, to first order in what the problem changes
-/// by: with q any number that it depends on,
+/// The equilibria next to one that `compress_from` found, to first order in what the problem
+/// changes by: with q any number that it depends on,
 ///
 ///   dx/dq = -K⁻¹ ∂r/∂q
 ///

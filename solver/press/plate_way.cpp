@@ -28,8 +28,8 @@ PlateWay::PlateWay(const PlateFrame& frame, const CompressionProblem& problem, M
   const bool beside = middle <= low || middle >= high;
   if (beside || (end_.support <= low && end_.paddle >= high))
     throw std::invalid_argument("plates never touch: the breast reaches from " + in_mm(low) +
-                                " to " + in_mm(high) + " between plates at " +
-                                in_mm(end_.support) + " and " + in_mm(end_.paddle));
+                                " to " + in_mm(high) + " between plates at " + in_mm(end_.support) +
+                                " and " + in_mm(end_.paddle));
   start_ = {std::min(low, end_.support), std::max(high, end_.paddle)};
 }
 

@@ -1,9 +1,9 @@
 #pragma once
 
-#include "solver/press/compress.h"
-#include "solver/contact/plate_placement.h"
-
 #include <string>
+
+#include "solver/contact/plate_placement.h"
+#include "solver/press/compress.h"
 
 namespace mammotwin {
 

@@ -1,7 +1,6 @@
 #include "solver/press/press.h"
 
 #include <Eigen/Geometry>
-
 #include <algorithm>
 #include <cmath>
 

@@ -1,10 +1,10 @@
 #pragma once
 
 #include "solver/breast/breast_model.h"
-#include "solver/press/compress.h"
 #include "solver/contact/contact_figures.h"
 #include "solver/contact/penalty_continuation.h"
 #include "solver/newton/newton.h"
+#include "solver/press/compress.h"
 
 namespace mammotwin {
 

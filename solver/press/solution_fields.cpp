@@ -1,13 +1,12 @@
 #include "solver/press/solution_fields.h"
 
-#include "fitting/mesh/bezier.h"
-#include "solver/element/gauss.h"
-
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
-
 #include <algorithm>
 #include <cmath>
+
+#include "fitting/mesh/bezier.h"
+#include "solver/element/gauss.h"
 
 namespace mammotwin {
 
@@ -57,7 +56,15 @@ class Means {
 };
 
 /// Rows of the means over the volume.
-enum VolumeRow { kStretches = 0, kStrain = 3, kStress = 9, kVonMises = 15, kMeanPressure, kGap, kVolumeRows };
+enum VolumeRow {
+  kStretches = 0,
+  kStrain = 3,
+  kStress = 9,
+  kVonMises = 15,
+  kMeanPressure,
+  kGap,
+  kVolumeRows
+};
 
 Eigen::Matrix<double, 6, 1> symmetric_parts(const Eigen::Matrix3d& A) {
   return (Eigen::Matrix<double, 6, 1>() << A(0, 0), A(1, 1), A(2, 2), A(0, 1), A(1, 2), A(0, 2))

@@ -1,10 +1,10 @@
 #pragma once
 
-#include "fitting/mesh/mesh_file.h"
-#include "solver/press/press.h"
-
 #include <map>
 #include <string>
+
+#include "fitting/mesh/mesh_file.h"
+#include "solver/press/press.h"
 
 namespace mammotwin {
 

@@ -1,11 +1,11 @@
 #pragma once
 
+#include <memory>
+
 #include "pipeline/validation/gel_cylinder/gel_cylinder_mesh.h"
 #include "solver/material/neo_hookean.h"
 #include "solver/newton/assembler.h"
 #include "solver/newton/cholesky.h"
-
-#include <memory>
 
 namespace mammotwin {
 
@@ -16,7 +16,9 @@ struct CylinderProblem {
       : file(cylinder_part(29, 40, {2 * n, (n + 1) / 2, n + 1}, CylinderPart::eighth)),
         model(
             file.mesh,
-            [gel = std::make_shared<NeoHookean>(3.0)](const Eigen::Vector3d&, double) { return gel; },
+            [gel = std::make_shared<NeoHookean>(3.0)](const Eigen::Vector3d&, double) {
+              return gel;
+            },
             SolidOptions{}),
         dofs(file.mesh),
         state(model.rest()) {

@@ -1,10 +1,9 @@
-#include "tests/benchmarks/cylinder_problem.h"
-
-#include "solver/element/tensor_kernels.h"
-
 #include <benchmark/benchmark.h>
 
 #include <vector>
+
+#include "solver/element/tensor_kernels.h"
+#include "tests/benchmarks/cylinder_problem.h"
 
 namespace mammotwin {
 namespace {

@@ -1,12 +1,12 @@
-#include "pipeline/validation/gel_cylinder/gel_cylinder.h"
-
 #include <benchmark/benchmark.h>
+
+#include "pipeline/validation/gel_cylinder/gel_cylinder.h"
 
 namespace mammotwin {
 namespace {
 
-/// The whole of the lateral case, mesh and figures included, one load step from 29 to 17 mm. CPU time is
-/// that of all threads. Other codes' times: README.md.
+/// The whole of the lateral case, mesh and figures included, one load step from 29 to 17 mm. CPU
+/// time is that of all threads. Other codes' times: README.md.
 void squeeze(benchmark::State& state, const CylinderElements& elements) {
   CylinderExperiment experiment;
   experiment.elements = elements;

@@ -1,5 +1,3 @@
-#include "tests/benchmarks/cylinder_problem.h"
-
 #include <benchmark/benchmark.h>
 #include <tbb/global_control.h>
 
@@ -7,6 +5,8 @@
 #include <ctime>
 #include <map>
 #include <vector>
+
+#include "tests/benchmarks/cylinder_problem.h"
 
 extern "C" void dgemm_(const char*, const char*, const int*, const int*, const int*, const double*,
                        const double*, const int*, const double*, const int*, const double*, double*,
@@ -100,8 +100,9 @@ double dgemm_rate() {
     double best = 1e300;
     for (int k = 0; k < repeats; ++k)
       best = std::min(best, seconds_of([&] {
-        dgemm_("N", "N", &n, &n, &n, &one, A.data(), &n, B.data(), &n, &zero, C.data(), &n);
-      }));
+                        dgemm_("N", "N", &n, &n, &n, &one, A.data(), &n, B.data(), &n, &zero,
+                               C.data(), &n);
+                      }));
     return 2.0 * n * n * n / best * 1e-9;
   }();
   return rate;

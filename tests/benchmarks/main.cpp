@@ -1,10 +1,10 @@
-#include "solver/newton/blas_kernels.h"
-
 #include <benchmark/benchmark.h>
 #include <unistd.h>
 
 #include <cstdlib>
 #include <iostream>
+
+#include "solver/newton/blas_kernels.h"
 
 /// As the commands do: OpenBLAS reads its core type when it loads, so set it and start again.
 int main(int argc, char** argv) {

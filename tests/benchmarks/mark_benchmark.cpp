@@ -1,10 +1,10 @@
-#include "fitting/mesh/block_mesh.h"
-#include "registration/carry/mark_curve.h"
-#include "registration/view/view_frame.h"
-
 #include <benchmark/benchmark.h>
 
 #include <cmath>
+
+#include "fitting/mesh/block_mesh.h"
+#include "registration/carry/mark_curve.h"
+#include "registration/view/view_frame.h"
 
 namespace mammotwin {
 namespace {
@@ -17,7 +17,8 @@ HermiteMesh prone_breast() {
   for (HermiteMesh::Node& node : nodes) {
     const double angle = 0.01 * node(0, 0);  // [rad]
     Eigen::Matrix3d bend = Eigen::Matrix3d::Identity();
-    bend.topLeftCorner<2, 2>() << std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle);
+    bend.topLeftCorner<2, 2>() << std::cos(angle), -std::sin(angle), std::sin(angle),
+        std::cos(angle);
     node = (bend * node).eval();
   }
   return HermiteMesh(nodes, block.elements());

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "fitting/mesh/block_mesh.h"
-
 #include <random>
+
+#include "fitting/mesh/block_mesh.h"
 
 namespace mammotwin {
 
@@ -10,8 +10,8 @@ namespace mammotwin {
 /// `amount` [mm]; the same at every call.
 inline HermiteMesh distorted_mesh(const Eigen::Vector3i& elements, double amount) {
   const HermiteMesh box =
-      block_mesh(Eigen::Vector3d(-3, 2, 1), Eigen::Vector3d(-3, 2, 1) + 10 * elements.cast<double>(),
-                 elements);
+      block_mesh(Eigen::Vector3d(-3, 2, 1),
+                 Eigen::Vector3d(-3, 2, 1) + 10 * elements.cast<double>(), elements);
   std::mt19937 random(17);
   std::uniform_real_distribution<double> uniform(-amount, amount);
   std::vector<HermiteMesh::Node> nodes = box.nodes();

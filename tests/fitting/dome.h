@@ -1,8 +1,8 @@
 #pragma once
 
-#include "segmentation/segmentation.h"
-
 #include <cmath>
+
+#include "segmentation/segmentation.h"
 
 namespace mammotwin {
 
@@ -11,9 +11,9 @@ namespace mammotwin {
 inline Segmentation dome_breast(double height_mm = 40, double spacing_mm = 2) {
   const int n = static_cast<int>(120 / spacing_mm);
   Segmentation s;
-  s.labels = Volume<std::uint8_t>({n, static_cast<int>((height_mm + 40) / spacing_mm), n},
-                                  Eigen::Vector3d::Constant(spacing_mm),
-                                  {-40, -height_mm - 24, -60});
+  s.labels =
+      Volume<std::uint8_t>({n, static_cast<int>((height_mm + 40) / spacing_mm), n},
+                           Eigen::Vector3d::Constant(spacing_mm), {-40, -height_mm - 24, -60});
   s.region = {Side::left, -40 - spacing_mm / 2, 40 + spacing_mm / 2, -42 - spacing_mm / 2,
               42 + spacing_mm / 2};
   for (int k = 0; k < s.labels.size.z(); ++k)

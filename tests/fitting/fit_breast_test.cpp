@@ -1,17 +1,16 @@
 #include "fitting/fit_breast.h"
 
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <stdexcept>
+
 #include "fitting/mesh/bezier.h"
 #include "fitting/mesh/jacobian_bound.h"
 #include "fitting/surface/flatten.h"
 #include "fitting/surface/skin_to_fit.h"
 #include "tests/fitting/dome.h"
-
-#include <gtest/gtest.h>
-
-#include <tbb/global_control.h>
-
-#include <algorithm>
-#include <stdexcept>
 
 namespace mammotwin {
 namespace {
@@ -91,7 +90,8 @@ TEST(FitBreast, IsTheSameOnOneThreadAndItsProgressGrowsToOne) {
   EXPECT_EQ(fit.mesh.mesh.nodes(), fit_of_bell().mesh.mesh.nodes());
 }
 
-/// The bell with a nipple, a ball of 5 mm radius in its skin off the tip, and the landmark elsewhere.
+/// The bell with a nipple, a ball of 5 mm radius in its skin off the tip, and the landmark
+/// elsewhere.
 Segmentation bell_with_nipple(const Eigen::Vector3d& ball, const Eigen::Vector3d& landmark) {
   Segmentation s = dome_breast();
   for (int k = 0; k < s.labels.size.z(); ++k)

@@ -37,13 +37,15 @@ void expect_end(const ChainRun& chain, const Bytes& expected, Times& finished) {
   expect_nothing_half_written(chain, expected, finished);
   const Bytes found = chain.products();
   EXPECT_EQ(found.size(), expected.size());
-  for (const auto& [name, bytes] : expected) EXPECT_TRUE(found.count(name)) << name << " is missing";
+  for (const auto& [name, bytes] : expected)
+    EXPECT_TRUE(found.count(name)) << name << " is missing";
 }
 
 }  // namespace
 
 std::vector<std::string> ChainRun::environment() const {
-  return {"P=" + patient, "DATA=" + data.string(), "RESULTS=" + results.string(), "BIN=" MAMMOTWIN_BIN};
+  return {"P=" + patient, "DATA=" + data.string(), "RESULTS=" + results.string(),
+          "BIN=" MAMMOTWIN_BIN};
 }
 
 CommandResult ChainRun::run_script(const std::string& script, const std::string& target) const {
@@ -62,14 +64,14 @@ Bytes ChainRun::products() const {
 }
 
 std::string ChainRun::next_product() const {
-  for (const char* product : {"segmentation.seg.nrrd", "prone.vtu", "unloaded.vtu", "cc.vtu", "mlo.vtu",
-                              "lesions.csv", "report.html"})
+  for (const char* product : {"segmentation.seg.nrrd", "prone.vtu", "unloaded.vtu", "cc.vtu",
+                              "mlo.vtu", "lesions.csv", "report.html"})
     if (!fs::exists(results / patient / (std::string(product) + ".json"))) return product;
   return "nothing";
 }
 
-void expect_nothing_lost_to_kills(const ChainRun& chain, int kills, int most_a_chain, double interval_s,
-                                  const Bytes& expected) {
+void expect_nothing_lost_to_kills(const ChainRun& chain, int kills, int most_a_chain,
+                                  double interval_s, const Bytes& expected) {
   std::mt19937 random(1);
   std::map<std::string, int> killed_at;
   int done = 0, chains = 0;
@@ -80,8 +82,9 @@ void expect_nothing_lost_to_kills(const ChainRun& chain, int kills, int most_a_c
     for (int i = 0; killed && i < most_a_chain && done < kills; ++i) {
       const double moment = 2 * interval_s * static_cast<double>(random()) / std::mt19937::max();
       SCOPED_TRACE("killed after " + std::to_string(moment) + " s");
-      killed = run_and_kill_after(moment, {MAMMOTWIN_SOURCE_DIR "/pipeline/run_patient.sh", "patient"},
-                                  chain.environment());
+      killed =
+          run_and_kill_after(moment, {MAMMOTWIN_SOURCE_DIR "/pipeline/run_patient.sh", "patient"},
+                             chain.environment());
       done += killed;
       killed_at[chain.next_product()] += killed;
       expect_nothing_half_written(chain, expected, finished);
@@ -89,7 +92,8 @@ void expect_nothing_lost_to_kills(const ChainRun& chain, int kills, int most_a_c
     expect_end(chain, expected, finished);
     std::cerr << done << " kills in " << ++chains << " chains\n";
   }
-  for (const auto& [product, times] : killed_at) std::cerr << "  " << times << " before " << product << "\n";
+  for (const auto& [product, times] : killed_at)
+    std::cerr << "  " << times << " before " << product << "\n";
 }
 
 }  // namespace mammotwin

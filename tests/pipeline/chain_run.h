@@ -1,11 +1,11 @@
 #pragma once
 
-#include "tests/pipeline/command.h"
-
 #include <filesystem>
 #include <map>
 #include <string>
 #include <vector>
+
+#include "tests/pipeline/command.h"
 
 namespace mammotwin {
 
@@ -23,11 +23,11 @@ struct ChainRun {
   std::map<std::string, std::string> products() const;
 };
 
-/// Begins the chain from an empty folder, kills it with SIGKILL after a random time and goes on from
-/// there, up to `most_a_chain` times before it may end, and begins anew until it was killed `kills`
-/// times; `interval_s` of running apart on average (uniform from 0 to twice that). After each kill
-/// nothing may be half-written, and what was finished before must not have been made again; each chain
-/// that comes to its end must hold what `expected` holds, byte for byte.
+/// Begins the chain from an empty folder, kills it with SIGKILL after a random time and goes on
+/// from there, up to `most_a_chain` times before it may end, and begins anew until it was killed
+/// `kills` times; `interval_s` of running apart on average (uniform from 0 to twice that). After
+/// each kill nothing may be half-written, and what was finished before must not have been made
+/// again; each chain that comes to its end must hold what `expected` holds, byte for byte.
 void expect_nothing_lost_to_kills(const ChainRun& chain, int kills, int most_a_chain,
                                   double interval_s,
                                   const std::map<std::string, std::string>& expected);

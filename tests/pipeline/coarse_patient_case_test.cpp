@@ -1,15 +1,14 @@
-// A coarse patient whose DICOM headers name a person, through the real stages: no output tells who it
-// is, and a run that is killed and begun again ends as an undisturbed one does.
+// A coarse patient whose DICOM headers name a person, through the real stages: no output tells who
+// it is, and a run that is killed and begun again ends as an undisturbed one does.
 
-#include "tests/registration/mammogram_dicom.h"
+#include <chrono>
 
 #include "segmentation/files/segmentation_file.h"
 #include "tests/pipeline/chain_run.h"
 #include "tests/pipeline/kills.h"
 #include "tests/pipeline/patient_case.h"
+#include "tests/registration/mammogram_dicom.h"
 #include "tests/segmentation/files/dicom_writer.h"
-
-#include <chrono>
 
 namespace mammotwin {
 namespace {
@@ -31,14 +30,16 @@ Volume<float> coarse(const Volume<float>& fine) {
   for (int k = 0; k < size.z() * kCoarser.z(); ++k)
     for (int j = 0; j < size.y() * kCoarser.y(); ++j)
       for (int i = 0; i < size.x() * kCoarser.x(); ++i)
-        image(i / kCoarser.x(), j / kCoarser.y(), k / kCoarser.z()) += fine(i, j, k) / kCoarser.prod();
+        image(i / kCoarser.x(), j / kCoarser.y(), k / kCoarser.z()) +=
+            fine(i, j, k) / kCoarser.prod();
   return image;
 }
 
 class CoarsePatient : public PatientCase {
  protected:
   void SetUp() override {
-    // Light compression of few elements, and no search: the chain is short, its stages are all there.
+    // Light compression of few elements, and no search: the chain is short, its stages are all
+    // there.
     const fs::path folder = patient("c", R"(side = "left"
 register.search = false
 fit.elements = [4, 4, 1]
@@ -53,7 +54,8 @@ thickness_mm = 45
 )");
     DicomHeader header;
     header.identified = true;
-    write_dicom_series(folder / "mri", "", header, coarse(read_image_file(MAMMOTWIN_SOURCE_DIR "/sample_data/042/mri.nrrd")));
+    write_dicom_series(folder / "mri", "", header,
+                       coarse(read_image_file(MAMMOTWIN_SOURCE_DIR "/sample_data/042/mri.nrrd")));
     DcmFileFormat mammogram;
     fill_mammogram(*mammogram.getDataset());
     mammogram.getDataset()->putAndInsertString(DCM_PatientID, "PLANTED-ID-4711");
@@ -71,7 +73,8 @@ thickness_mm = 45
 
 void CoarsePatient::expect_nobody_named(const std::string& said) {
   // The search finds what is there: the input itself names the patient.
-  EXPECT_NE(text_of(data() / "c" / "mri" / "0000.dcm").find(planted_identity()[4]), std::string::npos);
+  EXPECT_NE(text_of(data() / "c" / "mri" / "0000.dcm").find(planted_identity()[4]),
+            std::string::npos);
   expect_no_planted_word_in(said, "what is said");
   int files = 0;
   for (const auto& entry : fs::recursive_directory_iterator(results())) {

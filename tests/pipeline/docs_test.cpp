@@ -41,7 +41,8 @@ TEST(Docs, FindAPlaceForEveryEquationOfThePaper) {
   const std::string theory = text_of(kSource / "docs" / "theory.md");
   for (int n = 1; n <= 9; ++n) {
     const std::string number = std::to_string(n);
-    EXPECT_TRUE(std::regex_search(theory, std::regex("\\n\\| (\\d, )?" + number + "(, \\d)? \\|"))) << number;
+    EXPECT_TRUE(std::regex_search(theory, std::regex("\\n\\| (\\d, )?" + number + "(, \\d)? \\|")))
+        << number;
   }
 }
 
@@ -63,7 +64,8 @@ TEST(Docs, LinkToPagesThatAreThere) {
 TEST(Docs, NameKeysThatThereAre) {
   const std::string settings = text_of(kSource / "pipeline" / "README.md");
   const std::string how_to = text_of(kSource / "docs" / "how_to.md");
-  for (const char* key : {"register.search", "dicom_export", "materials.fat.c1_kpa", "materials.fat.law"}) {
+  for (const char* key :
+       {"register.search", "dicom_export", "materials.fat.c1_kpa", "materials.fat.law"}) {
     EXPECT_NE(how_to.find(key), std::string::npos) << key;
     EXPECT_NE(settings.find("| `" + std::string(key) + "` |"), std::string::npos) << key;
   }

@@ -1,12 +1,5 @@
-// A compression that is killed at a random moment goes on from its last load step, and its product is
-// the same as that of an undisturbed one, bit for bit.
-
-#include "fitting/mesh/mesh_file.h"
-#include "segmentation/files/segmentation_file.h"
-#include "tests/pipeline/command.h"
-#include "tests/pipeline/kills.h"
-#include "tests/pipeline/scratch_folder.h"
-#include "tests/solver/dome_breast.h"
+// A compression that is killed at a random moment goes on from its last load step, and its product
+// is the same as that of an undisturbed one, bit for bit.
 
 #include <fcntl.h>
 #include <signal.h>
@@ -17,6 +10,13 @@
 #include <nlohmann/json.hpp>
 #include <random>
 #include <thread>
+
+#include "fitting/mesh/mesh_file.h"
+#include "segmentation/files/segmentation_file.h"
+#include "tests/pipeline/command.h"
+#include "tests/pipeline/kills.h"
+#include "tests/pipeline/scratch_folder.h"
+#include "tests/solver/dome_breast.h"
 
 namespace mammotwin {
 namespace {
@@ -34,13 +34,19 @@ class InterruptedCompression : public ScratchFolder {
     all_fat.region = {Side::left, -70, 70, -70, 70};
     write_segmentation(folder_ / "segmentation.seg.nrrd", all_fat);
     write_fractions(folder_ / "fractions.nrrd", all_fat.fractions);
-    write("patient.toml",
-          "side = \"left\"\n[compress]\nfriction_coefficient = 0.1\n[views.cc]\nthickness_mm = 80\n");
+    write(
+        "patient.toml",
+        "side = \"left\"\n[compress]\nfriction_coefficient = 0.1\n[views.cc]\nthickness_mm = 80\n");
   }
   std::vector<std::string> command() const {
     const auto file = [&](const char* name) { return (folder_ / name).string(); };
-    return {MAMMOTWIN_BIN "/mammotwin-compress", "cc", file("segmentation.seg.nrrd"),
-            file("fractions.nrrd"), file("prone.vtu"), file("cc.vtu"), "--patient",
+    return {MAMMOTWIN_BIN "/mammotwin-compress",
+            "cc",
+            file("segmentation.seg.nrrd"),
+            file("fractions.nrrd"),
+            file("prone.vtu"),
+            file("cc.vtu"),
+            "--patient",
             file("patient.toml")};
   }
   void start_and_kill_after(double seconds) const {

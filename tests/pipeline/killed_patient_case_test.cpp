@@ -1,10 +1,10 @@
 // The sample patient, killed as often as MAMMOTWIN_KILLS_042 says over its run.
 
-#include "tests/pipeline/chain_run.h"
-#include "tests/pipeline/patient_case.h"
-
 #include <chrono>
 #include <cstdlib>
+
+#include "tests/pipeline/chain_run.h"
+#include "tests/pipeline/patient_case.h"
 
 namespace mammotwin {
 namespace {
@@ -15,7 +15,8 @@ class KilledPatient : public PatientCase {};
 
 TEST_F(KilledPatient, LosesNothing) {
   const char* asked = std::getenv("MAMMOTWIN_KILLS_042");
-  if (!asked) GTEST_SKIP() << "set MAMMOTWIN_KILLS_042=10; it takes twice the chain's time and more";
+  if (!asked)
+    GTEST_SKIP() << "set MAMMOTWIN_KILLS_042=10; it takes twice the chain's time and more";
   const int kills = std::atoi(asked);
   const ChainRun chain{"042", MAMMOTWIN_SOURCE_DIR "/sample_data", results()};
   const auto start = Clock::now();

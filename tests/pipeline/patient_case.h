@@ -1,13 +1,12 @@
 #pragma once
 
-#include "tests/pipeline/command.h"
-#include "tests/pipeline/scratch_folder.h"
-
-#include <nlohmann/json.hpp>
-
 #include <filesystem>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <string>
+
+#include "tests/pipeline/command.h"
+#include "tests/pipeline/scratch_folder.h"
 
 namespace mammotwin {
 

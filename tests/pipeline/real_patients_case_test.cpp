@@ -1,14 +1,13 @@
 // Real MRI and real label maps made by others, from the image to lesions.csv, where they are
 // present.
 
-#include "registration/export/csv.h"
-#include "tests/pipeline/patient_case.h"
-
 #include <Eigen/Core>
-
 #include <algorithm>
 #include <cmath>
 #include <iostream>
+
+#include "registration/export/csv.h"
+#include "tests/pipeline/patient_case.h"
 
 namespace mammotwin {
 namespace {
@@ -40,7 +39,8 @@ class RealPatient : public PatientCase {
     patient(name, "side = \"left\"\n[labels]\npath = \"" +
                       fs::canonical(kCases / "label_maps" / (name + "_labels.nii.gz")).string() +
                       "\"\nair = [0]\nfat = [1]\nfibroglandular = [2]\nskin = [3]\nmuscle = [4]\n"
-                      "lesion = [5, 6]\ntransition = [7]\n" + kNoSearch);
+                      "lesion = [5, 6]\ntransition = [7]\n" +
+                      kNoSearch);
   }
   /// The first lesion of lesions.csv in a view [mm].
   struct Predicted {
@@ -84,35 +84,40 @@ TEST_F(RealPatient, Mri8af60052) {
   expect_positions_in_both_views("8af60052");
 }
 
-// 196 mm of breast, cut by the field of view at both ends. The radiologist's contours of its lesion in
-// CC and MLO have no spacing, no image size and no nipple beside them. What they allow:
+// 196 mm of breast, cut by the field of view at both ends. The radiologist's contours of its lesion
+// in CC and MLO have no spacing, no image size and no nipple beside them. What they allow:
 // - the spacing, from the lesion's size in MRI and in both views (about 0.1 mm);
-// - columns are depths from the chest wall's edge of the image, if the left breast's is the left one;
-// - rows, if both images are equally high: how much higher up the lesion lies in MLO than in CC, by as
+// - columns are depths from the chest wall's edge of the image, if the left breast's is the left
+// one;
+// - rows, if both images are equally high: how much higher up the lesion lies in MLO than in CC, by
+// as
 //   much as the breast is equally centred on both detectors.
-// Detectors' edges and breasts' places differ by centimetres between exams (registration/README.md has
-// what is measured here), so the limits are two of the standard deviations of such places, 12 mm
-// sideways, and 15 mm in depth, where the plates' edge is assumed; and the 90 % ellipses, which know how
-// far edges differ, hold the radiologist's depths.
+// Detectors' edges and breasts' places differ by centimetres between exams (registration/README.md
+// has what is measured here), so the limits are two of the standard deviations of such places, 12
+// mm sideways, and 15 mm in depth, where the plates' edge is assumed; and the 90 % ellipses, which
+// know how far edges differ, hold the radiologist's depths.
 TEST_F(RealPatient, Mri6e4da81aAgainstItsMammograms) {
   mri("6e4da81a", "[fit]\nelements = [6, 6, 2]\n");  // by default 8 x 8 x 2, in twice the time
   expect_positions_in_both_views("6e4da81a");
-  const json contours = json::parse(
-      std::ifstream(kCases / "mimbcd_6e4da81a" / "lesions_radiologist.json"));
+  const json contours =
+      json::parse(std::ifstream(kCases / "mimbcd_6e4da81a" / "lesions_radiologist.json"));
   const auto size = [](const json& extent) {
     return std::sqrt(extent[0].get<double>() * extent[1].get<double>());
   };
   const json& cc = contours["mg"][0];
   const json& mlo = contours["mg"][1];
-  const double spacing = size(contours["mri"][0]["size_mm"]) /
-                         std::sqrt(size(cc["size_px"]) * size(mlo["size_px"]));
+  const double spacing =
+      size(contours["mri"][0]["size_mm"]) / std::sqrt(size(cc["size_px"]) * size(mlo["size_px"]));
   EXPECT_NEAR(size(cc["size_px"]) / size(mlo["size_px"]), 1, 0.1);  // it is the same lesion
   const Predicted cc_mark = predicted("6e4da81a", "cc"), mlo_mark = predicted("6e4da81a", "mlo");
   const Eigen::Vector2d in_cc = cc_mark.on_detector, in_mlo = mlo_mark.on_detector;
-  const auto depth = [&](const json& mark) { return spacing * mark["centroid_px"][0].get<double>(); };
-  const double rise = spacing * (cc["centroid_px"][1].get<double>() - mlo["centroid_px"][1].get<double>());
-  std::cout << "spacing " << spacing << " mm; depth in CC " << in_cc.x() << " (mammogram " << depth(cc)
-            << "), in MLO " << in_mlo.x() << " (" << depth(mlo) << "), MLO above CC "
+  const auto depth = [&](const json& mark) {
+    return spacing * mark["centroid_px"][0].get<double>();
+  };
+  const double rise =
+      spacing * (cc["centroid_px"][1].get<double>() - mlo["centroid_px"][1].get<double>());
+  std::cout << "spacing " << spacing << " mm; depth in CC " << in_cc.x() << " (mammogram "
+            << depth(cc) << "), in MLO " << in_mlo.x() << " (" << depth(mlo) << "), MLO above CC "
             << in_mlo.y() - in_cc.y() << " (" << rise << ") mm; 90 % of depths within "
             << cc_mark.depth_90 << " and " << mlo_mark.depth_90 << " mm\n";
   EXPECT_NEAR(in_cc.x(), depth(cc), 30);
@@ -131,7 +136,8 @@ TEST_F(RealPatient, TwoPatientsInOneFolderAreRefusedAndListed) {
       fs::create_symlink(file.path(), folder / (name + file.path().filename().string()));
   const CommandResult result = run("segment", "two");
   EXPECT_EQ(result.exit_code, 1);
-  for (const char* part : {"holds 2 MR series of 2 patients", "series 7", "series 18", "mri.series"})
+  for (const char* part :
+       {"holds 2 MR series of 2 patients", "series 7", "series 18", "mri.series"})
     EXPECT_NE(result.text.find(part), std::string::npos) << part << "\n" << result.text;
 }
 

@@ -112,8 +112,8 @@ void Patient042::expect_nothing_runs_again() {
   const CommandResult again = run("patient", "042");
   EXPECT_EQ(again.exit_code, 0) << again.text;
   EXPECT_EQ(times(results() / "042"), before);
-  for (const char* product :
-       {"segmentation.seg.nrrd", "prone.vtu", "unloaded.vtu", "cc.vtu", "mlo.vtu", "lesions.csv", "report.html"})
+  for (const char* product : {"segmentation.seg.nrrd", "prone.vtu", "unloaded.vtu", "cc.vtu",
+                              "mlo.vtu", "lesions.csv", "report.html"})
     EXPECT_NE(again.text.find(std::string(product) + " is up to date"), std::string::npos)
         << again.text;
 }

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <dcmtk/config/osconfig.h>
-
 #include <dcmtk/dcmdata/dctk.h>
 
 #include <vector>

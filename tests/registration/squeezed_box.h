@@ -1,12 +1,12 @@
 #pragma once
 
-#include "fitting/mesh/block_mesh.h"
-#include "registration/view/compressed_view.h"
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
 #include <vector>
+
+#include "fitting/mesh/block_mesh.h"
+#include "registration/view/compressed_view.h"
 
 namespace mammotwin {
 

@@ -1,6 +1,6 @@
 #include "segmentation/body/breast_region.h"
-#include "segmentation/label_maps/label_values.h"
 #include "segmentation/files/read_image.h"
+#include "segmentation/label_maps/label_values.h"
 #include "tests/segmentation/cases.h"
 
 namespace mammotwin {

@@ -1,8 +1,7 @@
 #pragma once
 
-#include <unistd.h>
-
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <exception>
 #include <filesystem>
@@ -31,7 +30,8 @@ inline void expect_mentions(const std::string& message, std::initializer_list<st
 struct ScratchFolder {
   std::filesystem::path path;
   explicit ScratchFolder(const std::string& name)
-      : path(std::filesystem::temp_directory_path() / ("mammotwin_" + std::to_string(getpid()) + "_" + name)) {
+      : path(std::filesystem::temp_directory_path() /
+             ("mammotwin_" + std::to_string(getpid()) + "_" + name)) {
     std::filesystem::remove_all(path);
     std::filesystem::create_directories(path);
   }

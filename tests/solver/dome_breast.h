@@ -1,12 +1,11 @@
 #pragma once
 
-#include "tests/solver/test_meshes.h"
+#include <algorithm>
+#include <cmath>
 
 #include "fitting/mesh/mesh_file.h"
 #include "solver/press/compress.h"
-
-#include <algorithm>
-#include <cmath>
+#include "tests/solver/test_meshes.h"
 
 namespace mammotwin {
 

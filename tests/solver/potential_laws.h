@@ -1,8 +1,8 @@
 #pragma once
 
-#include "solver/element/surface_potential.h"
-
 #include <gtest/gtest.h>
+
+#include "solver/element/surface_potential.h"
 
 namespace mammotwin {
 
@@ -22,7 +22,8 @@ inline void expect_consistent(const SurfacePotential& potential,
     EXPECT_NEAR((plus.energy - minus.energy) / (2 * h), exact.gradient[k], 1e-7 * scale) << k;
     for (int i = 0; i < 3; ++i)
       EXPECT_NEAR((plus.gradient[i] - minus.gradient[i]) / (2 * h), exact.hessian(i, k),
-                  1e-6 * scale) << i << "," << k;
+                  1e-6 * scale)
+          << i << "," << k;
   }
 }
 

@@ -1,11 +1,11 @@
 #pragma once
 
+#include <functional>
+#include <random>
+
 #include "fitting/mesh/hermite_mesh.h"
 #include "solver/newton/dof_map.h"
 #include "solver/newton/model.h"
-
-#include <functional>
-#include <random>
 
 namespace mammotwin {
 
@@ -39,8 +39,7 @@ inline HermiteMesh distorted(const HermiteMesh& mesh, double amount, unsigned se
   std::mt19937 random(seed);
   auto nodes = mesh.nodes();
   for (auto& node : nodes)
-    for (int k = 0; k < 24; ++k)
-      node(k) += amount * (2 * (random() / 4294967295.0) - 1);
+    for (int k = 0; k < 24; ++k) node(k) += amount * (2 * (random() / 4294967295.0) - 1);
   return HermiteMesh(nodes, mesh.elements());
 }
 

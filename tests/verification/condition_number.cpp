@@ -1,11 +1,11 @@
 #include "tests/verification/condition_number.h"
 
-#include "solver/newton/assembler.h"
-#include "solver/newton/cholesky.h"
-
 #include <cmath>
 #include <functional>
 #include <limits>
+
+#include "solver/newton/assembler.h"
+#include "solver/newton/cholesky.h"
 
 namespace mammotwin {
 
@@ -13,7 +13,8 @@ namespace {
 
 using Eigen::VectorXd;
 
-VectorXd multiply(const SparsePattern& pattern, const std::vector<double>& values, const VectorXd& x) {
+VectorXd multiply(const SparsePattern& pattern, const std::vector<double>& values,
+                  const VectorXd& x) {
   VectorXd y = VectorXd::Zero(x.size());
   for (int c = 0; c < pattern.num_columns(); ++c)
     for (int k = pattern.starts[c]; k < pattern.starts[c + 1]; ++k) {

@@ -1,13 +1,12 @@
-#include "tests/solver/test_meshes.h"
-
-#include "solver/contact/contact_figures.h"
-#include "solver/contact/penalty_continuation.h"
-#include "solver/material/neo_hookean.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
+
+#include "solver/contact/contact_figures.h"
+#include "solver/contact/penalty_continuation.h"
+#include "solver/material/neo_hookean.h"
+#include "tests/solver/test_meshes.h"
 
 namespace mammotwin {
 namespace {
@@ -59,14 +58,15 @@ struct PressedBody {
     for (const auto& [e, number] : top)
       for (const Face& face : model.faces(e))
         for (int q = 0; q < face.num_points(); ++q) {
-          const Eigen::Vector3d x = face.deformed(model.coefficients(state.x, e), q).template head<3>();
+          const Eigen::Vector3d x =
+              face.deformed(model.coefficients(state.x, e), q).template head<3>();
           visit(x, contact->pressure(contact->plates[0].gap(x).gap), face.point(q).area);
         }
   }
 };
 
-// Contact patch test. Elements are bent inside a block whose outside is straight; the plate's pressure
-// is uniform and the state homogeneous: λ along z, λ^(−1/2) across, nominal pressure
+// Contact patch test. Elements are bent inside a block whose outside is straight; the plate's
+// pressure is uniform and the state homogeneous: λ along z, λ^(−1/2) across, nominal pressure
 // 2c₁(λ⁻² − λ). Derivatives of the quadratic map by differences are good to 1e-7.
 TEST(Contact, PatchTestOnDistortedElements) {
   constexpr double L = 20, H = 24;
@@ -91,11 +91,12 @@ TEST(Contact, PatchTestOnDistortedElements) {
   }
 }
 
-// Hertz: an incompressible paraboloid of radius R on a rigid flat plate. E* = E/(1 − ν²) = 8c₁, and with
-// F the force of the whole, a = (3FR / 4E*)^(1/3), pressure p₀ √(1 − r²/a²), p₀ = 3F/(2πa²) (Johnson,
-// Contact Mechanics, section 4.2); its mean over r < a/2 is p₀ (8/3)(1 − (3/4)^(3/2)), and that of r²
-// weighted with it 2a²/5, which gives the radius found. F over a is local: the block, 6a deep and wide, touches it at order (a/H)³. F over the approach is not, and is
-// not compared. Left are the strain, a/R = 3 %, and faces of 2 to 6 mm, which a circle's edge crosses.
+// Hertz: an incompressible paraboloid of radius R on a rigid flat plate. E* = E/(1 − ν²) = 8c₁, and
+// with F the force of the whole, a = (3FR / 4E*)^(1/3), pressure p₀ √(1 − r²/a²), p₀ = 3F/(2πa²)
+// (Johnson, Contact Mechanics, section 4.2); its mean over r < a/2 is p₀ (8/3)(1 − (3/4)^(3/2)),
+// and that of r² weighted with it 2a²/5, which gives the radius found. F over a is local: the
+// block, 6a deep and wide, touches it at order (a/H)³. F over the approach is not, and is not
+// compared. Left are the strain, a/R = 3 %, and faces of 2 to 6 mm, which a circle's edge crosses.
 TEST(Contact, HertzParaboloidOnARigidPlate) {
   constexpr double R = 300, L = 60, H = 60;
   const auto graded = [](double s) { return s * (0.2 + 0.8 * s * s); };

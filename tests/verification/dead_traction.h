@@ -1,8 +1,8 @@
 #pragma once
 
-#include "solver/element/surface_potential.h"
-
 #include <functional>
+
+#include "solver/element/surface_potential.h"
 
 namespace mammotwin {
 

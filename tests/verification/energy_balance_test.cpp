@@ -1,6 +1,6 @@
-#include "pipeline/validation/gel_cylinder/gel_cylinder.h"
-
 #include <gtest/gtest.h>
+
+#include "pipeline/validation/gel_cylinder/gel_cylinder.h"
 
 namespace mammotwin {
 namespace {

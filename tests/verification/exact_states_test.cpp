@@ -1,12 +1,11 @@
-#include "tests/solver/test_meshes.h"
-
-#include "tests/verification/dead_traction.h"
-#include "solver/material/neo_hookean.h"
-#include "solver/newton/newton.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
+
+#include "solver/material/neo_hookean.h"
+#include "solver/newton/newton.h"
+#include "tests/solver/test_meshes.h"
+#include "tests/verification/dead_traction.h"
 
 namespace mammotwin {
 namespace {
@@ -15,10 +14,10 @@ constexpr double kC1 = 2, kSide = 20;  // [kPa], [mm]
 constexpr double kWeight = 0.2;        // [mN/mm³], 20 times that of tissue
 
 // A slab of thickness L bonded to a wall x = 0 sags along z under its weight f, far from its ends:
-// simple shear with P_zx = μ γ, so γ = f (L − X)/μ and u_z = f (L X − X²/2)/μ, μ = 2 c1, at any strain
-// (neo-Hookean shear stress is linear). p = 0 with a law that is stress-free at rest; on planes z =
-// constant the slab's other parts pull with P_xz = 2 c1 γ. The displacement is quadratic: in the
-// space of the elements, which must find it exactly.
+// simple shear with P_zx = μ γ, so γ = f (L − X)/μ and u_z = f (L X − X²/2)/μ, μ = 2 c1, at any
+// strain (neo-Hookean shear stress is linear). p = 0 with a law that is stress-free at rest; on
+// planes z = constant the slab's other parts pull with P_xz = 2 c1 γ. The displacement is
+// quadratic: in the space of the elements, which must find it exactly.
 struct SaggingSlab {
   HermiteMesh mesh;
   Model model;
@@ -29,8 +28,7 @@ struct SaggingSlab {
 
   explicit SaggingSlab(int n)
       : mesh(box_mesh({kSide, kSide, kSide}, {n, n, n})),
-        model(mesh, uniform(std::make_shared<NeoHookean>(kC1)),
-              {PressureSpace::trilinear, 1e6, 0}),
+        model(mesh, uniform(std::make_shared<NeoHookean>(kC1)), {PressureSpace::trilinear, 1e6, 0}),
         dofs(mesh) {
     model.set_body_force(uniform_force({0, 0, kWeight}));
     const auto pull = std::make_shared<DeadTraction>([](const SurfacePoint& point) {
@@ -150,8 +148,8 @@ TEST(ExactState, IsApproachedQuadratically) {
   ASSERT_GE(n, 4u);
   for (std::size_t k = 0; k < n; ++k)
     RecordProperty("residual_" + std::to_string(k), std::to_string(1e9 * residuals[k]) + "e-9");
-  const double order = std::log(residuals[n - 1] / residuals[n - 2]) /
-                       std::log(residuals[n - 2] / residuals[n - 3]);
+  const double order =
+      std::log(residuals[n - 1] / residuals[n - 2]) / std::log(residuals[n - 2] / residuals[n - 3]);
   EXPECT_GT(order, 1.8);
 }
 

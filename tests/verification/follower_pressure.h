@@ -11,8 +11,8 @@ namespace mammotwin {
 /// contains e or on the plane e·x = 0.
 class FollowerPressure : public SurfacePotential {
  public:
-  double pressure = 0;                                ///< [kPa], positive pushes into the body
-  Eigen::Vector3d axis = Eigen::Vector3d::UnitX();    ///< e, unit
+  double pressure = 0;                              ///< [kPa], positive pushes into the body
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitX();  ///< e, unit
 
   Slots slots() const override { return kAll; }
   bool respond(const Eigen::Matrix<double, 9, 1>& y, const SurfacePoint& point, int order,

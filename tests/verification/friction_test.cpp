@@ -1,17 +1,16 @@
-#include "tests/solver/dome_breast.h"
-
-#include "solver/contact/contact_figures.h"
-#include "solver/contact/penalty_continuation.h"
-#include "solver/material/neo_hookean.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "solver/contact/contact_figures.h"
+#include "solver/contact/penalty_continuation.h"
+#include "solver/material/neo_hookean.h"
+#include "tests/solver/dome_breast.h"
+
 namespace mammotwin {
 namespace {
 
-constexpr double kC1 = 3;            // [kPa]
+constexpr double kC1 = 3;  // [kPa]
 constexpr double kCoefficient = 0.4, kSlip = 0.02;
 
 /// A block held at its top, and a plate that presses from below and is then drawn along x. With
@@ -19,8 +18,10 @@ constexpr double kCoefficient = 0.4, kSlip = 0.02;
 class PlateUnderBlock {
  public:
   PlateUnderBlock(const HermiteMesh& mesh, bool endless)
-      : mesh_(mesh), model_(mesh, uniform(std::make_shared<NeoHookean>(kC1)),
-                            {PressureSpace::trilinear, 1e6, 0}), dofs_(mesh) {
+      : mesh_(mesh),
+        model_(mesh, uniform(std::make_shared<NeoHookean>(kC1)),
+               {PressureSpace::trilinear, 1e6, 0}),
+        dofs_(mesh) {
     faces_ = faces_in_plane(mesh, 2, 0);
     contact_->penalty = 1000;
     contact_->plates = {Plate{{0, 0, 0}, {0, 0, 1}, {0, 1, 0}, 0, true}};
@@ -105,9 +106,9 @@ class PlateUnderBlock {
 };
 
 // An endless strip, free at y = W, under compression λz = λ, λy = 1/λ and simple shear g: with
-// σ_yy = 0, σ_zz = 2c₁(λz² − λy²) and σ_xz = 2c₁ λz g where x = X + gZ (σ = 2c₁B + q). Per reference
-// area (x λy): normal 2c₁(λ − λ⁻³), shear 2c₁ g. So it sticks until g = μ(λ⁻³ − λ), and then no
-// shear is added however far the plate goes.
+// σ_yy = 0, σ_zz = 2c₁(λz² − λy²) and σ_xz = 2c₁ λz g where x = X + gZ (σ = 2c₁B + q). Per
+// reference area (x λy): normal 2c₁(λ − λ⁻³), shear 2c₁ g. So it sticks until g = μ(λ⁻³ − λ), and
+// then no shear is added however far the plate goes.
 TEST(Friction, StripSlidesAtTheClosedFormsShear) {
   const Eigen::Vector3d size(10, 8, 10);
   PlateUnderBlock strip(box_mesh(size, {2, 1, 2}), true);

@@ -17,9 +17,10 @@ CylinderFigures squeeze(CylinderCase how, const CylinderElements& elements, doub
   return squeeze_cylinder(experiment);
 }
 
-// References: FEBio 4 (three-field hexahedra, h² limit), CalculiX C3D20R and an exactly incompressible
-// Q2/P1 code, which agree within the stated errors (sample_data/gel_cylinder). Meshes are the
-// recommended ones, tolerances those that the references' own errors (0.1 %, 0.01 mm) allow.
+// References: FEBio 4 (three-field hexahedra, h² limit), CalculiX C3D20R and an exactly
+// incompressible Q2/P1 code, which agree within the stated errors (sample_data/gel_cylinder).
+// Meshes are the recommended ones, tolerances those that the references' own errors (0.1 %, 0.01
+// mm) allow.
 TEST(GelCylinder, LateralSqueezeIsThePeers) {
   const auto f = squeeze(CylinderCase::lateral, {6, 1, 4});
   ASSERT_TRUE(f.usable) << f.reason;
@@ -37,9 +38,9 @@ TEST(GelCylinder, PlaneStrainSqueezeIsThePeers) {
   EXPECT_NEAR(f.half_width_middle_mm, 20.880, 0.02);
 }
 
-// Exact: F = 2 c₁ A₀ (λ⁻² − λ) with λ = 17 / 40. This is arithmetic, not an experiment: beyond λ = 0.680
-// (27.2 mm) the equilibrium is unstable, and a real cylinder would shear off to the side; an eighth
-// with its mirrors and a coarse mesh follows the homogeneous path.
+// Exact: F = 2 c₁ A₀ (λ⁻² − λ) with λ = 17 / 40. This is arithmetic, not an experiment: beyond λ =
+// 0.680 (27.2 mm) the equilibrium is unstable, and a real cylinder would shear off to the side; an
+// eighth with its mirrors and a coarse mesh follows the homogeneous path.
 TEST(GelCylinder, AxialSqueezeIsTheClosedForm) {
   const double stretch = 17.0 / 40;
   const auto f = squeeze(CylinderCase::axial, {2, 1, 1});

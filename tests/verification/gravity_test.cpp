@@ -1,23 +1,21 @@
-#include "tests/solver/test_meshes.h"
-
-#include "solver/material/neo_hookean.h"
-#include "solver/newton/newton.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "solver/material/neo_hookean.h"
+#include "solver/newton/newton.h"
+#include "tests/solver/test_meshes.h"
+
 namespace mammotwin {
 namespace {
 
-constexpr double kC1 = 1, kHeight = 40;       // [kPa], [mm]
-constexpr double kWeight = 1e-6 * 9810;       // density times gravity [mN/mm³]
+constexpr double kC1 = 1, kHeight = 40;  // [kPa], [mm]
+constexpr double kWeight = 1e-6 * 9810;  // density times gravity [mN/mm³]
 
 /// A column that hangs from z = 0, its sides free, in a quarter of its section.
 struct Column {
   HermiteMesh mesh = box_mesh({5, 5, kHeight}, {1, 1, 6});
-  Model model{mesh, uniform(std::make_shared<NeoHookean>(kC1)),
-              {PressureSpace::trilinear, 1e6, 0}};
+  Model model{mesh, uniform(std::make_shared<NeoHookean>(kC1)), {PressureSpace::trilinear, 1e6, 0}};
   DofMap dofs{mesh};
   Column() {
     for (int axis = 0; axis < 3; ++axis) hold_plane(mesh, axis, 0, dofs);
@@ -34,12 +32,13 @@ double stretch_at(double P) {
   return stretch;
 }
 
-// One-dimensional theory for a slender column that may narrow at its root: the section at X carries the
-// weight of what hangs below, P = ρ g (L − X); length = ∫ λ dX. Narrowing along 40 mm bends lines by
-// (d/L)² of the strain: 1 % of the 2 mm elongation.
+// One-dimensional theory for a slender column that may narrow at its root: the section at X carries
+// the weight of what hangs below, P = ρ g (L − X); length = ∫ λ dX. Narrowing along 40 mm bends
+// lines by (d/L)² of the strain: 1 % of the 2 mm elongation.
 TEST(Gravity, HangingColumnStretchesAsItShould) {
   Column column;
-  column.model.set_body_force(uniform_force({0, 0, 20 * kWeight}));  // 20 g, so that strains are finite
+  column.model.set_body_force(
+      uniform_force({0, 0, 20 * kWeight}));  // 20 g, so that strains are finite
   State state = column.model.rest();
   const auto report = Newton(column.model, column.dofs).solve(state, {});
   ASSERT_TRUE(report.usable()) << report.reason;

@@ -1,20 +1,19 @@
-#include "tests/solver/test_meshes.h"
-
-#include "tests/verification/dead_traction.h"
-#include "solver/material/neo_hookean.h"
-#include "solver/newton/newton.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
+
+#include "solver/material/neo_hookean.h"
+#include "solver/newton/newton.h"
+#include "tests/solver/test_meshes.h"
+#include "tests/verification/dead_traction.h"
 
 namespace mammotwin {
 namespace {
 
 // Cook's membrane in plane strain, incompressible: 48 long, 44 high at the clamped side, 16 at the
-// loaded one, shear force 100 per unit thickness, μ = 80.1938 (J. C. Simo, F. Armero, Int. J. Numer.
-// Meth. Eng. 33, 1992, section 6.2, where refined meshes reach a vertical way of the upper corner of
-// about 6.9).
+// loaded one, shear force 100 per unit thickness, μ = 80.1938 (J. C. Simo, F. Armero, Int. J.
+// Numer. Meth. Eng. 33, 1992, section 6.2, where refined meshes reach a vertical way of the upper
+// corner of about 6.9).
 double cook_corner(int n) {
   constexpr double mu = 80.1938, force = 100, right = 16;
   const HermiteMesh mesh = mapped_mesh({n, n, 1}, [](const Eigen::Vector3d& xi) {
@@ -50,8 +49,9 @@ TEST(CooksMembrane, DoesNotLock) {
   EXPECT_NEAR(coarse / fine, 1, 0.005);
 }
 
-/// Half a strip of width 2a and height 2h in plane strain, bonded to rigid plates that come nearer by
-/// 0.1 %; a quarter of its section, x from the middle to the rim, y from the middle to the plate.
+/// Half a strip of width 2a and height 2h in plane strain, bonded to rigid plates that come nearer
+/// by 0.1 %; a quarter of its section, x from the middle to the rim, y from the middle to the
+/// plate.
 struct BondedStrip {
   static constexpr double kMu = 6, kHalfHeight = 1, kStrain = 1e-3;
   double half_width;
@@ -97,10 +97,10 @@ struct BondedStrip {
   }
 };
 
-// A thin incompressible strip squeezes its tissue out as a viscous film does: with full height H = 2h,
-// p(x) = 6 μ δ/H³ (a² − x²) and the apparent modulus is 4 μ S², S = a/H (lubrication; p'' = −12 μ δ/H³).
-// Plane-strain compression adds 4 μ in Gent's sum (A. N. Gent, P. B. Lindley, Proc. Inst. Mech. Eng. 173,
-// 1959), 1 % at S = 10; the rim takes off some.
+// A thin incompressible strip squeezes its tissue out as a viscous film does: with full height H =
+// 2h, p(x) = 6 μ δ/H³ (a² − x²) and the apparent modulus is 4 μ S², S = a/H (lubrication; p'' = −12
+// μ δ/H³). Plane-strain compression adds 4 μ in Gent's sum (A. N. Gent, P. B. Lindley, Proc. Inst.
+// Mech. Eng. 173, 1959), 1 % at S = 10; the rim takes off some.
 TEST(BondedStrip, IsAsStiffAsLubricationSaysAndNotLocked) {
   const BondedStrip one(10, {10, 1, 1}), fine(10, {20, 3, 1});
   const double gent = 4 * BondedStrip::kMu * (1 + 10 * 10);

@@ -1,14 +1,13 @@
-#include "tests/solver/test_meshes.h"
-
-#include "solver/element/skin_membrane.h"
-#include "tests/verification/follower_pressure.h"
-#include "solver/material/neo_hookean.h"
-#include "solver/newton/newton.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
+
+#include "solver/element/skin_membrane.h"
+#include "solver/material/neo_hookean.h"
+#include "solver/newton/newton.h"
+#include "tests/solver/test_meshes.h"
+#include "tests/verification/follower_pressure.h"
 
 namespace mammotwin {
 namespace {
@@ -23,9 +22,9 @@ HermiteMesh tube(int n) {
   });
 }
 
-// Incompressible neo-Hookean tube in plane strain: r² = R² + c, so with inner radius a and c = a² − A²
-// radial balance gives p = ∫ (σθ − σr) dr/r with σθ − σr = 2 c₁ (λ² − λ⁻²), λ = r/R (Ogden, Non-linear
-// Elastic Deformations, section 5.3).
+// Incompressible neo-Hookean tube in plane strain: r² = R² + c, so with inner radius a and c = a² −
+// A² radial balance gives p = ∫ (σθ − σr) dr/r with σθ − σr = 2 c₁ (λ² − λ⁻²), λ = r/R (Ogden,
+// Non-linear Elastic Deformations, section 5.3).
 double pressure(double inner) {
   double sum = 0;  // Simpson's rule on the integral, so that no closed form is trusted
   constexpr int n = 2000;
@@ -40,8 +39,9 @@ double pressure(double inner) {
   return sum * (kOuter - kInner) / n / 3;
 }
 
-// The membrane stores c₁ h (λ² + λ⁻² − 2) per reference area in plane strain; the work of p, p r dr, is its
-// change, so p = 2 c₁ h / R (1 − λ⁻⁴) at its own radius. Each section carries its part of the pressure.
+// The membrane stores c₁ h (λ² + λ⁻² − 2) per reference area in plane strain; the work of p, p r
+// dr, is its change, so p = 2 c₁ h / R (1 − λ⁻⁴) at its own radius. Each section carries its part
+// of the pressure.
 double skin_pressure(double inner, double skin) {
   const double outer = std::sqrt(kOuter * kOuter + inner * inner - kInner * kInner);
   return 2 * skin / kOuter * (1 - std::pow(kOuter / outer, 4));

@@ -1,15 +1,16 @@
-#include "pipeline/validation/lagrange/lagrange_cylinder.h"
-#include "pipeline/validation/lagrange/lagrange_mesh.h"
-#include "pipeline/validation/lagrange/strain_jump.h"
-
 #include <gtest/gtest.h>
 
 #include <stdexcept>
 
+#include "pipeline/validation/lagrange/lagrange_cylinder.h"
+#include "pipeline/validation/lagrange/lagrange_mesh.h"
+#include "pipeline/validation/lagrange/strain_jump.h"
+
 namespace mammotwin {
 namespace {
 
-// A field that the order holds is the same polynomial whether nodes or Hermite coefficients carry it.
+// A field that the order holds is the same polynomial whether nodes or Hermite coefficients carry
+// it.
 TEST(LagrangeElement, HermiteCoefficientsCarryTheSameField) {
   for (int order : {1, 2}) {
     const LagrangeElement element(order);
@@ -33,8 +34,9 @@ TEST(LagrangeElement, HermiteCoefficientsCarryTheSameField) {
   EXPECT_THROW(LagrangeElement(3), std::invalid_argument);
 }
 
-// Peers on the same cylinder: FEBio's trilinear three-field hexahedra 8.4607 N (1,425 unknowns), and the
-// limit 8.515 ± 0.010 N, from which both elements are off by what their meshes are: -0.5 % and +0.3 %.
+// Peers on the same cylinder: FEBio's trilinear three-field hexahedra 8.4607 N (1,425 unknowns),
+// and the limit 8.515 ± 0.010 N, from which both elements are off by what their meshes are: -0.5 %
+// and +0.3 %.
 TEST(LagrangeCylinder, ComesNearThePeers) {
   CylinderExperiment x;
   x.elements = even_elements(3);
@@ -47,7 +49,8 @@ TEST(LagrangeCylinder, ComesNearThePeers) {
   EXPECT_NEAR(triquadratic.force_N / 8.515, 1, 0.004);
   EXPECT_NEAR(triquadratic.half_width_middle_mm, 17.404, 0.02);
   EXPECT_LE(triquadratic.penetration_mm, 0.001);
-  // Lagrange's strain jumps across faces; Hermite's does so only at the irregular lines of the disc.
+  // Lagrange's strain jumps across faces; Hermite's does so only at the irregular lines of the
+  // disc.
   const auto hermite = squeeze_cylinder(x);
   EXPECT_LT(strain_jump(hermite.before.mesh, hermite.after.mesh),
             0.5 * strain_jump(triquadratic.before.mesh, triquadratic.after.mesh));

@@ -1,13 +1,12 @@
-#include "tests/solver/test_meshes.h"
-
-#include "tests/verification/dead_traction.h"
-#include "solver/material/kinematics.h"
-#include "solver/material/neo_hookean.h"
-#include "solver/newton/newton.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
+
+#include "solver/material/kinematics.h"
+#include "solver/material/neo_hookean.h"
+#include "solver/newton/newton.h"
+#include "tests/solver/test_meshes.h"
+#include "tests/verification/dead_traction.h"
 
 namespace mammotwin {
 namespace {

@@ -2,15 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
+#include <cmath>
+#include <numbers>
+
 #include "pipeline/evaluate/niftysim/comparison.h"
 #include "pipeline/evaluate/niftysim/roll_hold.h"
 #include "pipeline/evaluate/victre/victre_comparison.h"
 #include "solver/press/compress.h"
-
-#include <Eigen/Geometry>
-
-#include <cmath>
-#include <numbers>
 
 namespace mammotwin {
 namespace {
@@ -20,8 +19,8 @@ using Eigen::Vector3d;
 TEST(HalfBallMesh, HoldsTheVolumeOfAHalfBallAndItsLabels) {
   const MeshFile ball =
       half_ball_mesh([](const Vector3d& p) -> Vector3d { return 50 * p; }, {4, 2});
-  const Model model(
-      ball.mesh, [](const Vector3d&, double) { return TissueLaws::defaults().laws[0]; }, {});
+  const Model model(ball.mesh,
+                    [](const Vector3d&, double) { return TissueLaws::defaults().laws[0]; }, {});
   // A Hermite cubic leaves an arc of 22.5 degrees by up to 22.5°⁴/384 = 6e-5 of its radius, by half
   // of that in the mean, and a volume goes with the radius to the third: 1e-4.
   const double volume = 2 * std::numbers::pi / 3 * std::pow(50, 3);

@@ -1,10 +1,10 @@
-#include "tests/solver/dome_breast.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+
+#include "tests/solver/dome_breast.h"
 
 namespace mammotwin {
 namespace {
@@ -55,10 +55,10 @@ TEST(PlateShapes, ATiltedPaddleThinsTheFront) {
   EXPECT_EQ(tilted.report.paddle_tilt_deg, 5);
 }
 
-// A flexible paddle ends where its spring holds the contact's moment about an axis 200 mm in front of
-// the edge: the force times an arm between 200 mm and 200 mm less the breast's depth of 70 mm, and
-// something more because the rounded edge and the wall behind it are pushed forwards, too. Locked at
-// that tilt, a rigid paddle carries the same force.
+// A flexible paddle ends where its spring holds the contact's moment about an axis 200 mm in front
+// of the edge: the force times an arm between 200 mm and 200 mm less the breast's depth of 70 mm,
+// and something more because the rounded edge and the wall behind it are pushed forwards, too.
+// Locked at that tilt, a rigid paddle carries the same force.
 TEST(PlateShapes, AFlexiblePaddleTiltsUntilItsSpringBalancesTheBreast) {
   CompressionProblem problem = coarse_dome();
   problem.plates.tilt_spring = 0.2e6;  // 0.2 N m per degree
@@ -92,9 +92,9 @@ TEST(PlateShapes, FacetsOfAFlatPlateDoAsTheFlatPlate) {
   const auto strip = [&](double x0, double z0, double x1, double z1) {
     const double y = 150;
     for (int half = 0; half < 2; ++half)
-      out << "facet normal 0 0 0\nouter loop\nvertex " << x0 << ' ' << -y << ' ' << z0 << "\nvertex "
-          << x1 << ' ' << (half ? y : -y) << ' ' << z1 << "\nvertex " << (half ? x0 : x1) << ' ' << y
-          << ' ' << (half ? z0 : z1) << "\nendloop\nendfacet\n";
+      out << "facet normal 0 0 0\nouter loop\nvertex " << x0 << ' ' << -y << ' ' << z0
+          << "\nvertex " << x1 << ' ' << (half ? y : -y) << ' ' << z1 << "\nvertex "
+          << (half ? x0 : x1) << ' ' << y << ' ' << (half ? z0 : z1) << "\nendloop\nendfacet\n";
   };
   constexpr double r = 10;
   constexpr int arcs = 12;
@@ -113,7 +113,8 @@ TEST(PlateShapes, FacetsOfAFlatPlateDoAsTheFlatPlate) {
   const CompressionResult facets = compress(problem, {});
   expect_good(problem, facets);
   // Arcs of 7.5 degrees lie up to 0.02 mm inside the rounding, whose curvature begins within h; and
-  // the two end with penetrations between 0 and 0.05 mm, which shift the force by 0.2 % per 0.01 mm.
+  // the two end with penetrations between 0 and 0.05 mm, which shift the force by 0.2 % per 0.01
+  // mm.
   EXPECT_NEAR(facets.report.force_N / flat.report.force_N, 1, 0.02);
   for (std::size_t i = 0; i < flat.deformed.size(); ++i)
     EXPECT_NEAR((facets.deformed[i].col(0) - flat.deformed[i].col(0)).norm(), 0, 0.5);

@@ -1,9 +1,8 @@
-#include "tests/solver/dome_breast.h"
-
-#include "solver/material/neo_hookean.h"
-#include "solver/gravity/fit_stiffness.h"
-
 #include <gtest/gtest.h>
+
+#include "solver/gravity/fit_stiffness.h"
+#include "solver/material/neo_hookean.h"
+#include "tests/solver/dome_breast.h"
 
 namespace mammotwin {
 namespace {
@@ -11,7 +10,8 @@ namespace {
 constexpr double kC1 = 1, kLength = 40;  // [kPa], [mm]
 constexpr double kWeight = 1e-6 * 9810;  // density times gravity [mN/mm³]
 
-/// A body that hangs along +z from a wall at z = 0 on which it slides against faint springs; sides free.
+/// A body that hangs along +z from a wall at z = 0 on which it slides against faint springs; sides
+/// free.
 CompressionProblem hanging_body(const HermiteMesh& mesh, const TissueSampler& tissue, double pull) {
   CompressionProblem problem;
   FaceLabels inside;
@@ -48,9 +48,10 @@ double stretch_at(double sigma) {
 // strain, and the wall's penalty gives way by 1e-3 of the rest.
 TEST(Unload, ColumnThatHangsStraightWasThisLong) {
   constexpr double pull = 20;
-  const auto fat = [](const Eigen::Vector3d&, double) -> std::array<double, 3> { return {1, 0, 0}; };
-  CompressionProblem problem =
-      hanging_body(box_mesh({6, 6, kLength}, {1, 1, 6}), fat, pull);
+  const auto fat = [](const Eigen::Vector3d&, double) -> std::array<double, 3> {
+    return {1, 0, 0};
+  };
+  CompressionProblem problem = hanging_body(box_mesh({6, 6, kLength}, {1, 1, 6}), fat, pull);
   UnloadOptions options;
   options.solid = {PressureSpace::trilinear, 1e6, 0};
   const UnloadResult result = unload(problem, options);
@@ -92,8 +93,8 @@ TEST(Unload, BlockConvergesUnderRefinement) {
   EXPECT_LT(worst, 0.01 * fine.report.sag_max_mm);
 }
 
-// The other way to the same shape, which uses the forward solve alone: X − (x(X) − prone), again and
-// again. It contracts by the strain, here by a third a round.
+// The other way to the same shape, which uses the forward solve alone: X − (x(X) − prone), again
+// and again. It contracts by the strain, here by a third a round.
 TEST(Unload, AgreesWithTheFixedPoint) {
   CompressionProblem problem = dome_problem(60);
   problem.mesh = dome_breast({3, 3, 1});

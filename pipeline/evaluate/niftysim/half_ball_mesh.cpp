@@ -13,8 +13,8 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::Vector3i;
 
-constexpr double kCoreSize = 0.5;   // half side of the core / radius
-constexpr double kCoreRound = 0.5;  // 0: a cube, 1: a ball
+constexpr double kCoreSize = 0.5;    // half side of the core / radius
+constexpr double kCoreRound = 0.5;   // 0: a cube, 1: a ball
 constexpr double kSamePlace = 1e-6;  // [mm]
 
 /// The cube [-1, 1]^3 on the ball.
@@ -35,8 +35,8 @@ Vector3d sphere_point(const Vector3d& q) {
 
 /// One block: a grid in coordinates of the cube; in a shell block `axis` runs out of the core.
 struct Block {
-  int axis = -1;      ///< of the shell; -1: the core
-  double sense = 1;   ///< +1: ξ_axis runs outward
+  int axis = -1;     ///< of the shell; -1: the core
+  double sense = 1;  ///< +1: ξ_axis runs outward
   Vector3i elements;
   int first_node = 0;
 
@@ -57,8 +57,9 @@ struct Block {
 
 std::vector<Block> blocks_of(const HalfBallElements& n) {
   if (n.core < 2 || n.core % 2 != 0 || n.shell < 1)
-    throw std::invalid_argument("half_ball_mesh: the core needs an even number of elements, the "
-                                "shell at least one");
+    throw std::invalid_argument(
+        "half_ball_mesh: the core needs an even number of elements, the "
+        "shell at least one");
   const Vector3i core(n.core, n.core, n.core / 2);
   std::vector<Block> blocks{{-1, 1, core}};
   for (const auto& [axis, sense] : {std::pair{0, 1}, {0, -1}, {1, 1}, {1, -1}, {2, 1}}) {

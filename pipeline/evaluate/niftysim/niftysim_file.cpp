@@ -42,8 +42,8 @@ class Entry {
   }
   void expect(const char* name, const std::string& value) const {
     if (attribute(name) != value)
-      throw std::runtime_error(where_ + ": " + name + " is \"" + attribute(name) +
-                               "\"; expected " + value);
+      throw std::runtime_error(where_ + ": " + name + " is \"" + attribute(name) + "\"; expected " +
+                               value);
   }
   /// Every number of the text; a multiple of `group` of them.
   template <class Number>
@@ -103,8 +103,8 @@ void read_constraints(const Entry& root, NiftySimModel& model) {
 }  // namespace
 
 NiftySimModel read_niftysim_model(const fs::path& file) {
-  const auto tree = vtkSmartPointer<vtkXMLDataElement>::Take(
-      vtkXMLUtilities::ReadElementFromFile(file.c_str()));
+  const auto tree =
+      vtkSmartPointer<vtkXMLDataElement>::Take(vtkXMLUtilities::ReadElementFromFile(file.c_str()));
   if (!tree) throw std::runtime_error(file.string() + ": is not there or no XML");
   const Entry root(tree, file.string());
   NiftySimModel model;

@@ -66,8 +66,8 @@ class PlateSqueeze {
   std::shared_ptr<RollHold> roll_hold_ = std::make_shared<RollHold>();
   FaceList skin_, wall_;
   std::vector<MeshPoint> base_points_;  ///< the file's fixed nodes
-  double polar_moment_ = 0;  ///< ∫ distance² from the axis of roll dV [mm^5]
-  double spin_ = 0;          ///< body force per distance from that axis [mN/mm^4]
+  double polar_moment_ = 0;             ///< ∫ distance² from the axis of roll dV [mm^5]
+  double spin_ = 0;                     ///< body force per distance from that axis [mN/mm^4]
   PenaltyOptions penalties_;
 };
 
@@ -100,10 +100,9 @@ void PlateSqueeze::make_model(const Volume<Fractions>& tissue) {
   }
   for (int e = 0; e < model_->num_elements(); ++e)
     for (int q = 0; q < kPoints; ++q)
-      polar_moment_ += model_->element(e).point_weight(q) *
-                       (model_->element(e).point_position(q) - roll_hold_->centre)
-                           .head<2>()
-                           .squaredNorm();
+      polar_moment_ +=
+          model_->element(e).point_weight(q) *
+          (model_->element(e).point_position(q) - roll_hold_->centre).head<2>().squaredNorm();
   contact_->points1d = 8;
   for (const auto& [e, face] : skin_)
     model_->add_surface_potential(e, face, contact_, contact_->points1d);
@@ -128,8 +127,8 @@ void PlateSqueeze::load(double fraction) {
   for (const auto& plate : file_.plates)
     contact_->plates.push_back(Plate{plate.corner + fraction * plate.displacement,
                                      plate.displacement.normalized(), Vector3d::UnitZ(), 0, true});
-  const Vector3d weight =
-      options_.gravity ? (fraction * file_.density * file_.gravity).eval() : Vector3d::Zero().eval();
+  const Vector3d weight = options_.gravity ? (fraction * file_.density * file_.gravity).eval()
+                                           : Vector3d::Zero().eval();
   const Eigen::AngleAxisd turned(roll_hold_->roll, Vector3d::UnitZ());
   model_->set_body_force([=, spin = spin_, centre = roll_hold_->centre](const Vector3d& X) {
     return (weight + spin * Vector3d::UnitZ().cross(turned * (X - centre))).eval();
@@ -143,9 +142,9 @@ std::vector<Vector3d> PlateSqueeze::base(const std::vector<HermiteMesh::Node>& n
   return x;
 }
 
-/// Turns the springs until the face's roll is the one asked. Their rest shape follows the face's own
-/// deformation, and the couple that they are left with becomes the inertia of a roll that speeds up,
-/// so that in the end they carry nothing.
+/// Turns the springs until the face's roll is the one asked. Their rest shape follows the face's
+/// own deformation, and the couple that they are left with becomes the inertia of a roll that
+/// speeds up, so that in the end they carry nothing.
 NewtonReport PlateSqueeze::settle_roll(State& state) {
   const std::vector<Vector3d> X = base(mesh_.mesh.nodes());
   NewtonReport all;
@@ -187,8 +186,8 @@ double PlateSqueeze::couple(const State& state) const {
 double PlateSqueeze::penetration(const State& state) const {
   double largest = 0;
   for (int plate = 0; plate < 2; ++plate)
-    largest = std::max(largest,
-                       contact_figures(*model_, state, *contact_, plate, skin_).penetration);
+    largest =
+        std::max(largest, contact_figures(*model_, state, *contact_, plate, skin_).penetration);
   return largest;
 }
 
@@ -248,8 +247,7 @@ Squeeze PlateSqueeze::run() {
   squeeze.couple_N_mm = spin_ * polar_moment_ * kNewtonPerMilli;
   squeeze.deformed = state.x;
   centre(squeeze.deformed);
-  squeeze.seconds =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  squeeze.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return squeeze;
 }
 

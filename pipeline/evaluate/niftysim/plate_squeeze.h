@@ -30,9 +30,9 @@ struct Squeeze {
 
 /// The file's own problem on another mesh: its plates (endless, frictionless), its gravity, its
 /// bulk over shear modulus, the chest-wall face free in its plane; tissue from `tissue`. Nothing in
-/// the file holds the breast sideways (x), and no force acts there: one point is held, and the whole
-/// then shifted so that the centre of mass has not moved along x. Nothing holds its roll about z
-/// either, see SqueezeOptions::roll.
+/// the file holds the breast sideways (x), and no force acts there: one point is held, and the
+/// whole then shifted so that the centre of mass has not moved along x. Nothing holds its roll
+/// about z either, see SqueezeOptions::roll.
 Squeeze squeeze_between_plates(const MeshFile& mesh, const NiftySimModel& model,
                                const Volume<Fractions>& tissue, const SqueezeOptions& options);
 

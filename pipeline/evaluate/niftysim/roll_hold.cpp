@@ -36,8 +36,7 @@ Vector2d PlaneMap::operator()(const Vector3d& X) const {
 
 double roll_of(const std::vector<Vector3d>& X, const std::vector<Vector3d>& x) {
   Vector3d mean_X = Vector3d::Zero(), mean_x = Vector3d::Zero();
-  for (std::size_t n = 0; n < X.size(); ++n)
-    mean_X += X[n] / X.size(), mean_x += x[n] / X.size();
+  for (std::size_t n = 0; n < X.size(); ++n) mean_X += X[n] / X.size(), mean_x += x[n] / X.size();
   double along = 0, across = 0;
   for (std::size_t n = 0; n < X.size(); ++n) {
     const Vector2d A = (X[n] - mean_X).head<2>(), a = (x[n] - mean_x).head<2>();

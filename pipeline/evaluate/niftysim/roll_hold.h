@@ -25,8 +25,9 @@ class PlaneMap {
 /// Rotation about z of the points that lie best on x after it (Procrustes), both about their means.
 double roll_of(const std::vector<Eigen::Vector3d>& X, const std::vector<Eigen::Vector3d>& x);
 
-/// Springs in the plane z = 0 towards a map of the face turned about a centre: k/2 |x − R(roll) T(X)|².
-/// Where T is the face's own deformation less its roll they carry a couple and nothing else.
+/// Springs in the plane z = 0 towards a map of the face turned about a centre: k/2 |x − R(roll)
+/// T(X)|². Where T is the face's own deformation less its roll they carry a couple and nothing
+/// else.
 class RollHold : public SurfacePotential {
  public:
   double k = 0.03;  ///< [kPa/mm]

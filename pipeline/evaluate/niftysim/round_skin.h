@@ -8,7 +8,8 @@
 namespace mammotwin {
 
 /// Skin as a distance from a centre in every direction: real spherical harmonics up to a degree,
-/// fitted by least squares to points on it. For a breast that every ray from the centre leaves once.
+/// fitted by least squares to points on it. For a breast that every ray from the centre leaves
+/// once.
 class RoundSkin {
  public:
   /// `smoothing` is the weight of the squared Laplacian on the sphere against the mean squared

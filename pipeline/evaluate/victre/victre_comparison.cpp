@@ -6,11 +6,11 @@
 #include "fitting/mesh/inverse_map.h"
 #include "pipeline/evaluate/niftysim/round_skin.h"
 #include "pipeline/evaluate/victre/victre_labels.h"
-#include "segmentation/image/distance.h"
 #include "pipeline/synthesize/mean_fractions.h"
+#include "segmentation/image/distance.h"
 #include "segmentation/segmentation.h"
-#include "solver/press/compress.h"
 #include "solver/material/neo_hookean.h"
+#include "solver/press/compress.h"
 
 namespace mammotwin {
 namespace {
@@ -21,9 +21,9 @@ using nlohmann::json;
 // What VICTRE's compression does (breastCompress.cxx): E of 5 and 15 kPa at nu = 0.49, muscle
 // fixed, no skin; and where its paddles end (pc_1: faces 50 mm apart).
 constexpr double kFatKpa = 5, kGlandKpa = 15, kPoisson = 0.49;
-constexpr double kChestWallMm = 0;      // depth of the muscle's front, which is flat to 3 mm
+constexpr double kChestWallMm = 0;  // depth of the muscle's front, which is flat to 3 mm
 constexpr double kPlateEdgeMm = 7.4, kPlateRoundingMm = 10;
-constexpr double kComparedFromMm = 3;   // off the wall, where the muscle's curve does not matter
+constexpr double kComparedFromMm = 3;  // off the wall, where the muscle's curve does not matter
 constexpr double kGridMm = 1;
 
 double c1_of(double youngs_kpa) { return youngs_kpa / (2 * (1 + kPoisson)) / 2; }
@@ -35,8 +35,8 @@ void for_voxels(const Volume<std::uint8_t>& v, const Visit& visit) {
       for (int i = 0; i < v.size.x(); ++i) visit(v.position(i, j, k), v(i, j, k));
 }
 
-/// Voxels of the breast, in front of the wall, that have air beside them; every tenth of those, which
-/// lie 0.2 mm apart.
+/// Voxels of the breast, in front of the wall, that have air beside them; every tenth of those,
+/// which lie 0.2 mm apart.
 std::vector<Vector3d> skin_points(const VictreLabels& labels) {
   constexpr int every = 10;
   int found = 0;
@@ -104,8 +104,7 @@ CompressionProblem problem_of(const MeshFile& mesh, const Volume<Fractions>& fra
   plates.wall_clearance = kPlateEdgeMm - kChestWallMm;
   plates.rounding = kPlateRoundingMm;
   plates.thickness = between.second - between.first;
-  plates.lift =
-      (between.first + between.second) / 2 - PlateFrame(mesh, plates).centroid_height();
+  plates.lift = (between.first + between.second) / 2 - PlateFrame(mesh, plates).centroid_height();
   return problem;
 }
 
@@ -126,8 +125,7 @@ Volume<std::uint8_t> sampled(const VictreLabels& labels, const Volume<std::uint8
   Volume<std::uint8_t> result = grid.like<std::uint8_t>();
   for (int k = 0; k < grid.size.z(); ++k)
     for (int j = 0; j < grid.size.y(); ++j)
-      for (int i = 0; i < grid.size.x(); ++i)
-        result(i, j, k) = labels.at(grid.position(i, j, k));
+      for (int i = 0; i < grid.size.x(); ++i) result(i, j, k) = labels.at(grid.position(i, j, k));
   return result;
 }
 
@@ -148,7 +146,8 @@ double dice(const Volume<std::uint8_t>& a, const Volume<std::uint8_t>& b) {
 Volume<std::uint8_t> outline(const Volume<std::uint8_t>& mask) {
   const Volume<std::uint8_t> inner = eroded(mask, kGridMm);
   Volume<std::uint8_t> edge = mask;
-  for (std::size_t n = 0; n < edge.values.size(); ++n) edge.values[n] = mask.values[n] && !inner.values[n];
+  for (std::size_t n = 0; n < edge.values.size(); ++n)
+    edge.values[n] = mask.values[n] && !inner.values[n];
   return edge;
 }
 
@@ -183,7 +182,8 @@ Volume<std::uint8_t> comparison_grid(const VictreLabels& theirs) {
   Vector3d low = v.origin;
   low.z() = kComparedFromMm;
   const Vector3d high = v.position(v.size.x() - 1, v.size.y() - 1, v.size.z() - 1);
-  return Volume<std::uint8_t>(((high - low) / kGridMm).cast<int>(), Vector3d::Constant(kGridMm), low);
+  return Volume<std::uint8_t>(((high - low) / kGridMm).cast<int>(), Vector3d::Constant(kGridMm),
+                              low);
 }
 
 json figures_of(const CompressionReport& r) {

@@ -15,7 +15,15 @@ namespace fs = std::filesystem;
 using Eigen::Vector3d;
 using Eigen::Vector3i;
 
-enum Label : std::uint8_t { air = 0, gland = 29, nipple = 33, muscle = 40, plate = 50, lobule = 95, duct = 125 };
+enum Label : std::uint8_t {
+  air = 0,
+  gland = 29,
+  nipple = 33,
+  muscle = 40,
+  plate = 50,
+  lobule = 95,
+  duct = 125
+};
 
 std::map<std::string, std::string> read_header(const fs::path& path) {
   std::ifstream in(path);

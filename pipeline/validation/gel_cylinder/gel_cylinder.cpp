@@ -1,11 +1,5 @@
 #include "pipeline/validation/gel_cylinder/gel_cylinder.h"
 
-#include "solver/contact/contact_figures.h"
-#include "solver/contact/penalty_continuation.h"
-#include "solver/load/load_stepping.h"
-#include "solver/material/neo_hookean.h"
-#include "tests/verification/condition_number.h"
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -14,12 +8,18 @@
 #include <stdexcept>
 #include <utility>
 
+#include "solver/contact/contact_figures.h"
+#include "solver/contact/penalty_continuation.h"
+#include "solver/load/load_stepping.h"
+#include "solver/material/neo_hookean.h"
+#include "tests/verification/condition_number.h"
+
 namespace mammotwin {
 
 namespace {
 
 constexpr double kNewtonPerMilli = 1e-3, kMilliJoulePerMicro = 1e-3;
-constexpr double kOnPlane = 1e-6;      // [mm]
+constexpr double kOnPlane = 1e-6;  // [mm]
 
 void hold(const HermiteMesh& mesh, const FaceList& faces, int component, DofMap& dofs) {
   for (const auto& [e, face] : faces)
@@ -109,10 +109,12 @@ class CylinderRun {
 
 void CylinderRun::hold_symmetry() {
   hold_mirror(mesh_, 1, dofs_);
-  if (x_.part == CylinderPart::half) hold_rigid_motion();
+  if (x_.part == CylinderPart::half)
+    hold_rigid_motion();
   else
     for (int axis : {0, 2}) hold_mirror(mesh_, axis, dofs_);
-  const bool in_their_planes = x_.how == CylinderCase::plane_strain || x_.how == CylinderCase::axial;
+  const bool in_their_planes =
+      x_.how == CylinderCase::plane_strain || x_.how == CylinderCase::axial;
   for (double z : {-end(), end()}) {
     const FaceList ends = faces_in_plane(mesh_, 2, z);
     for (int i = 0; i < 3; ++i)
@@ -233,8 +235,7 @@ CylinderFigures CylinderRun::run() {
   figures.history = std::move(history);
   figures.before = figures.after = file_;
   figures.after.mesh = HermiteMesh(state.x, mesh_.elements());
-  figures.seconds =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  figures.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   figures.cpu_seconds = double(std::clock() - cpu) / CLOCKS_PER_SEC;
   return figures;
 }

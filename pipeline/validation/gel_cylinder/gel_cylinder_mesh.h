@@ -12,8 +12,8 @@ enum class CylinderPart {
 };
 
 /// A part of the cylinder about the z axis with its middle at 0 [mm]. `elements` count the whole
-/// cross-section and half the length. Throws std::invalid_argument where the square's number is odd,
-/// or the half is asked for graded along the axis.
+/// cross-section and half the length. Throws std::invalid_argument where the square's number is
+/// odd, or the half is asked for graded along the axis.
 MeshFile cylinder_part(double diameter, double length, const CylinderElements& elements,
                        CylinderPart part);
 

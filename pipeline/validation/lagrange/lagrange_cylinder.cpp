@@ -1,12 +1,12 @@
 #include "pipeline/validation/lagrange/lagrange_cylinder.h"
 
-#include "pipeline/validation/lagrange/lagrange_newton.h"
-#include "solver/contact/penalty_continuation.h"
-#include "solver/material/neo_hookean.h"
-
 #include <cmath>
 #include <ctime>
 #include <stdexcept>
+
+#include "pipeline/validation/lagrange/lagrange_newton.h"
+#include "solver/contact/penalty_continuation.h"
+#include "solver/material/neo_hookean.h"
 
 namespace mammotwin {
 
@@ -45,9 +45,9 @@ class Run {
       : x_(x),
         file_(cylinder_part(x.diameter, x.length, x.elements, x.part)),
         mesh_(file_.mesh, LagrangeElement(order)),
-        model_(mesh_.broken(mesh_.X),
-               [&](const Eigen::Vector3d&, double) { return gel_; },
-               SolidOptions{mesh_.element.pressure(), 1e6, 0}),
+        model_(
+            mesh_.broken(mesh_.X), [&](const Eigen::Vector3d&, double) { return gel_; },
+            SolidOptions{mesh_.element.pressure(), 1e6, 0}),
         newton_(mesh_, model_, held_dofs(mesh_, x)),
         skin_(faces_with_label(file_, FaceLabel::skin)),
         state_{mesh_.X, std::vector<double>(8 * mesh_.elements.size(), 0.0)} {
@@ -84,7 +84,8 @@ NewtonReport Run::equilibrate() {
   const PenaltyOptions penalties;  // these elements need it raised from soft to stiff
   const double unit = 2 * x_.c1 / std::cbrt(model_.volume() / model_.num_elements());
   NewtonReport total;
-  for (double factor = penalties.first; factor < penalties.last * (1 - 1e-9); factor *= penalties.growth) {
+  for (double factor = penalties.first; factor < penalties.last * (1 - 1e-9);
+       factor *= penalties.growth) {
     contact_->penalty = factor * unit;
     add(total, newton_.solve(state_, most, near));
     if (!total.usable()) return total;

@@ -10,9 +10,12 @@ namespace {
 double lagrange(int order, int n, int derivative, double t) {
   if (order == 1) return derivative ? (n == 0 ? -1 : 1) : (n == 0 ? 1 - t : t);
   switch (n) {
-    case 0: return derivative ? 4 * t - 3 : (1 - t) * (1 - 2 * t);
-    case 1: return derivative ? 4 - 8 * t : 4 * t * (1 - t);
-    default: return derivative ? 4 * t - 1 : t * (2 * t - 1);
+    case 0:
+      return derivative ? 4 * t - 3 : (1 - t) * (1 - 2 * t);
+    case 1:
+      return derivative ? 4 - 8 * t : 4 * t * (1 - t);
+    default:
+      return derivative ? 4 * t - 1 : t * (2 * t - 1);
   }
 }
 

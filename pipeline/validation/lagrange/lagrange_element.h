@@ -1,14 +1,15 @@
 #pragma once
 
-#include "solver/element/solid_element.h"
-
 #include <vector>
+
+#include "solver/element/solid_element.h"
 
 namespace mammotwin {
 
-/// Lagrange functions of order 1 (trilinear, 8 nodes) or 2 (triquadratic, 27 nodes) on an element: nodes
-/// n = n₁ + (order + 1) n₂ + (order + 1)² n₃ at ξᵢ = nᵢ / order. They are tri-cubic polynomials too, so
-/// a Lagrange element is the tri-cubic Hermite element with its 64 coefficients tied to fewer nodes,
+/// Lagrange functions of order 1 (trilinear, 8 nodes) or 2 (triquadratic, 27 nodes) on an element:
+/// nodes n = n₁ + (order + 1) n₂ + (order + 1)² n₃ at ξᵢ = nᵢ / order. They are tri-cubic
+/// polynomials too, so a Lagrange element is the tri-cubic Hermite element with its 64 coefficients
+/// tied to fewer nodes,
 ///
 ///     c = T q,    T[a, n] = function n (or its derivative) at the corner of Hermite function a
 ///

@@ -1,9 +1,9 @@
 #pragma once
 
+#include <vector>
+
 #include "fitting/mesh/hermite_mesh.h"
 #include "pipeline/validation/lagrange/lagrange_element.h"
-
-#include <vector>
 
 namespace mammotwin {
 
@@ -12,8 +12,8 @@ struct LagrangeMesh {
   LagrangeMesh(const HermiteMesh& shape, const LagrangeElement& element);
 
   LagrangeElement element;
-  std::vector<Eigen::Vector3d> X;           ///< nodes [mm]
-  std::vector<std::vector<int>> elements;   ///< nodes of each
+  std::vector<Eigen::Vector3d> X;          ///< nodes [mm]
+  std::vector<std::vector<int>> elements;  ///< nodes of each
 
   /// The same shape, for positions x of the nodes, as a Hermite mesh whose elements have nodes of
   /// their own: 8 e + corner.

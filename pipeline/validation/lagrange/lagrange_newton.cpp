@@ -1,7 +1,6 @@
 #include "pipeline/validation/lagrange/lagrange_newton.h"
 
 #include <Eigen/Cholesky>
-
 #include <cmath>
 
 namespace mammotwin {
@@ -50,7 +49,8 @@ void LagrangeNewton::add(int e, const ElementSystem& system,
     if (equations[c] < 0) continue;
     right_hand_side_[equations[c]] -= residual[c];
     for (std::size_t r = 0; r < equations.size(); ++r)
-      if (equations[r] >= equations[c]) entries.emplace_back(equations[r], equations[c], tangent(r, c));
+      if (equations[r] >= equations[c])
+        entries.emplace_back(equations[r], equations[c], tangent(r, c));
   }
 }
 

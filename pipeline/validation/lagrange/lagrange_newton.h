@@ -1,16 +1,16 @@
 #pragma once
 
+#include <Eigen/SparseCholesky>
+
 #include "pipeline/validation/lagrange/lagrange_mesh.h"
 #include "solver/newton/model.h"
 #include "solver/newton/newton.h"
 
-#include <Eigen/SparseCholesky>
-
 namespace mammotwin {
 
-/// Newton's method on Lagrange elements with discontinuous pressures, for comparison: the element's energy
-/// and contact are those of a Model over mesh.broken(X), the pressures are unknowns of Newton and
-/// eliminated element by element in the linear algebra.
+/// Newton's method on Lagrange elements with discontinuous pressures, for comparison: the element's
+/// energy and contact are those of a Model over mesh.broken(X), the pressures are unknowns of
+/// Newton and eliminated element by element in the linear algebra.
 class LagrangeNewton {
  public:
   struct State {
@@ -45,7 +45,7 @@ class LagrangeNewton {
   const LagrangeMesh& mesh_;
   const Model& model_;
   int num_equations_ = 0;
-  std::vector<int> equation_;  ///< of dof 3 n + i; -1: held
+  std::vector<int> equation_;                        ///< of dof 3 n + i; -1: held
   std::vector<std::vector<int>> element_equations_;  ///< component by component
   std::vector<Linear> linear_;
   Eigen::SparseMatrix<double> matrix_;

@@ -1,7 +1,6 @@
 #include "pipeline/validation/lagrange/strain_jump.h"
 
 #include <Eigen/LU>
-
 #include <array>
 #include <cmath>
 #include <map>
@@ -11,7 +10,8 @@ namespace mammotwin {
 
 namespace {
 
-constexpr int kPoints = 4;  // a side; a grid without points on edges, symmetric under the face's turns
+constexpr int kPoints =
+    4;  // a side; a grid without points on edges, symmetric under the face's turns
 
 struct Sample {
   Eigen::Matrix3d E;

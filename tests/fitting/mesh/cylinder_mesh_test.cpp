@@ -1,14 +1,13 @@
 #include "fitting/mesh/cylinder_mesh.h"
 
-#include "fitting/mesh/jacobian_bound.h"
-
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
-
 #include <map>
 #include <numbers>
 #include <stdexcept>
+
+#include "fitting/mesh/jacobian_bound.h"
 
 namespace mammotwin {
 namespace {
@@ -18,8 +17,8 @@ using Eigen::Vector3d;
 constexpr double radius = 25, length = 100;
 
 std::vector<CylinderElements> sizes() {
-  return {{1, 1, 1, 0.5}, {2, 1, 3, 0.5}, {3, 2, 2, 0.45}, {4, 2, 1, 0.5},
-          {2, 3, 4, 0.5, 0.3, 0.2}};
+  return {
+      {1, 1, 1, 0.5}, {2, 1, 3, 0.5}, {3, 2, 2, 0.45}, {4, 2, 1, 0.5}, {2, 3, 4, 0.5, 0.3, 0.2}};
 }
 
 /// Point (a, b) in [0,1]² of face 0 to 5, in the order of FaceLabels.

@@ -1,12 +1,12 @@
 #include "fitting/mesh/hermite_mesh.h"
 
-#include "fitting/mesh/hermite_basis.h"
-#include "tests/fitting/distorted_mesh.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <stdexcept>
+
+#include "fitting/mesh/hermite_basis.h"
+#include "tests/fitting/distorted_mesh.h"
 
 namespace mammotwin {
 namespace {
@@ -16,8 +16,8 @@ using Eigen::Vector3d;
 // Rounding of sums of 64 products of numbers up to 40 mm: 64 * 40 * 1e-16 < 1e-12.
 constexpr double rounding = 1e-12;
 
-const std::vector<Vector3d> places = {
-    {0, 0, 0}, {1, 1, 1}, {0.5, 0.5, 0.5}, {0.1, 0.7, 0.3}, {0.9, 0.2, 0.6}, {1, 0, 0.4}};
+const std::vector<Vector3d> places = {{0, 0, 0},       {1, 1, 1},       {0.5, 0.5, 0.5},
+                                      {0.1, 0.7, 0.3}, {0.9, 0.2, 0.6}, {1, 0, 0.4}};
 
 /// Σ cᵢⱼₖ xⁱ yʲ zᵏ, i, j, k to 3, and its derivatives by the power rule.
 struct TriCubic {
@@ -32,7 +32,8 @@ struct TriCubic {
     for (int i = 0; i < 4; ++i)
       for (int j = 0; j < 4; ++j)
         for (int k = 0; k < 4; ++k)
-          sum += coefficient(i, j, k) * power(x[0], i, dx) * power(x[1], j, dy) * power(x[2], k, dz);
+          sum +=
+              coefficient(i, j, k) * power(x[0], i, dx) * power(x[1], j, dy) * power(x[2], k, dz);
     return sum;
   }
 };
@@ -81,8 +82,8 @@ TEST(HermiteMesh, ReproducesTriCubicPolynomials) {
     const Vector3d x = node.col(0);
     for (int d = 0; d < 8; ++d) {
       const int dx = d & 1, dy = d >> 1 & 1, dz = d >> 2;
-      node(0, d) = p(x, dx, dy, dz) * std::pow(size[0], dx) * std::pow(size[1], dy) *
-                   std::pow(size[2], dz);
+      node(0, d) =
+          p(x, dx, dy, dz) * std::pow(size[0], dx) * std::pow(size[1], dy) * std::pow(size[2], dz);
     }
   }
   const HermiteMesh mesh(nodes, box.elements());

@@ -1,8 +1,8 @@
 #include "fitting/mesh/inverse_map.h"
 
-#include "tests/fitting/distorted_mesh.h"
-
 #include <gtest/gtest.h>
+
+#include "tests/fitting/distorted_mesh.h"
 
 namespace mammotwin {
 namespace {

@@ -1,10 +1,10 @@
 #include "fitting/mesh/jacobian_bound.h"
 
-#include "tests/fitting/distorted_mesh.h"
-
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
+
+#include "tests/fitting/distorted_mesh.h"
 
 namespace mammotwin {
 namespace {

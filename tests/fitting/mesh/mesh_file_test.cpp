@@ -1,11 +1,6 @@
 #include "fitting/mesh/mesh_file.h"
 
-#include "fitting/mesh/bezier_evaluation.h"
-#include "fitting/mesh/cylinder_mesh.h"
-#include "tests/fitting/distorted_mesh.h"
-
 #include <gtest/gtest.h>
-
 #include <vtkCell.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
@@ -17,13 +12,17 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "fitting/mesh/bezier_evaluation.h"
+#include "fitting/mesh/cylinder_mesh.h"
+#include "tests/fitting/distorted_mesh.h"
+
 namespace mammotwin {
 namespace {
 
 using Eigen::Vector3d;
 
-const std::vector<Vector3d> places = {
-    {0, 0, 0}, {1, 1, 1}, {0.5, 0.5, 0.5}, {0.1, 0.7, 0.3}, {0.9, 0.2, 0.6}, {1, 0, 0.4}};
+const std::vector<Vector3d> places = {{0, 0, 0},       {1, 1, 1},       {0.5, 0.5, 0.5},
+                                      {0.1, 0.7, 0.3}, {0.9, 0.2, 0.6}, {1, 0, 0.4}};
 
 class MeshFileTest : public testing::Test {
  protected:
@@ -169,7 +168,8 @@ TEST_F(MeshFileTest, AMissingFileIsNamed) {
 /// A grid without cells that holds this field data, written by hand.
 std::string grid_with(const std::string& field_data) {
   return "<VTKFile type=\"UnstructuredGrid\" version=\"2.2\" byte_order=\"LittleEndian\">"
-         "<UnstructuredGrid><FieldData>" + field_data +
+         "<UnstructuredGrid><FieldData>" +
+         field_data +
          "</FieldData><Piece NumberOfPoints=\"0\" NumberOfCells=\"0\"><Points>"
          "<DataArray type=\"Float64\" Name=\"Points\" NumberOfComponents=\"3\" format=\"ascii\"/>"
          "</Points><Cells>"

@@ -1,13 +1,13 @@
 #include "pipeline/synthesize/gel_breast.h"
 
-#include "fitting/surface/closest_point.h"
-#include "fitting/surface/face_mesh.h"
-#include "fitting/scan/scanned_breast.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+
+#include "fitting/scan/scanned_breast.h"
+#include "fitting/surface/closest_point.h"
+#include "fitting/surface/face_mesh.h"
 
 namespace mammotwin {
 namespace {
@@ -26,9 +26,9 @@ Errors errors_of(const TriangleSurface& skin, const Eigen::Isometry3d& file_from
     const Eigen::Vector3d x = file_from_frame * skin.vertices[v];
     const double squared = areas[v] * (truth(x).x - x).squaredNorm();
     e.all += squared, e.area += areas[v];
-    const bool in_hole = std::any_of(
-        holes.middles.begin(), holes.middles.end(),
-        [&](const Eigen::Vector3d& m) { return (x - m).norm() <= holes.radius_mm; });
+    const bool in_hole =
+        std::any_of(holes.middles.begin(), holes.middles.end(),
+                    [&](const Eigen::Vector3d& m) { return (x - m).norm() <= holes.radius_mm; });
     if (!in_hole) e.outside += squared, e.outside_area += areas[v];
   }
   return e;
@@ -48,7 +48,8 @@ TEST(GelBreast, IsFittedToAQuarterMillimetreOfItsTrueSkin) {
   const double outside = std::sqrt(e.outside / e.outside_area), all = std::sqrt(e.all / e.area);
   EXPECT_LT(outside, 0.25);
   EXPECT_LT(all, 0.4);
-  std::cout << "RMS to the true skin: " << outside << " mm outside the holes, " << all << " mm in all\n";
+  std::cout << "RMS to the true skin: " << outside << " mm outside the holes, " << all
+            << " mm in all\n";
 }
 
 }  // namespace

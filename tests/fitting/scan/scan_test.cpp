@@ -1,12 +1,11 @@
-#include "fitting/scan/scan_cloud.h"
-
-#include "fitting/scan/scanned_breast.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <fstream>
 #include <limits>
+
+#include "fitting/scan/scan_cloud.h"
+#include "fitting/scan/scanned_breast.h"
 
 namespace mammotwin {
 namespace {
@@ -58,10 +57,11 @@ TEST(ScanCloud, ReadsPlyStlAndObj) {
   std::ofstream(folder + "/few.stl") << "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\n"
                                         "vertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid\n";
   std::ofstream(folder + "/few.obj") << "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
-  std::ofstream(folder + "/few.ply") << "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\n"
-                                        "property float y\nproperty float z\nproperty float nx\n"
-                                        "property float ny\nproperty float nz\nend_header\n"
-                                        "0 0 0 0 0 1\n1 0 0 0 0 1\n0 1 0 0 0 1\n";
+  std::ofstream(folder + "/few.ply")
+      << "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\n"
+         "property float y\nproperty float z\nproperty float nx\n"
+         "property float ny\nproperty float nz\nend_header\n"
+         "0 0 0 0 0 1\n1 0 0 0 0 1\n0 1 0 0 0 1\n";
   std::ofstream(folder + "/few.xyz") << "0 0 0 0 0 1\n1 0 0 0 0 1\n0 1 0 0 0 1\n";
   for (const char* name : {"few.stl", "few.obj", "few.ply", "few.xyz"}) {
     std::string message;
@@ -130,8 +130,7 @@ TEST(ScannedBreast, FillsHolesAndFitsTheSkin) {
   EXPECT_EQ(scanned.holes, 1);
   FitOptions fit;
   fit.elements = Eigen::Vector3i(4, 4, 2);
-  const FitReport report =
-      fit_breast(scanned.segmentation, fit, {}, &scanned.skin).report;
+  const FitReport report = fit_breast(scanned.segmentation, fit, {}, &scanned.skin).report;
   EXPECT_TRUE(report.usable());
   EXPECT_LT(report.skin_rms_data_to_mesh_mm, 0.3);  // a bell of 25 mm on elements of 20 to 30
 }

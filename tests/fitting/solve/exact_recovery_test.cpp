@@ -1,11 +1,11 @@
-#include "fitting/mesh/block_mesh.h"
-#include "fitting/slab/skin_patches.h"
-#include "pipeline/validation/box_fit.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
+
+#include "fitting/mesh/block_mesh.h"
+#include "fitting/slab/skin_patches.h"
+#include "pipeline/validation/box_fit.h"
 
 namespace mammotwin {
 namespace {

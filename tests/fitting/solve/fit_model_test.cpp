@@ -1,12 +1,12 @@
 #include "fitting/solve/fit_model.h"
 
-#include "fitting/mesh/jacobian_bound.h"
-#include "fitting/solve/newton_step.h"
-#include "tests/fitting/distorted_mesh.h"
-
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+
+#include "fitting/mesh/jacobian_bound.h"
+#include "fitting/solve/newton_step.h"
+#include "tests/fitting/distorted_mesh.h"
 
 namespace mammotwin {
 namespace {
@@ -21,7 +21,8 @@ std::vector<PlaneSample> some_samples(const HermiteMesh& mesh) {
   for (int i = 0; i < 60; ++i) {
     const MeshPoint p{i % mesh.num_elements(), {uniform(random), uniform(random), double(i % 2)}};
     const Eigen::Vector3d n(uniform(random) - 0.5, 1, uniform(random) - 0.5);
-    samples.push_back({p, n.normalized(), mesh.position(p) + Eigen::Vector3d(0.3, -0.8, 0.5), 0.02});
+    samples.push_back(
+        {p, n.normalized(), mesh.position(p) + Eigen::Vector3d(0.3, -0.8, 0.5), 0.02});
   }
   return samples;
 }
@@ -103,8 +104,8 @@ TEST(NewtonStep, PullsASheetToItsTargetsAndKeepsWhatIsHeld) {
   for (int e = 0; e < 4; ++e)
     for (int m = 0; m < 16; ++m) {
       const MeshPoint p{e, {m % 4 / 3.0, m / 4 / 3.0, 1}};
-      samples.push_back({p, Eigen::Vector3d::UnitY(), box.position(p) - Eigen::Vector3d(0, 2, 0),
-                         1.0});
+      samples.push_back(
+          {p, Eigen::Vector3d::UnitY(), box.position(p) - Eigen::Vector3d(0, 2, 0), 1.0});
     }
   FitModel model(slab, box, 1e-3, 1e-8, {0, 0, 0, 0});
   for (int step = 0; step < 10; ++step) {

@@ -1,10 +1,10 @@
 #include "fitting/solve/tensor_hessian.h"
 
-#include "fitting/mesh/hermite_mesh.h"
-
 #include <gtest/gtest.h>
 
 #include <random>
+
+#include "fitting/mesh/hermite_mesh.h"
 
 namespace mammotwin {
 namespace {

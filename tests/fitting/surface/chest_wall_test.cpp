@@ -1,8 +1,7 @@
-#include "fitting/surface/wall_height.h"
-
-#include "tests/fitting/dome.h"
-
 #include <gtest/gtest.h>
+
+#include "fitting/surface/wall_height.h"
+#include "tests/fitting/dome.h"
 
 namespace mammotwin {
 namespace {

@@ -1,12 +1,11 @@
-#include "fitting/surface/closest_point.h"
-#include "fitting/surface/flatten.h"
-
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
-
 #include <cmath>
 #include <stdexcept>
+
+#include "fitting/surface/closest_point.h"
+#include "fitting/surface/flatten.h"
 
 namespace mammotwin {
 namespace {

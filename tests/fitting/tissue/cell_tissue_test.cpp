@@ -1,11 +1,11 @@
 #include "fitting/tissue/cell_tissue.h"
 
-#include "fitting/tissue/tissue_volumes.h"
-#include "tests/fitting/distorted_mesh.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
+
+#include "fitting/tissue/tissue_volumes.h"
+#include "tests/fitting/distorted_mesh.h"
 
 namespace mammotwin {
 namespace {
@@ -30,14 +30,16 @@ Eigen::AlignedBox3d box_of(const HermiteMesh& mesh) {
 Volume<Fractions> ball_and_half(const HermiteMesh& mesh) {
   const Eigen::AlignedBox3d box = box_of(mesh);
   const Eigen::Vector3i size = (box.sizes().array() + 20).ceil().matrix().cast<int>();
-  Volume<Fractions> volume(size, Eigen::Vector3d::Ones(), box.min() - Eigen::Vector3d::Constant(9.7));
+  Volume<Fractions> volume(size, Eigen::Vector3d::Ones(),
+                           box.min() - Eigen::Vector3d::Constant(9.7));
   for (int k = 0; k < size.z(); ++k)
     for (int j = 0; j < size.y(); ++j)
       for (int i = 0; i < size.x(); ++i) {
         const Eigen::Vector3d x = volume.position(i, j, k);
         const bool lesion = (x - box.center()).norm() < radius_mm;
-        volume(i, j, k) = lesion ? Fractions{0, 0, 1}
-                          : x.x() > box.center().x() ? Fractions{0, 1, 0} : Fractions{1, 0, 0};
+        volume(i, j, k) = lesion                     ? Fractions{0, 0, 1}
+                          : x.x() > box.center().x() ? Fractions{0, 1, 0}
+                                                     : Fractions{1, 0, 0};
       }
   return volume;
 }
@@ -89,8 +91,8 @@ TEST(CellTissue, CountsWhatLiesJustBehindTheMesh) {
   Volume<Fractions> voxels = emptied_outside(ball_and_half(mesh), mesh);
   for (auto& f : voxels.values)
     if (f.fibroglandular > 0) f = {1, 0, 0};
-  // A lamella of gland, 2 mm thick, from 3 to 5 mm behind the middle of the mesh's far end in y, and
-  // one as far beyond its end in x, which is a cut plane.
+  // A lamella of gland, 2 mm thick, from 3 to 5 mm behind the middle of the mesh's far end in y,
+  // and one as far beyond its end in x, which is a cut plane.
   const Eigen::AlignedBox3d box = box_of(mesh);
   double behind_ml = 0;
   for (int k = 0; k < voxels.size.z(); ++k)
@@ -129,7 +131,8 @@ TEST(CellTissue, LeavesNoNegativeFat) {
   const CellTissue tissue(mesh, voxels);
   const Eigen::AlignedBox3d box = box_of(mesh);
   for (int i = 0; i < 4000; ++i) {
-    const Eigen::Vector3d place((i % 16 + 0.5) / 16, (i / 16 % 16 + 0.5) / 16, (i / 256 + 0.5) / 16);
+    const Eigen::Vector3d place((i % 16 + 0.5) / 16, (i / 16 % 16 + 0.5) / 16,
+                                (i / 256 + 0.5) / 16);
     const Fractions f = tissue.at(box.min() + box.sizes().cwiseProduct(place));
     EXPECT_GE(f.fat, 0);
     EXPECT_FALSE(std::signbit(f.fat));

@@ -1,17 +1,19 @@
 #include "fitting/tissue/tissue_volumes.h"
 
+#include <gtest/gtest.h>
+
 #include "tests/fitting/distorted_mesh.h"
 #include "tests/fitting/dome.h"
-
-#include <gtest/gtest.h>
 
 namespace mammotwin {
 namespace {
 
 TEST(TissueVolumes, AHalfAndHalfBoxHoldsHalfOfEach) {
-  const HermiteMesh box = block_mesh(Eigen::Vector3d::Zero(), Eigen::Vector3d(40, 20, 10), {2, 2, 1});
-  const TissueVolumes v = tissue_in_mesh(
-      box, [](const Eigen::Vector3d&, double) { return Fractions{0.5f, 0.25f, 0.25f}; });
+  const HermiteMesh box =
+      block_mesh(Eigen::Vector3d::Zero(), Eigen::Vector3d(40, 20, 10), {2, 2, 1});
+  const TissueVolumes v = tissue_in_mesh(box, [](const Eigen::Vector3d&, double) {
+    return Fractions{0.5f, 0.25f, 0.25f};
+  });
   EXPECT_NEAR(v.fat, 4, 1e-12);
   EXPECT_NEAR(v.fibroglandular, 2, 1e-12);
   EXPECT_NEAR(v.lesion, 2, 1e-12);
@@ -20,7 +22,8 @@ TEST(TissueVolumes, AHalfAndHalfBoxHoldsHalfOfEach) {
 TEST(TissueVolumes, CellsOfADistortedMeshFillIt) {
   // A linear fraction in x over a box whose inner nodes are moved: the outside stays, and so do
   // both integrals. 4 points integrate degree 7 of 11 along each ξ; distortion is mild.
-  const HermiteMesh box = block_mesh(Eigen::Vector3d::Zero(), Eigen::Vector3d::Constant(20), {2, 2, 2});
+  const HermiteMesh box =
+      block_mesh(Eigen::Vector3d::Zero(), Eigen::Vector3d::Constant(20), {2, 2, 2});
   std::vector<HermiteMesh::Node> nodes = box.nodes();
   nodes[13].col(0) += Eigen::Vector3d(1.5, -1, 0.5);
   nodes[13].col(3) += Eigen::Vector3d(0.5, 1, -2);

@@ -81,7 +81,8 @@ Outcome run_fake(const std::string& name, const Shape& shape, const Arguments& a
   for (std::size_t i = 0; i < shape.num_inputs; ++i) text += sha256_of_path(args.inputs[i]);
   const std::string hash = sha256_of_text(text);
   write_product(run.products.write_main(), hash);
-  for (const std::string& side : is_asked("short") ? std::vector<std::string>{} : shape.side_products)
+  for (const std::string& side :
+       is_asked("short") ? std::vector<std::string>{} : shape.side_products)
     write_product(run.products.write(side), sha256_of_text(hash + side));
   if (is_asked("look")) return {Status::look, {"the skin is thin"}, fake_quality(hash)};
   return {Status::ok, {}, fake_quality(hash)};
@@ -93,8 +94,10 @@ Stage fake_stage(const std::string& name, Arguments& args) {
   stage.name = name;
   stage.summary = "a stage without mathematics";
   stage.declare = [&, name](StageDeclaration& declaration) {
-    if (name == "compress") declaration.command().option("view", args.view, "which view").required();
-    if (name == "report") declaration.command().option("folder", args.view, "of results").required();
+    if (name == "compress")
+      declaration.command().option("view", args.view, "which view").required();
+    if (name == "report")
+      declaration.command().option("folder", args.view, "of results").required();
     for (std::size_t i = 0; i < shape.num_inputs; ++i)
       declaration.input("input" + std::to_string(i), args.inputs[i], "");
     declaration.product("product", args.product, "");

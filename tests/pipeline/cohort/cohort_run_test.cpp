@@ -82,7 +82,8 @@ TEST_F(RunCohort, DoesNotRunAFailureAgainUntilSomethingHasChanged) {
   EXPECT_EQ(refused(), first_refused);
   EXPECT_EQ(diverged(), first_diverged);
   EXPECT_EQ(text_of(results("failed.tsv")), failed);
-  EXPECT_NE(text_of(results(".cohort/logs/cube.txt")).find("it is not run again"), std::string::npos);
+  EXPECT_NE(text_of(results(".cohort/logs/cube.txt")).find("it is not run again"),
+            std::string::npos);
   run_cohort({"FORCE=1"});
   EXPECT_NE(refused(), first_refused);
   add_patient("stiff");

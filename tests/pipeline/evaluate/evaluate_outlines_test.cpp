@@ -1,16 +1,17 @@
-#include "pipeline/evaluate/outline_row.h"
-#include "registration/view/compressed_view.h"
-#include "tests/registration/squeezed_box.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "pipeline/evaluate/outline_row.h"
+#include "registration/view/compressed_view.h"
+#include "tests/registration/squeezed_box.h"
+
 namespace mammotwin {
 namespace {
 
-const std::filesystem::path kCases = std::filesystem::path(MAMMOTWIN_SOURCE_DIR) / "../shared/cases";
+const std::filesystem::path kCases =
+    std::filesystem::path(MAMMOTWIN_SOURCE_DIR) / "../shared/cases";
 
 class Outlines : public testing::Test {
  protected:
@@ -38,8 +39,8 @@ TEST_F(Outlines, MeanIsThePublishedOne) {
   }
 }
 
-// 360, 613 and 1222 ml by a numpy script over the same tables; a half ellipse as deep and wide as the
-// mean at 55 mm, without a rounded rim, would have 729 ml.
+// 360, 613 and 1222 ml by a numpy script over the same tables; a half ellipse as deep and wide as
+// the mean at 55 mm, without a rounded rim, would have 729 ml.
 TEST_F(Outlines, TypicalThicknessIsThatOfTheVolume) {
   const OutlinePopulation p = population();
   EXPECT_NEAR(p.volume_ml(40), 360, 1);

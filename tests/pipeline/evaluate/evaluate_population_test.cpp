@@ -1,10 +1,10 @@
-#include "pipeline/evaluate/population.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <set>
+
+#include "pipeline/evaluate/population.h"
 
 namespace mammotwin {
 namespace {

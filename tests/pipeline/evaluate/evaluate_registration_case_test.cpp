@@ -13,14 +13,15 @@ using nlohmann::json;
 class EvaluateRegistration : public ScratchFolder {
  protected:
   CommandResult run(const std::string& how) {
-    return run_command({MAMMOTWIN_BIN "/mammotwin-evaluate-registration", table(), "--synthetic", "1", how});
+    return run_command(
+        {MAMMOTWIN_BIN "/mammotwin-evaluate-registration", table(), "--synthetic", "1", how});
   }
   std::string table() const { return (folder_ / "registration.json").string(); }
   json row() const { return json::parse(text_of(table())).at("cases").at(0); }
 };
 
-// Few elements on both sides: what is asserted is that the search brings marks nearer, and that they are
-// judged, not how near they come (pipeline/evaluate/README.md has that, on full meshes).
+// Few elements on both sides: what is asserted is that the search brings marks nearer, and that
+// they are judged, not how near they come (pipeline/evaluate/README.md has that, on full meshes).
 TEST_F(EvaluateRegistration, BringsMarksNearerAndJudgesThem) {
   const CommandResult done = run("--coarse");
   ASSERT_EQ(done.exit_code, 0) << done.text;

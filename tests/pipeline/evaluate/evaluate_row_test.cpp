@@ -19,7 +19,7 @@ json good_sidecar() {
 }
 
 json judged(const json& sidecar) {
-  json row{{"name", "a"},     {"view", "cc"},    {"target_thickness_mm", 55}, {"hard", true},
+  json row{{"name", "a"},      {"view", "cc"},     {"target_thickness_mm", 55}, {"hard", true},
            {"reached", false}, {"possible", true}, {"reason", nullptr}};
   judge_row(row, sidecar);
   return row;

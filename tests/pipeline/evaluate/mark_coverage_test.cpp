@@ -23,7 +23,8 @@ std::vector<JudgedMark> marks(int count, double stated) {
 // A normal law's ellipse of probability p has semi-axes sqrt(-2 ln(1 - p)) sd.
 TEST(MarkCoverage, AnHonestEllipseHoldsWhatItSays) {
   const auto row = coverage_of(marks(4000, 1));
-  EXPECT_NEAR(row["inside_50"].get<double>(), 0.5, 0.032);  // four standard deviations of 4000 draws
+  EXPECT_NEAR(row["inside_50"].get<double>(), 0.5,
+              0.032);  // four standard deviations of 4000 draws
   EXPECT_NEAR(row["inside_90"].get<double>(), 0.9, 0.019);
   EXPECT_NEAR(row["major_50_mm"].get<double>(), 2 * std::sqrt(2 * std::log(2.0)), 1e-9);
   EXPECT_NEAR(row["major_90_mm"].get<double>(), 2 * std::sqrt(2 * std::log(10.0)), 1e-9);
@@ -47,7 +48,8 @@ TEST(MarkCoverage, GoesThroughJson) {
 TEST(MarkCoverage, SaysNothingOfNoMarks) {
   EXPECT_TRUE(coverage_of({})["inside_50"].is_null());
   EXPECT_EQ(coverage_summary({{}, {}}), "");
-  EXPECT_NE(coverage_summary({marks(10, 1), marks(10, 1)}).find("20 marks in 2 patients"), std::string::npos);
+  EXPECT_NE(coverage_summary({marks(10, 1), marks(10, 1)}).find("20 marks in 2 patients"),
+            std::string::npos);
 }
 
 }  // namespace

@@ -1,9 +1,9 @@
 #include "pipeline/frame/products.h"
 
-#include "tests/pipeline/scratch_folder.h"
-
 #include <sys/wait.h>
 #include <unistd.h>
+
+#include "tests/pipeline/scratch_folder.h"
 
 namespace mammotwin {
 namespace {

@@ -62,8 +62,10 @@ Browser::Browser(const std::filesystem::path& profile) {
   to_ = commands[1];
   from_ = answers[0];
   const json target = call("Target.createTarget", {{"url", "about:blank"}});
-  session_ = call("Target.attachToTarget", {{"targetId", target["targetId"]}, {"flatten", true}})["sessionId"];
-  for (const char* domain : {"Runtime", "Log", "Network", "Page"}) call(std::string(domain) + ".enable");
+  session_ = call("Target.attachToTarget",
+                  {{"targetId", target["targetId"]}, {"flatten", true}})["sessionId"];
+  for (const char* domain : {"Runtime", "Log", "Network", "Page"})
+    call(std::string(domain) + ".enable");
 }
 
 Browser::~Browser() {
@@ -96,8 +98,10 @@ void Browser::note(const json& event) {
   const json p = event.value("params", json::object());
   if (method == "Network.requestWillBeSent") requests_.push_back(p["request"]["url"]);
   if (method == "Runtime.exceptionThrown") complaints_.push_back(p["exceptionDetails"].dump());
-  if (method == "Runtime.consoleAPICalled" && p["type"] == "error") complaints_.push_back(p["args"].dump());
-  if (method == "Log.entryAdded" && p["entry"]["level"] == "error") complaints_.push_back(text_of(p["entry"]["text"]));
+  if (method == "Runtime.consoleAPICalled" && p["type"] == "error")
+    complaints_.push_back(p["args"].dump());
+  if (method == "Log.entryAdded" && p["entry"]["level"] == "error")
+    complaints_.push_back(text_of(p["entry"]["text"]));
 }
 
 json Browser::call(const std::string& method, const json& parameters) {
@@ -124,12 +128,16 @@ void Browser::open(const std::filesystem::path& page) {
   requests_.clear();
   complaints_.clear();
   call("Page.navigate", {{"url", "file://" + page.string()}});
-  if (!wait_until("document.readyState === 'complete'")) throw std::runtime_error("the page does not load");
+  if (!wait_until("document.readyState === 'complete'"))
+    throw std::runtime_error("the page does not load");
 }
 
 json Browser::evaluate(const std::string& expression) {
-  const json result = call("Runtime.evaluate", {{"expression", expression}, {"returnByValue", true}, {"awaitPromise", true}});
-  if (result.contains("exceptionDetails")) throw std::runtime_error(result["exceptionDetails"].dump());
+  const json result =
+      call("Runtime.evaluate",
+           {{"expression", expression}, {"returnByValue", true}, {"awaitPromise", true}});
+  if (result.contains("exceptionDetails"))
+    throw std::runtime_error(result["exceptionDetails"].dump());
   return result["result"].value("value", json());
 }
 
@@ -143,21 +151,25 @@ bool Browser::wait_until(const std::string& expression) {
 }
 
 void Browser::press(const std::string& key) {
-  const std::pair<const char*, int> codes[] = {{"End", 35}, {"Home", 36}, {"ArrowLeft", 37}, {"ArrowRight", 39}};
+  const std::pair<const char*, int> codes[] = {
+      {"End", 35}, {"Home", 36}, {"ArrowLeft", 37}, {"ArrowRight", 39}};
   for (const auto& [name, code] : codes)
     if (key == name)
       for (const char* type : {"rawKeyDown", "keyUp"})
-        call("Input.dispatchKeyEvent", {{"type", type}, {"key", key}, {"code", key}, {"windowsVirtualKeyCode", code}});
+        call("Input.dispatchKeyEvent",
+             {{"type", type}, {"key", key}, {"code", key}, {"windowsVirtualKeyCode", code}});
 }
 
 void Browser::click(const std::string& selector, double right, double down) {
-  const json box = evaluate("(() => { const e = document.querySelector('" + selector +
-                            "'); e.scrollIntoView({block: 'center'}); const b = e.getBoundingClientRect();"
-                            " return [b.left, b.top, b.width, b.height]; })()");
+  const json box =
+      evaluate("(() => { const e = document.querySelector('" + selector +
+               "'); e.scrollIntoView({block: 'center'}); const b = e.getBoundingClientRect();"
+               " return [b.left, b.top, b.width, b.height]; })()");
   const double x = box[0].get<double>() + (0.5 + right) * box[2].get<double>();
   const double y = box[1].get<double>() + (0.5 + down) * box[3].get<double>();
   for (const char* type : {"mousePressed", "mouseReleased"})
-    call("Input.dispatchMouseEvent", {{"type", type}, {"x", x}, {"y", y}, {"button", "left"}, {"clickCount", 1}});
+    call("Input.dispatchMouseEvent",
+         {{"type", type}, {"x", x}, {"y", y}, {"button", "left"}, {"clickCount", 1}});
 }
 
 bool Browser::has_accessible(const std::string& role, const std::string& name) {

@@ -1,9 +1,8 @@
 #pragma once
 
-#include <nlohmann/json.hpp>
-
 #include <filesystem>
 #include <functional>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -32,7 +31,8 @@ class Browser {
 
   /// A real key, pressed where the focus is: "ArrowRight", "Home".
   void press(const std::string& key);
-  /// A real click in the middle of the element that a CSS selector finds, shifted by shares of its size.
+  /// A real click in the middle of the element that a CSS selector finds, shifted by shares of its
+  /// size.
   void click(const std::string& selector, double right = 0, double down = 0);
 
   /// Is there an element with this role and name for a screen reader?
@@ -42,7 +42,8 @@ class Browser {
   const std::vector<std::string>& requests() const { return requests_; }
   const std::vector<std::string>& complaints() const { return complaints_; }
 
-  nlohmann::json call(const std::string& method, const nlohmann::json& parameters = nlohmann::json::object());
+  nlohmann::json call(const std::string& method,
+                      const nlohmann::json& parameters = nlohmann::json::object());
 
  private:
   nlohmann::json next_message();

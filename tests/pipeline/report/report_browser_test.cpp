@@ -1,12 +1,12 @@
 // The page in Chromium: what a person can do with it, and that it keeps to itself.
 
+#include <sstream>
+
 #include "pipeline/report/page_data.h"
 #include "pipeline/report/page_template.h"
-#include "tests/pipeline/report/report_fake_results.h"
 #include "tests/pipeline/report/browser.h"
+#include "tests/pipeline/report/report_fake_results.h"
 #include "tests/pipeline/scratch_folder.h"
-
-#include <sstream>
 
 namespace mammotwin {
 namespace {
@@ -21,13 +21,17 @@ class ReportInABrowser : public ScratchFolder {
   }
   void TearDown() override { browser_.reset(); }
 
-  std::string at_the_cross() { return browser_->evaluate("document.getElementById('planes-status').textContent"); }
+  std::string at_the_cross() {
+    return browser_->evaluate("document.getElementById('planes-status').textContent");
+  }
   /// Pixels of a plane (0: axial, 1: sagittal, 2: coronal), as text.
   std::string picture_of(int plane) {
-    return browser_->evaluate("document.querySelectorAll('#planes canvas')[" + std::to_string(plane) + "].toDataURL()");
+    return browser_->evaluate("document.querySelectorAll('#planes canvas')[" +
+                              std::to_string(plane) + "].toDataURL()");
   }
   Eigen::Vector3d lesion_in_3d() {
-    std::istringstream text(browser_->evaluate("document.getElementById('viewer').dataset.lesion").get<std::string>());
+    std::istringstream text(
+        browser_->evaluate("document.getElementById('viewer').dataset.lesion").get<std::string>());
     Eigen::Vector3d x;
     text >> x.x() >> x.y() >> x.z();
     return x;
@@ -38,7 +42,8 @@ class ReportInABrowser : public ScratchFolder {
     browser_->evaluate("document.querySelector('#planes figure input').focus()");
     browser_->press("ArrowRight");
     EXPECT_NE(at_the_cross().find("S −10.0 mm"), std::string::npos) << at_the_cross();
-    EXPECT_EQ(browser_->evaluate("document.querySelector('#planes figure input').getAttribute('aria-valuetext')"),
+    EXPECT_EQ(browser_->evaluate(
+                  "document.querySelector('#planes figure input').getAttribute('aria-valuetext')"),
               "S −10.0 mm");
   }
   void print_the_stills() {
@@ -65,7 +70,7 @@ TEST_F(ReportInABrowser, FindsALesionByItsLabelAndMovesThePlanes) {
   EXPECT_NE(picture_of(2), coronal);
   EXPECT_EQ(at_the_cross().find("L 65.0"), std::string::npos);
   EXPECT_NE(at_the_cross().find("S −12.0 mm"), std::string::npos);  // that plane itself stays
-  EXPECT_NE(picture_of(0), axial);                                   // but for its cross
+  EXPECT_NE(picture_of(0), axial);                                  // but for its cross
   go_through_slices_by_keyboard();
 }
 
@@ -81,20 +86,26 @@ TEST_F(ReportInABrowser, CompressesWithTheSlider) {
   EXPECT_LT((lesion_in_3d() - lesion.prone_in_lps).norm(), 0.02);
   browser_->press("End");
   EXPECT_LT((lesion_in_3d() - squeezed).norm(), 0.02);
-  for (const char* shape : {"Prone", "Unloaded", "CC", "MLO"}) EXPECT_TRUE(browser_->has_accessible("radio", shape)) << shape;
+  for (const char* shape : {"Prone", "Unloaded", "CC", "MLO"})
+    EXPECT_TRUE(browser_->has_accessible("radio", shape)) << shape;
 }
 
 TEST_F(ReportInABrowser, PrintsAsksForNothingAndComplainsOfNothing) {
   print_the_stills();
   ASSERT_TRUE(browser_->wait_until("document.getElementById('viewer').dataset.lesion"));
   for (const std::string& url : browser_->requests())
-    EXPECT_TRUE(url.starts_with("file://" + folder_.string()) || url.starts_with("data:") || url.starts_with("blob:")) << url;
+    EXPECT_TRUE(url.starts_with("file://" + folder_.string()) || url.starts_with("data:") ||
+                url.starts_with("blob:"))
+        << url;
   EXPECT_GE(browser_->requests().size(), 1u);  // the page itself: the count works
   for (const std::string& complaint : browser_->complaints()) ADD_FAILURE() << complaint;
   // Time to the first picture, to be read and not to be judged on a machine that does other things.
-  const auto first = browser_->evaluate("performance.getEntriesByName('first-contentful-paint')[0]?.startTime");
+  const auto first =
+      browser_->evaluate("performance.getEntriesByName('first-contentful-paint')[0]?.startTime");
   RecordProperty("first_contentful_paint_ms", first.dump());
-  RecordProperty("planes_ms", browser_->evaluate("document.getElementById('planes').dataset.ready").get<std::string>());
+  RecordProperty(
+      "planes_ms",
+      browser_->evaluate("document.getElementById('planes').dataset.ready").get<std::string>());
 }
 
 }  // namespace

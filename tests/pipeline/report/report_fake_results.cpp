@@ -1,9 +1,9 @@
 #include "tests/pipeline/report/report_fake_results.h"
 
-#include "fitting/mesh/block_mesh.h"
-
 #include <cmath>
 #include <functional>
+
+#include "fitting/mesh/block_mesh.h"
 
 namespace mammotwin {
 namespace {
@@ -76,8 +76,7 @@ ViewResult squeezed(const MeshFile& prone, Side side, const std::string& name, d
   }
   CompressedView view{name, side, angle_deg, kThickness, {}};
   view.frame.axes = axes;
-  view.frame.origin_in_lps =
-      middle + axes.transpose() * Eigen::Vector3d(10, 0, -kThickness / 2);
+  view.frame.origin_in_lps = middle + axes.transpose() * Eigen::Vector3d(10, 0, -kThickness / 2);
   MeshFile file{HermiteMesh(std::move(nodes), prone.mesh.elements()), prone.faces, {}, {}, {}, {}};
   return {std::move(file), std::move(view), Detector{}};
 }
@@ -112,7 +111,7 @@ Segmentation segmentation(Side side) {
           if ((x - s.lesions[n].centroid_in_lps).norm() < 6) label = label::lesion + n;
         if (label == label::air || label == label::muscle) continue;
         Fractions& f = s.fractions(i, j, k);
-        (label::is_lesion(label) ? f.lesion
+        (label::is_lesion(label)          ? f.lesion
          : label == label::fibroglandular ? f.fibroglandular
                                           : f.fat) = 1;
       }
@@ -148,10 +147,11 @@ nlohmann::json sidecar(const std::string& stage, const nlohmann::json& quality) 
 nlohmann::json squeeze_quality(double angle_deg) {
   nlohmann::json history = nlohmann::json::array();
   for (int step = 1; step <= 6; ++step)
-    history.push_back({{"thickness_mm", 120 - 70.0 * step / 6}, {"force_N", 2.4 * step * step},
+    history.push_back({{"thickness_mm", 120 - 70.0 * step / 6},
+                       {"force_N", 2.4 * step * step},
                        {"iterations", 10 + step}});
-  return {{"angle_deg", angle_deg}, {"thickness_mm", kThickness}, {"force_N", 86.4},
-          {"volume_change", 0.0003}, {"newton_iterations", 101}, {"history", history}};
+  return {{"angle_deg", angle_deg},  {"thickness_mm", kThickness}, {"force_N", 86.4},
+          {"volume_change", 0.0003}, {"newton_iterations", 101},   {"history", history}};
 }
 
 }  // namespace
@@ -176,7 +176,8 @@ PatientResults fake_results(Side side) {
       r.rows.push_back(view_row(r.patient, v.view, p.project(lesion), p.project(nipple)));
     }
   }
-  r.stages = {{"segmentation.seg.nrrd", sidecar("segment", {{"side", "left"}, {"breast_volume_ml", 512.3}})},
+  r.stages = {{"segmentation.seg.nrrd",
+               sidecar("segment", {{"side", "left"}, {"breast_volume_ml", 512.3}})},
               {"prone.vtu", sidecar("fit", {{"skin_rms_mesh_to_data_mm", 0.22},
                                             {"skin_rms_data_to_mesh_mm", 0.25},
                                             {"skin_p95_mm", 0.51},

@@ -1,3 +1,8 @@
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+
+#include "fitting/mesh/block_mesh.h"
 #include "pipeline/report/base64.h"
 #include "pipeline/report/depth_image.h"
 #include "pipeline/report/fit_course_figure.h"
@@ -11,11 +16,6 @@
 #include "pipeline/report/section.h"
 #include "pipeline/report/verdict.h"
 #include "tests/pipeline/report/report_fake_results.h"
-
-#include "fitting/mesh/block_mesh.h"
-
-#include <Eigen/Geometry>
-#include <gtest/gtest.h>
 
 namespace mammotwin {
 namespace {
@@ -40,7 +40,8 @@ TEST(MeshSurface, TrianglesLookOutwards) {
 TEST(MeshSurface, PlaneCutsABlockAlongItsOutlineAndItsInnerFaces) {
   const MeshFile file = block();
   double outline = 0, all = 0;
-  for (const auto& [a, b] : cut_by_plane(file.mesh, outer_faces(file), 2, 1.1)) outline += (b - a).norm();
+  for (const auto& [a, b] : cut_by_plane(file.mesh, outer_faces(file), 2, 1.1))
+    outline += (b - a).norm();
   for (const auto& [a, b] : cut_by_plane(file.mesh, all_faces(file), 2, 1.1)) all += (b - a).norm();
   EXPECT_NEAR(outline, 2 * (2 + 3), 1e-12);
   EXPECT_NEAR(all, outline + 3, 1e-12);
@@ -77,7 +78,8 @@ TEST(QualityTable, NamesUnitsAndUnfoldsLists) {
           "lesions": [{"id": "2a", "volume_ml": 0.4}], "history": [{"force_N": 1}]})"));
   ASSERT_EQ(figures.size(), 4u);
   EXPECT_EQ(figures[0].name + "|" + figures[0].value + "|" + figures[0].unit, "force|86.41|N");
-  EXPECT_EQ(figures[1].name + "|" + figures[1].value + "|" + figures[1].unit, "lesions 2a, volume|0.4|ml");
+  EXPECT_EQ(figures[1].name + "|" + figures[1].value + "|" + figures[1].unit,
+            "lesions 2a, volume|0.4|ml");
   EXPECT_EQ(figures[2].value, "not known");
   EXPECT_EQ(figures[3].value + figures[3].unit, "(1.5, -2, 3)mm");
 }
@@ -122,7 +124,8 @@ TEST(FitCourseFigure, ShowsWhatTheFitLeftOfItsIterations) {
       stage.sidecar["quality"]["skin_rms_by_iteration_mm"] = {2.5, 0.61, 0.3, 0.24};
   const auto figure = fit_course_figure(results);
   ASSERT_TRUE(figure);
-  EXPECT_NE(figure->alt.find("from 2.50 to 0.24 mm RMS in 3 iterations"), std::string::npos) << figure->alt;
+  EXPECT_NE(figure->alt.find("from 2.50 to 0.24 mm RMS in 3 iterations"), std::string::npos)
+      << figure->alt;
 }
 
 // A field that is linear in position is its own cubic interpolant.
@@ -143,18 +146,23 @@ TEST(MammogramRaster, PutsPixelsWhereTheDetectorHasThem) {
   real.detector.pixels = PixelGrid{0.5, 20, 20, ImageEdge::left, true};
   for (int row = 0; row < 20; ++row)
     for (int column = 0; column < 10; ++column) real.image.grey[row * 20 + column] = 0;
-  const Section section{2, 0, {0}, {1, true},
+  const Section section{2,
+                        0,
+                        {0},
+                        {1, true},
                         Eigen::AlignedBox3d(Eigen::Vector3d(-2, -4, 0), Eigen::Vector3d(14, 4, 0))};
   Raster raster = mammogram_raster(real, section, 1);
-  EXPECT_EQ(raster(1, 4).red, palette::grid.red);  // behind the edge
-  EXPECT_EQ(raster(4, 4).red, 0);                  // u = 2.5 mm
-  EXPECT_EQ(raster(9, 4).red, 1);                  // u = 7.5 mm
-  EXPECT_EQ(raster(15, 4).red, palette::grid.red); // past the image
+  EXPECT_EQ(raster(1, 4).red, palette::grid.red);   // behind the edge
+  EXPECT_EQ(raster(4, 4).red, 0);                   // u = 2.5 mm
+  EXPECT_EQ(raster(9, 4).red, 1);                   // u = 7.5 mm
+  EXPECT_EQ(raster(15, 4).red, palette::grid.red);  // past the image
 }
 
 TEST(QualityLimit, SaysWhatIsExpectedAndWhetherItHolds) {
-  const nlohmann::json quality = {{"volume_change", -0.03}, {"thickness_mm", 50.05},
-                                  {"target_thickness_mm", 50.0}, {"force_N", 80}};
+  const nlohmann::json quality = {{"volume_change", -0.03},
+                                  {"thickness_mm", 50.05},
+                                  {"target_thickness_mm", 50.0},
+                                  {"force_N", 80}};
   const auto volume = expectation("cc.vtu", "volume_change", quality);
   ASSERT_TRUE(volume);
   EXPECT_EQ(volume->words, "within ± 0.01");

@@ -1,15 +1,15 @@
 #include "pipeline/report/report.h"
 
-#include "pipeline/report/overview_picture.h"
-#include "pipeline/report/page_data.h"
-#include "pipeline/report/page_template.h"
-#include "tests/pipeline/report/report_fake_results.h"
-
 #include <gtest/gtest.h>
 
 #include <filesystem>
 #include <fstream>
 #include <sstream>
+
+#include "pipeline/report/overview_picture.h"
+#include "pipeline/report/page_data.h"
+#include "pipeline/report/page_template.h"
+#include "tests/pipeline/report/report_fake_results.h"
 
 namespace mammotwin {
 namespace {
@@ -42,8 +42,8 @@ const std::string& whole_page() {
 }
 
 TEST(ReportPage, ShowsEveryFigureOfAFinishedChain) {
-  // Two lesions: an MRI figure each, two cuts each; two detectors; prone, unloaded and two views; fit; force;
-  // convergence; frames. (What planes.js makes is not in the text as "<figure".)
+  // Two lesions: an MRI figure each, two cuts each; two detectors; prone, unloaded and two views;
+  // fit; force; convergence; frames. (What planes.js makes is not in the text as "<figure".)
   EXPECT_EQ(count(whole_page(), "<figure"), 2u + 4u + 2u + 4u + 1u + 1u + 1u + 1u);
   EXPECT_NE(whole_page().find("OK: every stage passed"), std::string::npos);
   EXPECT_NE(whole_page().find("not a medical device"), std::string::npos);
@@ -51,13 +51,15 @@ TEST(ReportPage, ShowsEveryFigureOfAFinishedChain) {
 
 TEST(ReportPage, TellsInTheOrderInWhichItIsRead) {
   std::size_t last = 0;
-  for (const char* id : {"verdict", "lesions", "mri", "breast", "fit", "course", "quality", "provenance", "files"}) {
+  for (const char* id :
+       {"verdict", "lesions", "mri", "breast", "fit", "course", "quality", "provenance", "files"}) {
     const std::size_t at = whole_page().find("<section id=\"" + std::string(id) + "\"");
     ASSERT_NE(at, std::string::npos) << id;
     EXPECT_GT(at, last) << id;
     last = at;
   }
-  EXPECT_EQ(count(whole_page(), "<a href=\"cc.vtu\">"), 1u);  // files that a person opens, and no others
+  EXPECT_EQ(count(whole_page(), "<a href=\"cc.vtu\">"),
+            1u);  // files that a person opens, and no others
   EXPECT_EQ(whole_page().find("href=\"cc.vtu.json\""), std::string::npos);
 }
 
@@ -83,7 +85,7 @@ TEST(ReportPage, GivesEveryPictureWordsAndReachesForNothingOutside) {
   for (const char* outside : {"src=\"http", "href=\"http", "@import", "src=\"//"})
     EXPECT_EQ(page.find(outside), std::string::npos) << outside;
   EXPECT_NE(page.find("default-src 'none'"), std::string::npos);  // three.js can fetch; it may not
-  EXPECT_LT(page.size(), 20u << 20);  // the page's limit
+  EXPECT_LT(page.size(), 20u << 20);                              // the page's limit
 }
 
 TEST(ReportPage, SaysTheSameTwice) {
@@ -111,7 +113,8 @@ TEST(ReportPage, IsWrittenWhenTheFirstStageRefused) {
   EXPECT_NE(page.find("Refused"), std::string::npos);
   EXPECT_NE(page.find("the 100.8 mm hole between slices 40 and 41"), std::string::npos);
   EXPECT_EQ(page.find("id=\"viewer\""), std::string::npos);
-  EXPECT_NE(page.find("<h1>Patient refused</h1>"), std::string::npos);  // of a side nothing is known
+  EXPECT_NE(page.find("<h1>Patient refused</h1>"),
+            std::string::npos);  // of a side nothing is known
 }
 
 TEST(ReportPage, NotesAProductThatCannotBeRead) {

@@ -89,7 +89,8 @@ ReadSurface read_surface_with_vtk(const std::filesystem::path& path) {
   surface.triangles = static_cast<int>(data->GetNumberOfPolys());
   if (auto* space = vtkStringArray::SafeDownCast(data->GetFieldData()->GetAbstractArray("SPACE")))
     surface.space = space->GetValue(0);
-  if (data->GetPointData()->GetScalars()) surface.numbers = data->GetPointData()->GetScalars()->GetName();
+  if (data->GetPointData()->GetScalars())
+    surface.numbers = data->GetPointData()->GetScalars()->GetName();
   return surface;
 }
 

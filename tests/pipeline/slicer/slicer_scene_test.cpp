@@ -1,16 +1,15 @@
 // The scene for 3D Slicer, read by VTK and ITK and not by what wrote it.
 
-#include "pipeline/slicer/scene.h"
-
-#include "registration/carry/displacement_field.h"
-#include "registration/export/markups.h"
-#include "registration/carry/point_carrier.h"
-#include "tests/pipeline/report/report_fake_results.h"
-#include "segmentation/files/segmentation_file.h"
-#include "tests/pipeline/slicer/scene_reader.h"
-#include "tests/pipeline/scratch_folder.h"
-
 #include <algorithm>
+
+#include "pipeline/slicer/scene.h"
+#include "registration/carry/displacement_field.h"
+#include "registration/carry/point_carrier.h"
+#include "registration/export/markups.h"
+#include "segmentation/files/segmentation_file.h"
+#include "tests/pipeline/report/report_fake_results.h"
+#include "tests/pipeline/scratch_folder.h"
+#include "tests/pipeline/slicer/scene_reader.h"
 
 namespace mammotwin {
 namespace {
@@ -27,11 +26,15 @@ class SlicerScene : public ScratchFolder {
     write_displacement_field(folder_ / "prone_from_cc.nrrd",
                              displacement_field(cc.file.mesh, results_.prone->mesh));
     std::vector<MarkupPoint> points;
-    for (const Landmark& lesion : results_.lesions()) points.push_back({lesion.id, lesion.prone_in_lps});
+    for (const Landmark& lesion : results_.lesions())
+      points.push_back({lesion.id, lesion.prone_in_lps});
     write_markups(folder_ / "lesions_prone.mrk.json", points);
-    write_closed_curve(folder_ / "ellipse_cc_1.mrk.json", "L1 in cc", {{1, 2, 3}, {2, 3, 4}, {3, 5, 3}});
-    results_.files = {"ellipse_cc_1.mrk.json", "lesions_prone.mrk.json", "mri.nrrd", "prone_from_cc.nrrd", "segmentation.seg.nrrd"};
-    const auto text = slicer_scene(results_, [&](const std::string& name) { return folder_ / name; });
+    write_closed_curve(folder_ / "ellipse_cc_1.mrk.json", "L1 in cc",
+                       {{1, 2, 3}, {2, 3, 4}, {3, 5, 3}});
+    results_.files = {"ellipse_cc_1.mrk.json", "lesions_prone.mrk.json", "mri.nrrd",
+                      "prone_from_cc.nrrd", "segmentation.seg.nrrd"};
+    const auto text =
+        slicer_scene(results_, [&](const std::string& name) { return folder_ / name; });
     nodes_ = read_scene(write("scene.mrml", text));
   }
   /// The file behind an item of the scene.
@@ -53,24 +56,29 @@ TEST_F(SlicerScene, RefersOnlyToNodesAndFilesThatAreThere) {
   EXPECT_EQ(std::adjacent_find(ids.begin(), ids.end()), ids.end());
   int files = 0;
   for (const SceneNode& node : nodes_) {
-    for (const std::string& id : node.references()) EXPECT_TRUE(std::binary_search(ids.begin(), ids.end(), id)) << id;
+    for (const std::string& id : node.references())
+      EXPECT_TRUE(std::binary_search(ids.begin(), ids.end(), id)) << id;
     if (node.attribute("fileName").empty()) continue;
-    EXPECT_TRUE(std::filesystem::exists(folder_ / node.attribute("fileName"))) << node.attribute("fileName");
+    EXPECT_TRUE(std::filesystem::exists(folder_ / node.attribute("fileName")))
+        << node.attribute("fileName");
     ++files;
   }
-  EXPECT_EQ(files, 1 + 1 + 4 + 1 + 1 + 1);  // MRI, segmentation, four surfaces, lesions, ellipse, transform
+  EXPECT_EQ(files, 1 + 1 + 4 + 1 + 1 +
+                       1);  // MRI, segmentation, four surfaces, lesions, ellipse, transform
 }
 
 TEST_F(SlicerScene, LaysSurfacesWhereTheMeshIs) {
-  for (const auto& [name, mesh] : {std::pair<std::string, const HermiteMesh*>{"Breast prone", &results_.prone->mesh},
-                                   {"Breast cc", &results_.view("cc")->file.mesh}}) {
+  for (const auto& [name, mesh] :
+       {std::pair<std::string, const HermiteMesh*>{"Breast prone", &results_.prone->mesh},
+        {"Breast cc", &results_.view("cc")->file.mesh}}) {
     const ReadSurface surface = read_surface_with_vtk(file_of(name));
     EXPECT_EQ(surface.space, "LPS");
     // 6 x 6 columns of 2 layers: 2 * 36 + 4 * 6 * 2 faces of 8 x 8 squares of two triangles.
     EXPECT_EQ(surface.triangles, (2 * 36 + 4 * 12) * 128);
     const Eigen::Vector3d corner = mesh->position({0, Eigen::Vector3d::Zero()});
     double nearest = 1e9;
-    for (const Point& x : surface.points) nearest = std::min(nearest, (vector_of(x) - corner).norm());
+    for (const Point& x : surface.points)
+      nearest = std::min(nearest, (vector_of(x) - corner).norm());
     EXPECT_LT(nearest, 1e-4) << name;  // single precision
   }
   EXPECT_EQ(read_surface_with_vtk(file_of("Breast prone")).numbers, "skin_distance_mm");
@@ -82,14 +90,16 @@ TEST_F(SlicerScene, BringsALesionBackToTheMriThroughTheTransform) {
   const PointCarrier carrier(results_.prone->mesh, results_.view("cc")->file.mesh);
   for (const Landmark& lesion : results_.lesions()) {
     const Eigen::Vector3d compressed = carrier.carry(lesion.prone_in_lps).in_lps;
-    const Point back = transformed_by_itk(file_of("Prone to CC"), {compressed.x(), compressed.y(), compressed.z()});
+    const Point back = transformed_by_itk(file_of("Prone to CC"),
+                                          {compressed.x(), compressed.y(), compressed.z()});
     EXPECT_LT((vector_of(back) - lesion.prone_in_lps).norm(), 0.01);
     EXPECT_GT((compressed - lesion.prone_in_lps).norm(), 1);
   }
 }
 
 TEST_F(SlicerScene, NamesImagesThatItkReadsOnOneGrid) {
-  const ReadGrid mri = read_grid_with_itk(file_of("MRI")), labels = read_grid_with_itk(file_of("Tissue"));
+  const ReadGrid mri = read_grid_with_itk(file_of("MRI")),
+                 labels = read_grid_with_itk(file_of("Tissue"));
   const Eigen::Vector3i size = results_.mri->size;
   EXPECT_EQ(mri.size, (std::array<int, 3>{size.x(), size.y(), size.z()}));
   EXPECT_EQ(labels.size, mri.size);

@@ -1,9 +1,7 @@
-// The load steps of a compression, kept in its mesh and read by VTK from what is written for ParaView.
+// The load steps of a compression, kept in its mesh and read by VTK from what is written for
+// ParaView.
 
 #include "pipeline/steps/compression_course.h"
-
-#include "tests/solver/dome_breast.h"
-#include "tests/pipeline/scratch_folder.h"
 
 #include <vtkFieldData.h>
 #include <vtkNew.h>
@@ -13,6 +11,9 @@
 #include <vtkXMLDataElement.h>
 #include <vtkXMLUnstructuredGridReader.h>
 #include <vtkXMLUtilities.h>
+
+#include "tests/pipeline/scratch_folder.h"
+#include "tests/solver/dome_breast.h"
 
 namespace mammotwin {
 namespace {
@@ -82,7 +83,8 @@ TEST_F(CompressionCourse, IsASeriesThatVtkReads) {
     vtkDataArray* moved = reader->GetOutput()->GetPointData()->GetArray("displacement_from_prone");
     ASSERT_TRUE(moved);
     EXPECT_EQ(moved->GetMaxNorm() > 0, course[s].nodes != course[0].nodes);
-    vtkDataArray* thickness = reader->GetOutput()->GetFieldData()->GetArray("metadata:thickness_mm");
+    vtkDataArray* thickness =
+        reader->GetOutput()->GetFieldData()->GetArray("metadata:thickness_mm");
     ASSERT_TRUE(thickness);
     EXPECT_EQ(thickness->GetTuple1(0), course[s].thickness_mm);
   }

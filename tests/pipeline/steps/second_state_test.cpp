@@ -1,11 +1,11 @@
 #include "pipeline/steps/second_state.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "segmentation/files/write_image_file.h"
 #include "tests/pipeline/scratch_folder.h"
 #include "tests/solver/test_meshes.h"
-
-#include <algorithm>
-#include <cmath>
 
 namespace mammotwin {
 namespace {
@@ -47,8 +47,8 @@ TEST_F(SecondStateTest, DistanceToASurfaceIsTheRootMeanSquare) {
 TEST_F(SecondStateTest, ReadsALabelMapToo) {
   std::vector<std::uint8_t> labels(60 * 60 * 40, 0);
   std::fill(labels.begin(), labels.begin() + 60 * 60 * 22, std::uint8_t{2});
-  write_nrrd(folder_ / "labels.nrrd", {{60, 60, 40}, {1, 1, 1}, {-15, -15, -10}},
-             labels.data(), 1, {});
+  write_nrrd(folder_ / "labels.nrrd", {{60, 60, 40}, {1, 1, 1}, {-15, -15, -10}}, labels.data(), 1,
+             {});
   const MeshFile mesh = slab();
   EXPECT_NEAR(SecondState(folder_ / "labels.nrrd", mesh).distance(mesh.mesh.nodes()), 1.5, 0.05);
 }
@@ -57,8 +57,9 @@ TEST_F(SecondStateTest, SaysWhatIsWrong) {
   const MeshFile mesh = slab();
   EXPECT_NE(message_of([&] { SecondState(folder_ / "none.ply", mesh); }).find("no such file"),
             std::string::npos);
-  EXPECT_NE(message_of([&] { SecondState(write("bad.stl", "solid nothing"), mesh); }).find("bad.stl"),
-            std::string::npos);
+  EXPECT_NE(
+      message_of([&] { SecondState(write("bad.stl", "solid nothing"), mesh); }).find("bad.stl"),
+      std::string::npos);
   MeshFile bare = slab();
   for (auto& labels : bare.faces) labels[5] = FaceLabel::cut;
   EXPECT_NE(message_of([&] { SecondState(plane(12), bare); }).find("no skin"), std::string::npos);

@@ -1,7 +1,7 @@
+#include <gtest/gtest.h>
+
 #include "pipeline/synthesize/hanging_truth.h"
 #include "solver/gravity/hang.h"
-
-#include <gtest/gtest.h>
 
 namespace mammotwin {
 namespace {

@@ -16,7 +16,8 @@ TriangleSurface ball(double radius) {
     for (int i = 0; i < around; ++i) {
       const double polar = pi * j / rings, turn = 2 * pi * i / around;
       s.vertices.push_back(radius * Eigen::Vector3d(std::sin(polar) * std::cos(turn),
-                                                    std::sin(polar) * std::sin(turn), std::cos(polar)));
+                                                    std::sin(polar) * std::sin(turn),
+                                                    std::cos(polar)));
     }
   for (int j = 0; j < rings; ++j)
     for (int i = 0; i < around; ++i) {

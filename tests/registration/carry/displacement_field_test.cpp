@@ -1,12 +1,12 @@
 #include "registration/carry/displacement_field.h"
 
-#include "tests/registration/squeezed_box.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+
+#include "tests/registration/squeezed_box.h"
 
 namespace mammotwin {
 namespace {
@@ -51,8 +51,9 @@ TEST(DisplacementField, IsCorrectedUntilBothCompose) {
 TEST(DisplacementField, FadesToNothingFarFromTheBreast) {
   const SqueezedBox breast = squeezed_box(Side::left, 45, 0.5);
   const DisplacementField field = displacement_field(breast.compressed, breast.prone, 5);
-  const auto empty = std::count_if(field.values.begin(), field.values.end(),
-                                   [](const Eigen::Vector3f& d) { return d == Eigen::Vector3f::Zero(); });
+  const auto empty =
+      std::count_if(field.values.begin(), field.values.end(),
+                    [](const Eigen::Vector3f& d) { return d == Eigen::Vector3f::Zero(); });
   // Squeezed obliquely the box is a parallelogram: two corners of its grid stay empty.
   EXPECT_GT(empty, static_cast<long>(field.values.size()) / 10);
   EXPECT_EQ(displacement_at(field, {1000, 0, 0}), Eigen::Vector3d::Zero());

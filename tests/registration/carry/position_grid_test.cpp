@@ -1,8 +1,8 @@
 #include "registration/carry/position_grid.h"
 
-#include "tests/registration/squeezed_box.h"
-
 #include <gtest/gtest.h>
+
+#include "tests/registration/squeezed_box.h"
 
 namespace mammotwin {
 namespace {
@@ -19,9 +19,9 @@ TEST(PositionGrid, HoldsTheOtherConfigurationInsideAndNothingOutside) {
     for (int j = 0; j < grid.size.y(); ++j)
       for (int i = 0; i < grid.size.x(); ++i) {
         const Eigen::Vector3d prone = back * (grid.position(i, j, k) - breast.b);
-        const bool in_box = Eigen::AlignedBox3d(Eigen::Vector3d(20, -60, -40),
-                                                Eigen::Vector3d(120, 0, 40))
-                                .contains(prone);
+        const bool in_box =
+            Eigen::AlignedBox3d(Eigen::Vector3d(20, -60, -40), Eigen::Vector3d(120, 0, 40))
+                .contains(prone);
         ASSERT_EQ(grid(i, j, k).allFinite(), in_box) << i << ' ' << j << ' ' << k;
         if (!in_box) continue;
         ++inside;
@@ -35,8 +35,9 @@ TEST(PositionGrid, ViewFrameMeshHoldsViewCoordinates) {
   const SqueezedBox breast = squeezed_box(Side::right, 45, 0.5);
   const HermiteMesh mesh = in_view_frame(breast.compressed, breast.view.frame);
   const MeshPoint p{7, {0.3, 0.6, 0.9}};
-  EXPECT_LT((mesh.position(p) -
-             breast.view.frame.view_from_lps(breast.compressed.position(p))).norm(), 1e-12);
+  EXPECT_LT(
+      (mesh.position(p) - breast.view.frame.view_from_lps(breast.compressed.position(p))).norm(),
+      1e-12);
 }
 
 }  // namespace

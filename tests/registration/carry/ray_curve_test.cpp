@@ -1,12 +1,12 @@
 #include "registration/carry/ray_curve.h"
 
-#include "registration/view/project_lesions.h"
-#include "registration/search/search_ellipse.h"
-#include "tests/registration/squeezed_box.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
+
+#include "registration/search/search_ellipse.h"
+#include "registration/view/project_lesions.h"
+#include "tests/registration/squeezed_box.h"
 
 namespace mammotwin {
 namespace {
@@ -57,7 +57,8 @@ TEST(ViewRays, SlopeIsTheDerivativeOfTheCurve) {
   EXPECT_LT((rays.slope(mark, *at) - difference).norm(), 1e-6);
 }
 
-// Tissue at the lesion's height whose mark lies 10 mm from the lesion's; beyond the skin there is none.
+// Tissue at the lesion's height whose mark lies 10 mm from the lesion's; beyond the skin there is
+// none.
 TEST(ViewRays, AnEllipseInTheMriIsSeenAsTheEllipse) {
   const SqueezedBox breast = squeezed_box(Side::left, 45, 0.5);
   const ViewRays rays = rays_of(breast);
@@ -68,7 +69,8 @@ TEST(ViewRays, AnEllipseInTheMriIsSeenAsTheEllipse) {
   ASSERT_EQ(points.size(), 12u);
   for (const Eigen::Vector3d& x : points) {
     EXPECT_NEAR((mark_of(breast, x) - mark).norm(), 10, kRoundTrip_mm);
-    EXPECT_NEAR(breast.view.frame.view_from_lps(breast.A * x + breast.b).z(), height, kRoundTrip_mm);
+    EXPECT_NEAR(breast.view.frame.view_from_lps(breast.A * x + breast.b).z(), height,
+                kRoundTrip_mm);
   }
   EXPECT_TRUE(ellipse_in_prone(rays, mark, rim({300, 300, 0}, 12), height).empty());
 }
@@ -76,7 +78,8 @@ TEST(ViewRays, AnEllipseInTheMriIsSeenAsTheEllipse) {
 TEST(ClosestApproach, OfTwoMarksOfOneLesionIsTheLesion) {
   const SqueezedBox cc = squeezed_box(Side::left, 0, 0.5), mlo = squeezed_box(Side::left, 45, 0.5);
   const ViewRays a = rays_of(cc), b = rays_of(mlo);
-  for (const Eigen::Vector3d& lesion : {Eigen::Vector3d(62, -33, 9), Eigen::Vector3d(88, -20, -17)}) {
+  for (const Eigen::Vector3d& lesion :
+       {Eigen::Vector3d(62, -33, 9), Eigen::Vector3d(88, -20, -17)}) {
     const auto found = closest_approach(a, mark_of(cc, lesion), b, mark_of(mlo, lesion));
     ASSERT_TRUE(found.has_value());
     EXPECT_LT((found->prone_in_lps - lesion).norm(), kRoundTrip_mm);

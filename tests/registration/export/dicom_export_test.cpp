@@ -1,16 +1,16 @@
-#include "tests/registration/mammogram_dicom.h"
-
 #include "registration/export/dicom_export.h"
-#include "registration/mammogram/header_geometry.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <array>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <unistd.h>
+
+#include "registration/mammogram/header_geometry.h"
+#include "tests/registration/mammogram_dicom.h"
 
 namespace mammotwin {
 namespace {
@@ -62,7 +62,8 @@ TEST_F(DicomExport, PresentationStateDrawsTheEllipseOnItsImage) {
   DcmItem *series = nullptr, *image = nullptr, *annotation = nullptr, *graphic = nullptr;
   ASSERT_TRUE(d.findAndGetSequenceItem(DCM_ReferencedSeriesSequence, series).good());
   ASSERT_TRUE(series->findAndGetSequenceItem(DCM_ReferencedImageSequence, image).good());
-  EXPECT_TRUE(image->findAndGetOFString(DCM_ReferencedSOPInstanceUID, text).good() && text == "1.2.3.4");
+  EXPECT_TRUE(image->findAndGetOFString(DCM_ReferencedSOPInstanceUID, text).good() &&
+              text == "1.2.3.4");
   ASSERT_TRUE(d.findAndGetSequenceItem(DCM_GraphicAnnotationSequence, annotation).good());
   ASSERT_TRUE(annotation->findAndGetSequenceItem(DCM_GraphicObjectSequence, graphic).good());
   // (2, 0.5) mm at 0.1 mm: column 19.5, row 29.5 - 5 = 24.5 from 0; DICOM counts from 1. The major

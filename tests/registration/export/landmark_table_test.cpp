@@ -1,18 +1,19 @@
 #include "registration/export/landmark_table.h"
 
-#include "tests/registration/squeezed_box.h"
-
 #include <gtest/gtest.h>
 
 #include <filesystem>
 #include <fstream>
+
+#include "tests/registration/squeezed_box.h"
 
 namespace mammotwin {
 namespace {
 
 std::filesystem::path write_pairs(const std::string& lines) {
   const auto path = std::filesystem::path(testing::TempDir()) / "pairs.csv";
-  std::ofstream(path) << "name,mri_l_mm,mri_p_mm,mri_s_mm,cc_column,cc_row,mlo_column,mlo_row\n" << lines;
+  std::ofstream(path) << "name,mri_l_mm,mri_p_mm,mri_s_mm,cc_column,cc_row,mlo_column,mlo_row\n"
+                      << lines;
   return path;
 }
 
@@ -34,8 +35,10 @@ TEST(LandmarkTable, FindsNoErrorInItsOwnPredictionsAndSaysWhatIsAdded) {
   std::vector<LandmarkPair> pairs;
   for (const Eigen::Vector3d& x : {Eigen::Vector3d(60, -30, 8), Eigen::Vector3d(81, -44, -12)}) {
     const Landmark l{"p", x};
-    pairs.push_back({"p", x, {{"cc", *cc.projection.project(l).in_image},
-                              {"mlo", *mlo.projection.project(l).in_image}}});
+    pairs.push_back({"p",
+                     x,
+                     {{"cc", *cc.projection.project(l).in_image},
+                      {"mlo", *mlo.projection.project(l).in_image}}});
   }
   const std::map<std::string, JudgedView> views = {{"cc", {&cc.projection, &cc.rays}},
                                                    {"mlo", {&mlo.projection, &mlo.rays}}};
@@ -67,9 +70,10 @@ TEST(LandmarkTable, LeavesOutWhatWasNotFound) {
 }
 
 TEST(LandmarkTable, NamesTheCellThatIsWrong) {
-  for (const auto& [lines, part] : {std::pair("a,1,,3,,,,\n", "line 2: mri_l_mm and its neighbours"),
-                                    std::pair("a,1,2,3,x,4,,\n", "line 2: cc_column is \"x\""),
-                                    std::pair("a,1\n", "line 2 has 2 cells; expected 8")}) {
+  for (const auto& [lines, part] :
+       {std::pair("a,1,,3,,,,\n", "line 2: mri_l_mm and its neighbours"),
+        std::pair("a,1,2,3,x,4,,\n", "line 2: cc_column is \"x\""),
+        std::pair("a,1\n", "line 2 has 2 cells; expected 8")}) {
     try {
       read_landmark_pairs(write_pairs(lines));
       FAIL() << lines;

@@ -1,13 +1,13 @@
 #include "registration/export/lesion_table.h"
 
-#include "tests/registration/squeezed_box.h"
-#include "registration/view/breast_position.h"
-
 #include <gtest/gtest.h>
 
 #include <filesystem>
 #include <fstream>
 #include <sstream>
+
+#include "registration/view/breast_position.h"
+#include "tests/registration/squeezed_box.h"
 
 namespace mammotwin {
 namespace {
@@ -28,13 +28,13 @@ TEST(BreastPosition, ReadsTheClockFacingThePatient) {
     const BreastPosition p = breast_position(side, {left, 0, up}, nipple);
     return p.quadrant + " " + p.clock;
   };
-  EXPECT_EQ(at(Side::left, 20, 20), "upper outer 2");    // atan2(20, 20) = 45 deg: 1.5 -> 2
+  EXPECT_EQ(at(Side::left, 20, 20), "upper outer 2");  // atan2(20, 20) = 45 deg: 1.5 -> 2
   EXPECT_EQ(at(Side::left, 30, 1), "upper outer 3");
   EXPECT_EQ(at(Side::right, 30, 1), "upper inner 3");
   EXPECT_EQ(at(Side::right, -30, -1), "lower outer 9");
   EXPECT_EQ(at(Side::left, -1, 30), "upper inner 12");
   EXPECT_EQ(at(Side::left, 1, -30), "lower outer 6");
-  EXPECT_EQ(at(Side::left, -4, 30), "upper inner 12");   // 352 deg rounds up to a full turn
+  EXPECT_EQ(at(Side::left, -4, 30), "upper inner 12");  // 352 deg rounds up to a full turn
   EXPECT_EQ(at(Side::left, 3, 4), "central ");
 }
 

@@ -1,12 +1,12 @@
 #include "registration/export/markups.h"
 
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <nlohmann/json.hpp>
 
 namespace mammotwin {
 namespace {
@@ -54,15 +54,18 @@ TEST(Markups, ACurveIsClosedAndNamed) {
 /// Types of 3D Slicer's schema of markups (version 1.0.3), of what may stand in each object.
 using Types = std::map<std::string, std::string>;
 const Types kMarkup = {{"type", "Fiducial|Line|Angle|Curve|ClosedCurve|Plane|ROI"},
-                       {"name", "string"},         {"coordinateSystem", "LPS|RAS"},
-                       {"coordinateUnits", "mm|um"}, {"locked", "boolean"},
-                       {"labelFormat", "string"},  {"controlPoints", "objects"}};
-const Types kControlPoint = {{"id", "string"},          {"label", "string"},
-                             {"description", "string"}, {"associatedNodeID", "string"},
-                             {"position", "3"},         {"orientation", "9"},
-                             {"selected", "boolean"},   {"locked", "boolean"},
-                             {"visibility", "boolean"},
-                             {"positionStatus", "undefined|preview|defined"}};
+                       {"name", "string"},
+                       {"coordinateSystem", "LPS|RAS"},
+                       {"coordinateUnits", "mm|um"},
+                       {"locked", "boolean"},
+                       {"labelFormat", "string"},
+                       {"controlPoints", "objects"}};
+const Types kControlPoint = {
+    {"id", "string"},          {"label", "string"},
+    {"description", "string"}, {"associatedNodeID", "string"},
+    {"position", "3"},         {"orientation", "9"},
+    {"selected", "boolean"},   {"locked", "boolean"},
+    {"visibility", "boolean"}, {"positionStatus", "undefined|preview|defined"}};
 
 bool is(const nlohmann::json& value, const std::string& type) {
   if (type == "string") return value.is_string();
@@ -118,9 +121,12 @@ TEST(Markups, NameWhatIsWrongWithAFile) {
   };
   EXPECT_NE(message(scratch("absent.mrk.json")).find("cannot be opened"), std::string::npos);
   EXPECT_NE(message(write_text("ijk.mrk.json", R"({"markups": [{"coordinateSystem": "IJK",
-      "controlPoints": []}]})")).find("\"IJK\"; expected LPS or RAS"), std::string::npos);
+      "controlPoints": []}]})"))
+                .find("\"IJK\"; expected LPS or RAS"),
+            std::string::npos);
   EXPECT_NE(message(write_text("none.mrk.json", R"({"markups": [{"type": "Fiducial"}]})"))
-                .find("controlPoints"), std::string::npos);
+                .find("controlPoints"),
+            std::string::npos);
 }
 
 }  // namespace

@@ -1,11 +1,11 @@
 #include "registration/export/view_products.h"
 
-#include "registration/mammogram/mammogram_image.h"
-#include "tests/registration/squeezed_box.h"
-
 #include <gtest/gtest.h>
 
 #include <filesystem>
+
+#include "registration/mammogram/mammogram_image.h"
+#include "tests/registration/squeezed_box.h"
 
 namespace mammotwin {
 namespace {

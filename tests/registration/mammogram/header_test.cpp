@@ -1,13 +1,12 @@
-#include "tests/registration/mammogram_dicom.h"
-
-#include "registration/mammogram/header_geometry.h"
-
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <functional>
-#include <unistd.h>
 #include <vector>
+
+#include "registration/mammogram/header_geometry.h"
+#include "tests/registration/mammogram_dicom.h"
 
 namespace mammotwin {
 namespace {
@@ -84,8 +83,8 @@ TEST_F(Header, GivesTheGeometryOfAPlainView) {
   EXPECT_TRUE(g.remarks.empty());
 }
 
-// Each line: what is wrong with the header, and the words that must be said of it. "read" begins what
-// was accepted.
+// Each line: what is wrong with the header, and the words that must be said of it. "read" begins
+// what was accepted.
 TEST_F(Header, NamesTheTagOfWhatIsMissingSwappedOrAbsurd) {
   const struct {
     Change change;
@@ -94,34 +93,44 @@ TEST_F(Header, NamesTheTagOfWhatIsMissingSwappedOrAbsurd) {
       {set(DCM_Modality, "MR"), "(0008,0060) Modality is \"MR\"; expected MG"},
       {without(DCM_Modality), "(0008,0060) Modality is \"\""},
       {without(DCM_PresentationIntentType), "read; (0008,0068)"},
-      {without(DCM_DistanceSourceToDetector), "read; (0018,1110) DistanceSourceToDetector is missing"},
+      {without(DCM_DistanceSourceToDetector),
+       "read; (0018,1110) DistanceSourceToDetector is missing"},
       {set(DCM_DistanceSourceToDetector, "65"), "(0018,1110) DistanceSourceToDetector is 65"},
       {set(DCM_DistanceSourceToDetector, "0"), "(0018,1110) DistanceSourceToDetector is 0"},
       {set(DCM_DistanceSourceToPatient, "700"), "read; (0018,1111)"},
       {set(DCM_EstimatedRadiographicMagnificationFactor, "1.8"), "(0018,1114)"},
-      {both(without(DCM_ImagerPixelSpacing), without(DCM_PixelSpacing)), "(0018,1164) ImagerPixelSpacing is missing"},
-      {both(without(DCM_ImagerPixelSpacing), set(DCM_PixelSpacing, "0.095\\0.095")), "read; (0018,1164)"},
+      {both(without(DCM_ImagerPixelSpacing), without(DCM_PixelSpacing)),
+       "(0018,1164) ImagerPixelSpacing is missing"},
+      {both(without(DCM_ImagerPixelSpacing), set(DCM_PixelSpacing, "0.095\\0.095")),
+       "read; (0018,1164)"},
       {set(DCM_PixelSpacing, "0.09\\0.09"), "read; (0028,0030) PixelSpacing differs"},
-      {set(DCM_ImagerPixelSpacing, "0.1\\0.2"), "(0018,1164) ImagerPixelSpacing is not one number twice"},
-      {set(DCM_ImagerPixelSpacing, "0.1"), "(0018,1164) ImagerPixelSpacing is not one number twice"},
+      {set(DCM_ImagerPixelSpacing, "0.1\\0.2"),
+       "(0018,1164) ImagerPixelSpacing is not one number twice"},
+      {set(DCM_ImagerPixelSpacing, "0.1"),
+       "(0018,1164) ImagerPixelSpacing is not one number twice"},
       {set(DCM_ImagerPixelSpacing, "10\\10"), "(0018,1164) ImagerPixelSpacing is 10"},
       {set(DCM_ImagerPixelSpacing, "0\\0"), "(0018,1164) ImagerPixelSpacing is 0"},
       {without(DCM_BodyPartThickness), "read; (0018,11A0) BodyPartThickness is missing"},
-      {set(DCM_BodyPartThickness, "5.7"), "(0018,11A0) BodyPartThickness is 5.7; expected 15 to 130 mm (is it in cm?)"},
+      {set(DCM_BodyPartThickness, "5.7"),
+       "(0018,11A0) BodyPartThickness is 5.7; expected 15 to 130 mm (is it in cm?)"},
       {set(DCM_BodyPartThickness, "570"), "(0018,11A0) BodyPartThickness is 570"},
       {set(DCM_BodyPartThickness, "-57"), "(0018,11A0)"},
-      {set(DCM_CompressionForce, "10.2"), "read; (0018,11A2) CompressionForce is 10.2; taken as dN"},
+      {set(DCM_CompressionForce, "10.2"),
+       "read; (0018,11A2) CompressionForce is 10.2; taken as dN"},
       {set(DCM_CompressionForce, "5000"), "read; (0018,11A2) CompressionForce is 5000"},
       {set(DCM_PaddleDescription, "SPOT COMPRESSION"), "(0018,11A4) PaddleDescription"},
       {set(DCM_PaddleDescription, "10CM MAG"), "(0018,11A4) PaddleDescription"},
       {set(DCM_PositionerType, "CARM"), "read; (0018,1508) PositionerType"},
-      {without(DCM_PositionerPrimaryAngle), "read; (0018,1510) PositionerPrimaryAngle is missing; taken as 45"},
+      {without(DCM_PositionerPrimaryAngle),
+       "read; (0018,1510) PositionerPrimaryAngle is missing; taken as 45"},
       {set(DCM_PositionerPrimaryAngle, "90"), "(0018,1510) PositionerPrimaryAngle is 90"},
       {set(DCM_PositionerPrimaryAngle, "0"), "(0018,1510) PositionerPrimaryAngle is 0"},
-      {set(DCM_ViewPosition, "CC"), "(0018,5101) ViewPosition is CC; patient.toml gives this file as MLO"},
+      {set(DCM_ViewPosition, "CC"),
+       "(0018,5101) ViewPosition is CC; patient.toml gives this file as MLO"},
       {set(DCM_ViewPosition, "ML"), "(0018,5101) ViewPosition is ML"},
       {without(DCM_ViewPosition), "(0018,5101) ViewPosition is missing"},
-      {coded("R-10242"), "(0018,5101) ViewPosition is MLO, but (0054,0220) ViewCodeSequence says CC"},
+      {coded("R-10242"),
+       "(0018,5101) ViewPosition is MLO, but (0054,0220) ViewCodeSequence says CC"},
       {both(without(DCM_ViewPosition), coded("399162004")), "(0018,5101) ViewPosition is CC"},
       {coded("R-10226", "Magnification"), "(0054,0222)"},
       {coded("R-10226", "Spot Compression"), "(0054,0222)"},
@@ -130,10 +139,12 @@ TEST_F(Header, NamesTheTagOfWhatIsMissingSwappedOrAbsurd) {
       {set(DCM_PatientOrientation, "F\\A"), "(0020,0020) PatientOrientation begins with \"F\""},
       {set(DCM_PatientOrientation, "A\\L"), "(0020,0020) PatientOrientation has no second value"},
       {set(DCM_PatientOrientation, "A"), "(0020,0020) PatientOrientation has no second value"},
-      {set(DCM_ImageLaterality, "R"), "(0020,0062) ImageLaterality is R; the MRI's breast is the left one"},
+      {set(DCM_ImageLaterality, "R"),
+       "(0020,0062) ImageLaterality is R; the MRI's breast is the left one"},
       {set(DCM_ImageLaterality, "B"), "(0020,0062) ImageLaterality is \"B\""},
       {without(DCM_ImageLaterality), "(0020,0062) ImageLaterality is missing"},
-      {set(DCM_Laterality, "R"), "(0020,0062) ImageLaterality is L, but (0020,0060) Laterality is R"},
+      {set(DCM_Laterality, "R"),
+       "(0020,0062) ImageLaterality is L, but (0020,0060) Laterality is R"},
       {set(DCM_NumberOfFrames, "50"), "(0028,0008) NumberOfFrames"},
       {set(DCM_BreastImplantPresent, "YES"), "(0028,1300)"},
       {set(DCM_PartialView, "YES"), "(0028,1350)"},

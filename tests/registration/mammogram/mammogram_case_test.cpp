@@ -1,8 +1,8 @@
-#include "registration/mammogram/mammogram_findings.h"
-
 #include <gtest/gtest.h>
 
 #include <filesystem>
+
+#include "registration/mammogram/mammogram_findings.h"
 
 namespace mammotwin {
 namespace {
@@ -13,12 +13,14 @@ namespace fs = std::filesystem;
 TEST(MammogramFindings, RealViewsHaveTheirNippleAndMuscle) {
   const fs::path folder = fs::path(MAMMOTWIN_CASES) / "mammograms";
   if (!fs::exists(folder)) GTEST_SKIP() << folder << " is absent";
-  const std::pair<const char*, Eigen::Vector2d> views[] = {
-      {"R-CC", {1120, 1521}}, {"L-CC", {1302, 1550}}, {"R-MLO", {1131, 2201}}, {"L-MLO", {1344, 2148}}};
+  const std::pair<const char*, Eigen::Vector2d> views[] = {{"R-CC", {1120, 1521}},
+                                                           {"L-CC", {1302, 1550}},
+                                                           {"R-MLO", {1131, 2201}},
+                                                           {"L-MLO", {1344, 2148}}};
   for (const auto& [name, marker] : views) {
     const bool oblique = std::string(name).find("MLO") != std::string::npos;
-    const MammogramFindings found = find_breast(
-        read_mammogram_png(folder / (std::string(name) + ".png")), oblique);
+    const MammogramFindings found =
+        find_breast(read_mammogram_png(folder / (std::string(name) + ".png")), oblique);
     EXPECT_EQ(found.chest_wall, ImageEdge::left) << name;
     EXPECT_LT((found.nipple - marker).norm(), 3) << name;
     EXPECT_EQ(found.pectoral.has_value(), oblique) << name;

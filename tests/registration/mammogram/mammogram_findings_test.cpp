@@ -50,7 +50,7 @@ TEST(MammogramFindings, MarkerIsTheNipple) {
 TEST(MammogramFindings, PectoralEdgeOfADrawnMuscle) {
   const MammogramFindings found = find_breast(drawn(true, false), true);
   ASSERT_TRUE(found.pectoral.has_value());
-  EXPECT_NEAR(found.pectoral->first.x(), 150, 8);   // lines are tried 4 pixels apart
+  EXPECT_NEAR(found.pectoral->first.x(), 150, 8);    // lines are tried 4 pixels apart
   EXPECT_NEAR(found.pectoral->second.y(), 400, 16);  // and 8 rows
 }
 

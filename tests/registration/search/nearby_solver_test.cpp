@@ -1,11 +1,11 @@
-#include "registration/search/reduced_view.h"
-#include "tests/solver/dome_breast.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+
+#include "registration/search/reduced_view.h"
+#include "tests/solver/dome_breast.h"
 
 namespace mammotwin {
 namespace {
@@ -26,7 +26,8 @@ NearbySolver dome_solver() {
   options.thickness_tolerance = 1;  // what it comes to is enough here
   const CompressionResult result = compress(problem, options);
   EXPECT_TRUE(result.report.usable()) << result.report.reason;
-  return NearbySolver({result, view_of_plates("cc", Side::left, 0, problem.plates, result)}, dome_at);
+  return NearbySolver({result, view_of_plates("cc", Side::left, 0, problem.plates, result)},
+                      dome_at);
 }
 
 double largest(const Nodes& nodes) {
@@ -35,8 +36,8 @@ double largest(const Nodes& nodes) {
   return size;
 }
 
-// Against solves 0.002 mm to either side: the same derivative, as NearbyEquilibria's test has it, here
-// with the view's frame that moves with the plates.
+// Against solves 0.002 mm to either side: the same derivative, as NearbyEquilibria's test has it,
+// here with the view's frame that moves with the plates.
 TEST(NearbySolver, SlopesAreWhatSolvesSay) {
   const NearbySolver solver = dome_solver();
   const ViewState sd = ViewState::Constant(0.002);
@@ -56,8 +57,9 @@ TEST(NearbySolver, SlopesAreWhatSolvesSay) {
   EXPECT_EQ(largest((*slopes)[kTilt]), 0);  // of which dome_at knows nothing
 }
 
-// Far from the chest wall and on weak springs, 6 mm thinner: what then stays between the plates is less
-// than half of the tissue, which `compress` calls slipped out. A search has to be able to go there.
+// Far from the chest wall and on weak springs, 6 mm thinner: what then stays between the plates is
+// less than half of the tissue, which `compress` calls slipped out. A search has to be able to go
+// there.
 TEST(NearbySolver, GoesOnWhereTheBreastSlipsBackwards) {
   const auto loose_at = [](const ViewState& state) {
     CompressionProblem problem = dome_problem(30 + state[kThickness], false);
@@ -82,13 +84,14 @@ TEST(NearbySolver, GoesOnWhereTheBreastSlipsBackwards) {
   EXPECT_NEAR(apart(thinner->result.plates), apart(result.plates) - 6, 1e-9);
 }
 
-// A thickness more than 2 mm above the base cannot be posed, so its sample is the one at half of the
-// standard deviation of 3 mm. The quadratic still goes through all that was solved.
+// A thickness more than 2 mm above the base cannot be posed, so its sample is the one at half of
+// the standard deviation of 3 mm. The quadratic still goes through all that was solved.
 TEST(ReducedView, TakesWhatIsFoundNearerToTheBase) {
   const NearbySolver whole = dome_solver();
   const NearbySolver solver(whole.base(), [](const ViewState& state) {
     if (state[kThickness] > 2) throw std::invalid_argument("too thick");
-    if (state.norm() != std::abs(state[kThickness])) throw std::invalid_argument("not asked for here");
+    if (state.norm() != std::abs(state[kThickness]))
+      throw std::invalid_argument("not asked for here");
     return dome_at(state);
   });
   ReducedView view = reduce_view(solver, prior_sd());

@@ -1,14 +1,14 @@
-#include "registration/carry/point_carrier.h"
 #include "registration/search/pose_search.h"
-#include "registration/search/search_ellipse.h"
-#include "tests/registration/squeezed_box.h"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
-
 #include <cmath>
 #include <random>
+
+#include "registration/carry/point_carrier.h"
+#include "registration/search/search_ellipse.h"
+#include "tests/registration/squeezed_box.h"
 
 namespace mammotwin {
 namespace {
@@ -70,9 +70,9 @@ TEST(PoseSearch, FindsTurnAndShiftThatMadeTheOutline) {
   EXPECT_EQ(found.states[0][kThickness], 0);
 }
 
-// 24 mm, six of its standard deviations, as an edge behind the chest wall asks for. The prior's pull
-// beyond two is 2, so that it moves the optimum by 2 c, c the variance left (0.03): 0.07. A Gaussian's
-// pull of 6 would move it by 0.2.
+// 24 mm, six of its standard deviations, as an edge behind the chest wall asks for. The prior's
+// pull beyond two is 2, so that it moves the optimum by 2 c, c the variance left (0.03): 0.07. A
+// Gaussian's pull of 6 would move it by 0.2.
 TEST(PoseSearch, FollowsAnEdgeThatStandsCentimetresOff) {
   const BoxView box;
   ViewState truth = ViewState::Zero();
@@ -102,7 +102,8 @@ TEST(PoseSearch, FindsAMechanicalNumberAndKnowsWhatItDoesNot) {
 TEST(SearchEllipse, HoldsTheProbabilityThatItStates) {
   const Eigen::Matrix2d turn = Eigen::Rotation2Dd(M_PI / 6).toRotationMatrix();
   const Eigen::Matrix2d covariance = turn * Eigen::Vector2d(4, 1).asDiagonal() * turn.transpose();
-  const SearchEllipse ninety = search_ellipse(covariance, 0.9), half = search_ellipse(covariance, 0.5);
+  const SearchEllipse ninety = search_ellipse(covariance, 0.9),
+                      half = search_ellipse(covariance, 0.5);
   EXPECT_NEAR(ninety.major_mm, 2 * std::sqrt(2 * std::log(10)), 1e-12);
   EXPECT_NEAR(ninety.minor_mm, std::sqrt(2 * std::log(10)), 1e-12);
   EXPECT_NEAR(ninety.angle_deg, 30, 1e-9);
@@ -146,7 +147,8 @@ TEST(SearchEllipse, GrowsWithWhatIsNotKnown) {
   uncertainty = without_placement(uncertainty);
   EXPECT_NEAR(at().trace(), 2 * kModelSd_mm * kModelSd_mm, 1e-12);
   uncertainty.covariance(kThickness, kThickness) = 1;
-  uncertainty.varied[kThickness] = combined(1.1, box.box.compressed.nodes(), 0, box.box.compressed.nodes());
+  uncertainty.varied[kThickness] =
+      combined(1.1, box.box.compressed.nodes(), 0, box.box.compressed.nodes());
   const double thickness = at().trace();
   EXPECT_GT(thickness, 2 * kModelSd_mm * kModelSd_mm + 0.1);
   uncertainty = without_placement(uncertainty);

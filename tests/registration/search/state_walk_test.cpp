@@ -7,8 +7,8 @@
 namespace mammotwin {
 namespace {
 
-/// Solves that succeed only within `reach` of where they start and not beyond `wall`; where a solution
-/// stands is kept in its thickness.
+/// Solves that succeed only within `reach` of where they start and not beyond `wall`; where a
+/// solution stands is kept in its thickness.
 struct Ground {
   double reach, wall;
   std::vector<double> tried{};

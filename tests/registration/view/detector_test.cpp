@@ -33,9 +33,9 @@ TEST(Detector, RayPassesThroughSourcePointAndDetector) {
   const Eigen::Vector2d uv = detector.project(x);
   EXPECT_LT((detector.point_on_ray(uv, x.z()) - x).norm(), 1e-12);
   EXPECT_LT((detector.point_on_ray(uv, -12).head<2>() - uv).norm(), 1e-12);
-  EXPECT_LT((detector.point_on_ray(uv, detector.source_in_view().z()) - detector.source_in_view())
-                .norm(),
-            1e-12);
+  EXPECT_LT(
+      (detector.point_on_ray(uv, detector.source_in_view().z()) - detector.source_in_view()).norm(),
+      1e-12);
 }
 
 TEST(Detector, PutsTheChestWallOnTheEdgeThatIsNamed) {

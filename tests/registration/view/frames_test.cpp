@@ -1,12 +1,12 @@
 // Walks one point round all frames: voxel, LPS, mesh xi, compressed LPS, view, detector mm, pixel,
 // and back along the ray.
-#include "tests/registration/squeezed_box.h"
-#include "registration/view/project_lesions.h"
-#include "segmentation/image/volume.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
+
+#include "registration/view/project_lesions.h"
+#include "segmentation/image/volume.h"
+#include "tests/registration/squeezed_box.h"
 
 namespace mammotwin {
 namespace {
@@ -71,10 +71,10 @@ TEST(ViewFrame, CcLooksDownAndLateralIsThePatientsOwnSide) {
 TEST(ViewFrame, MloBeamRunsFromSuperiorMedialToInferiorLateral) {
   for (const Side side : {Side::left, Side::right}) {
     const Eigen::Vector3d beam = -view_axes(side, 45).row(2);
-    EXPECT_LT(beam.z(), 0);                                        // downwards
-    EXPECT_GT(side == Side::left ? beam.x() : -beam.x(), 0);       // outwards
+    EXPECT_LT(beam.z(), 0);                                   // downwards
+    EXPECT_GT(side == Side::left ? beam.x() : -beam.x(), 0);  // outwards
     const Eigen::Vector3d lateral = view_axes(side, 45).row(1);
-    EXPECT_GT(lateral.z(), 0);                                     // upwards
+    EXPECT_GT(lateral.z(), 0);                                      // upwards
     EXPECT_GT(side == Side::left ? lateral.x() : -lateral.x(), 0);  // outwards
   }
 }
@@ -91,11 +91,12 @@ TEST(CompressedView, IsReadFromTheFieldsOfTheMeshFile) {
   std::vector<double> axes;
   for (int i = 0; i < 9; ++i) axes.push_back(made.frame.axes(i / 3, i % 3));
   const Eigen::Vector3d& o = made.frame.origin_in_lps;
-  std::map<std::string, std::vector<double>> fields = {{"view_side", {1}},
-                                                       {"view_angle_deg", {45}},
-                                                       {"thickness_mm", {made.thickness_mm}},
-                                                       {"view_origin_lps_mm", {o.x(), o.y(), o.z()}},
-                                                       {"view_axes", axes}};
+  std::map<std::string, std::vector<double>> fields = {
+      {"view_side", {1}},
+      {"view_angle_deg", {45}},
+      {"thickness_mm", {made.thickness_mm}},
+      {"view_origin_lps_mm", {o.x(), o.y(), o.z()}},
+      {"view_axes", axes}};
   const CompressedView read = compressed_view("mlo", "mlo.vtu", fields);
   EXPECT_EQ(read.frame.axes, made.frame.axes);
   EXPECT_EQ(read.frame.origin_in_lps, o);

@@ -1,8 +1,8 @@
 #include "registration/view/project_lesions.h"
 
-#include "tests/registration/squeezed_box.h"
-
 #include <gtest/gtest.h>
+
+#include "tests/registration/squeezed_box.h"
 
 namespace mammotwin {
 namespace {
@@ -24,7 +24,8 @@ TEST(AffineBaseline, KeepsVolumeInAnObliqueView) {
   const Eigen::Vector3d o(-70, -30, 0);
   Eigen::Matrix3d map;
   for (int i = 0; i < 3; ++i)
-    map.col(i) = baseline.view_from_prone(o + Eigen::Vector3d::Unit(i)) - baseline.view_from_prone(o);
+    map.col(i) =
+        baseline.view_from_prone(o + Eigen::Vector3d::Unit(i)) - baseline.view_from_prone(o);
   EXPECT_NEAR(std::abs(map.determinant()), 1, 1e-9);
 }
 

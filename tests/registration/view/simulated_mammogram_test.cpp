@@ -1,10 +1,10 @@
 #include "registration/view/simulated_mammogram.h"
 
-#include "tests/registration/squeezed_box.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
+
+#include "tests/registration/squeezed_box.h"
 
 namespace mammotwin {
 namespace {
@@ -26,7 +26,8 @@ struct Seen {
 Seen seen_at(const SimulatedView& view, const Eigen::Vector2d& uv) {
   const DetectorImage& image = view.thickness;
   const Eigen::Vector2d index = (uv - image.first) / image.spacing_mm;
-  const int i = static_cast<int>(std::lround(index.x())), j = static_cast<int>(std::lround(index.y()));
+  const int i = static_cast<int>(std::lround(index.x())),
+            j = static_cast<int>(std::lround(index.y()));
   return {view.thickness.at(i, j), view.attenuation.at(i, j)};
 }
 

@@ -23,7 +23,7 @@ PectoralWall even_wall() {
 TEST(PectoralWall, FatBehindItIsCountedOnItsOwnSideOnly) {
   PectoralWall wall = even_wall();
   EXPECT_EQ(wall.fat_behind(Side::left, 0, 18), 0);
-  for (int n = 0; n < 2 * 60; ++n)  // two rows of ten
+  for (int n = 0; n < 2 * 60; ++n)            // two rows of ten
     if (n % 60 >= 30) wall.behind[n] = 1.0F;  // the patient's left
   EXPECT_NEAR(wall.fat_behind(Side::left, 0, 18), 0.2, 1e-12);
   EXPECT_EQ(wall.fat_behind(Side::right, 0, 18), 0);

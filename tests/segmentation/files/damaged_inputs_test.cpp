@@ -7,8 +7,8 @@
 #include <random>
 
 #include "segmentation/files/read_image.h"
-#include "segmentation/segment.h"
 #include "segmentation/files/segmentation_file.h"
+#include "segmentation/segment.h"
 #include "tests/segmentation/files/dicom_writer.h"
 #include "tests/segmentation/message.h"
 #include "tests/segmentation/phantom.h"
@@ -88,9 +88,14 @@ TextFormat nifti(const Volume<float>& v, bool compressed) {
   std::string h(352, '\0');
   const auto put = [&](std::size_t at, auto value) { std::memcpy(&h[at], &value, sizeof value); };
   put(0, std::int32_t{348});
-  const std::int16_t dims[8] = {3, static_cast<std::int16_t>(v.size.x()),
+  const std::int16_t dims[8] = {3,
+                                static_cast<std::int16_t>(v.size.x()),
                                 static_cast<std::int16_t>(v.size.y()),
-                                static_cast<std::int16_t>(v.size.z()), 1, 1, 1, 1};
+                                static_cast<std::int16_t>(v.size.z()),
+                                1,
+                                1,
+                                1,
+                                1};
   std::memcpy(&h[40], dims, sizeof dims);
   put(70, std::int16_t{16});
   put(72, std::int16_t{32});
@@ -98,9 +103,9 @@ TextFormat nifti(const Volume<float>& v, bool compressed) {
   std::memcpy(&h[76], pixdim, sizeof pixdim);
   put(108, 352.0F), put(112, 1.0F), put(254, std::int16_t{1});
   h[123] = 2;
-  const float rows[12] = {-5, 0, 0, static_cast<float>(-v.origin.x()),
-                          0, -5, 0, static_cast<float>(-v.origin.y()),
-                          0, 0, 5, static_cast<float>(v.origin.z())};
+  const float rows[12] = {-5, 0,  0, static_cast<float>(-v.origin.x()),
+                          0,  -5, 0, static_cast<float>(-v.origin.y()),
+                          0,  0,  5, static_cast<float>(v.origin.z())};
   std::memcpy(&h[280], rows, sizeof rows);
   std::memcpy(&h[344], "n+1", 4);
   if (!compressed) return {"a.nii", h, float_bytes(v)};
@@ -139,7 +144,8 @@ class DamagedInputs : public testing::Test {
     std::mt19937 random(11);
     const auto somewhere = [&](std::size_t below) { return random() % below; };
     for (int n = 0; n < 8; ++n) {
-      const std::size_t size = n < 4 ? somewhere(header) : header + somewhere(bytes.size() - header);
+      const std::size_t size =
+          n < 4 ? somewhere(header) : header + somewhere(bytes.size() - header);
       survive_bytes(name, bytes.substr(0, size), "cut to " + std::to_string(size));
     }
     for (int n = 0; n < 20; ++n) {
@@ -166,7 +172,8 @@ class DamagedInputs : public testing::Test {
 TEST_F(DamagedInputs, GiveAMessageOrAResultAndNoCrash) {
   const Volume<float> image = small_phantom();
   const double before_mb = peak_memory_mb();
-  for (const TextFormat& f : {nifti(image, false), nrrd(image, false), nrrd(image, true), mha(image)})
+  for (const TextFormat& f :
+       {nifti(image, false), nrrd(image, false), nrrd(image, true), mha(image)})
     cut_and_flip(f.name, f.bytes(), std::max<std::size_t>(f.header.size(), 300));
   cut_and_flip("a.nii.gz", nifti(image, true).bytes(), 64);
 
@@ -176,8 +183,10 @@ TEST_F(DamagedInputs, GiveAMessageOrAResultAndNoCrash) {
   for (const char* spacing : {"(0,0,0)", "(nan,0,0)", "(1e9,0,0)", "(1e-9,0,0)", "(500,0,0)"})
     refused("a.nrrd", replaced(plain.bytes(), "(5,0,0)", spacing), "a.nrrd");
   for (const char* spacing : {"0 0 0", "nan 5 5", "5 5 1e30"})
-    refused("a.mha", replaced(meta.bytes(), "ElementSpacing = 5 5 5",
-                              std::string("ElementSpacing = ") + spacing), "a.mha");
+    refused("a.mha",
+            replaced(meta.bytes(), "ElementSpacing = 5 5 5",
+                     std::string("ElementSpacing = ") + spacing),
+            "a.mha");
   for (const char* size : {"sizes: 64000 34000 36000", "sizes: 4294967296 4294967296 4294967296",
                            "sizes: 99999 99999 2", "sizes: -64 34 36", "sizes: 0 34 36"})
     refused("a.nrrd", replaced(plain.bytes(), sizes, size), "a.nrrd");

@@ -35,7 +35,8 @@ TEST(DicomSeries, OfADynamicStudyTheSecondInTimeIsReadAndSaid) {
   const Mri mri = read_mri(folder.path);
   EXPECT_EQ(mri.image(0, 0, 0), 40);
   ASSERT_FALSE(mri.notes.empty());
-  expect_mentions(mri.notes.front(), {"of 5 series", "series 4", "second in time of 3", "not derived"});
+  expect_mentions(mri.notes.front(),
+                  {"of 5 series", "series 4", "second in time of 3", "not derived"});
 }
 
 TEST(DicomSeries, TheTomlNamesAnother) {

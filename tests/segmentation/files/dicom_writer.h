@@ -18,16 +18,18 @@ struct DicomHeader {
   std::string series_uid = "1.2.3", series_number = "1", description = "t1", modality = "MR";
   std::string patient_position = "HFP";
   std::string image_type = "ORIGINAL\\PRIMARY";
-  std::string acquisition_time;  ///< "120000"
-  std::string temporal_position; ///< phase of a dynamic series
+  std::string acquisition_time;   ///< "120000"
+  std::string temporal_position;  ///< phase of a dynamic series
   std::string contrast_agent;
-  bool identified = false;  ///< names, dates and identifiers besides the patient's name, as planted_identity says
+  bool identified =
+      false;  ///< names, dates and identifiers besides the patient's name, as planted_identity says
 };
 
 /// What an identified header says of the patient and nothing else does: to be searched for.
 inline std::vector<std::string> planted_identity() {
-  return {"SECRET",  "PLANTED-ACCESSION", "PLANTED HOSPITAL",    "PHYSICIAN^PLANTED", "PLANTED-ID-4711",
-          "19510203", "20010405",          "1.2.840.99.77.1.4711", "PLANTED-STUDY"};
+  return {"SECRET",          "PLANTED-ACCESSION", "PLANTED HOSPITAL", "PHYSICIAN^PLANTED",
+          "PLANTED-ID-4711", "19510203",          "20010405",         "1.2.840.99.77.1.4711",
+          "PLANTED-STUDY"};
 }
 
 /// One slice of 16-bit pixels as a DICOM file's bytes.

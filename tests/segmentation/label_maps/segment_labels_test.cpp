@@ -1,10 +1,10 @@
 #include <fstream>
 
-#include "segmentation/landmarks.h"
 #include "segmentation/files/read_image.h"
-#include "segmentation/segment.h"
 #include "segmentation/files/segmentation_file.h"
 #include "segmentation/files/write_image_file.h"
+#include "segmentation/landmarks.h"
+#include "segmentation/segment.h"
 #include "tests/segmentation/message.h"
 
 namespace mammotwin {
@@ -130,9 +130,11 @@ fs::path write_slicer_segments(const fs::path& folder) {
         foreign.values[v] ? static_cast<std::uint8_t>(foreign.values[v] - 10) : label::air;
   std::map<std::string, std::string> keys;
   int n = 0;
-  for (const auto& [name, tags] : std::vector<std::pair<std::string, std::string>>{
-           {"Breast FAT", ""}, {"Segment_2", "SCT^39937001^Skin"}, {"Pectoral", ""},
-           {"Tumour upper", ""}}) {
+  for (const auto& [name, tags] :
+       std::vector<std::pair<std::string, std::string>>{{"Breast FAT", ""},
+                                                        {"Segment_2", "SCT^39937001^Skin"},
+                                                        {"Pectoral", ""},
+                                                        {"Tumour upper", ""}}) {
     const std::string prefix = "Segment" + std::to_string(n++) + "_";
     keys[prefix + "Name"] = name;
     keys[prefix + "LabelValue"] = std::to_string(n);

@@ -7,8 +7,8 @@
 #include <random>
 
 #include "segmentation/body/half_body.h"
-#include "segmentation/lesion/random_walker.h"
 #include "segmentation/image/smoothing.h"
+#include "segmentation/lesion/random_walker.h"
 
 namespace mammotwin {
 namespace {

@@ -1,10 +1,10 @@
-#include "solver/contact/plate.h"
-#include "solver/contact/plate_contact.h"
-
-#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <random>
+
+#include "solver/contact/plate.h"
+#include "solver/contact/plate_contact.h"
 
 namespace mammotwin {
 namespace {

@@ -1,11 +1,11 @@
-#include "tests/solver/potential_laws.h"
-#include "tests/solver/test_meshes.h"
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
 
 #include "solver/contact/plate_friction.h"
 #include "solver/material/neo_hookean.h"
-
-#include <Eigen/Eigenvalues>
-#include <gtest/gtest.h>
+#include "tests/solver/potential_laws.h"
+#include "tests/solver/test_meshes.h"
 
 namespace mammotwin {
 namespace {
@@ -90,7 +90,8 @@ TEST(PlateFriction, ForgetsWhereAPointStoodThatLeftThePlate) {
 TEST(PlateFriction, GradientAndHessianAreDerivativesSymmetricAndSemidefinite) {
   PressedBlock block;
   SurfacePoint point = block.model.faces(0)[0].point(7);
-  for (const Eigen::Vector3d slip : {Eigen::Vector3d(0.03, -0.05, 0), Eigen::Vector3d(0.4, 0.3, 0)}) {
+  for (const Eigen::Vector3d slip :
+       {Eigen::Vector3d(0.03, -0.05, 0), Eigen::Vector3d(0.4, 0.3, 0)}) {
     Eigen::Matrix<double, 9, 1> y = Eigen::Matrix<double, 9, 1>::Zero();
     y.head<3>() = point.X + slip;
     expect_consistent(*block.friction, y, point);

@@ -1,9 +1,9 @@
-#include "tests/solver/dome_breast.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
+
+#include "tests/solver/dome_breast.h"
 
 namespace mammotwin {
 namespace {
@@ -57,8 +57,8 @@ TEST(PlateFrame, ATiltedPaddleStartsWhereItTouches) {
           if (o.depth.dot(x) >= frame.edge()) least[k] = std::min(least[k], paddle.gap(x).gap);
         }
   }
-  // Skin is sampled every 4.4 mm there and every 0.9 mm here; it meets the edge's 10 mm rounding, so
-  // 4.4²/(8·10) = 0.24 mm may be missed.
+  // Skin is sampled every 4.4 mm there and every 0.9 mm here; it meets the edge's 10 mm rounding,
+  // so 4.4²/(8·10) = 0.24 mm may be missed.
   EXPECT_LE(least[0], 0.01);
   EXPECT_GE(least[0], -0.25);
   EXPECT_LT(least[1], least[0]);

@@ -1,13 +1,12 @@
-#include "tests/solver/test_meshes.h"
+#include <gtest/gtest.h>
 
 #include "solver/element/face.h"
 #include "solver/element/gauss.h"
 #include "solver/element/skin_membrane.h"
 #include "solver/element/tensor_kernels.h"
-#include "tests/verification/follower_pressure.h"
 #include "solver/material/mooney_rivlin.h"
-
-#include <gtest/gtest.h>
+#include "tests/solver/test_meshes.h"
+#include "tests/verification/follower_pressure.h"
 
 namespace mammotwin {
 namespace {
@@ -53,7 +52,8 @@ void expect_consistent(OneElement& one) {
       EXPECT_NEAR(difference[r], exact.tangent(r, k), 1e-7 * scale) << r << "," << k;
     const auto volume = ((plus.pressure_residual - minus.pressure_residual) / (2 * h)).eval();
     const int n = one.model.element(0).num_pressures();
-    EXPECT_NEAR((volume.head(n) - exact.coupling.row(k).head(n).transpose()).norm(), 0, 1e-6 * scale);
+    EXPECT_NEAR((volume.head(n) - exact.coupling.row(k).head(n).transpose()).norm(), 0,
+                1e-6 * scale);
   }
 }
 
@@ -152,8 +152,8 @@ TEST(SkinMembrane, EnergyOfEquibiaxialStretch) {
   y << 0, 0, 0, 0, stretch * 10, 0, 0, 0, stretch * 8;  // turned out of its plane as well
   SurfaceResponse response;
   skin.respond(y, point, 0, response);
-  EXPECT_NEAR(response.energy,
-              1.5 * 3.3 * (2 * stretch * stretch + std::pow(stretch, -4) - 3), 1e-12);
+  EXPECT_NEAR(response.energy, 1.5 * 3.3 * (2 * stretch * stretch + std::pow(stretch, -4) - 3),
+              1e-12);
 }
 
 }  // namespace

@@ -1,4 +1,6 @@
-#include "tests/solver/dome_breast.h"
+#include "solver/gravity/unload.h"
+
+#include <gtest/gtest.h>
 
 #include "solver/element/skin_membrane.h"
 #include "solver/load/spring_bed.h"
@@ -6,9 +8,7 @@
 #include "solver/material/exponential.h"
 #include "solver/material/mooney_rivlin.h"
 #include "solver/material/neo_hookean.h"
-#include "solver/gravity/unload.h"
-
-#include <gtest/gtest.h>
+#include "tests/solver/dome_breast.h"
 
 namespace mammotwin {
 namespace {

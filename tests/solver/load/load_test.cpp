@@ -1,11 +1,10 @@
-#include "tests/solver/test_meshes.h"
-
-#include "solver/load/spring_bed.h"
-#include "solver/load/wall_surface.h"
-
 #include <gtest/gtest.h>
 
 #include <random>
+
+#include "solver/load/spring_bed.h"
+#include "solver/load/wall_surface.h"
+#include "tests/solver/test_meshes.h"
 
 namespace mammotwin {
 namespace {
@@ -16,9 +15,9 @@ constexpr double kRadius = 100;
 HermiteMesh bent_slab() {
   return mapped_mesh({4, 4, 1}, [](const Eigen::Vector3d& xi) {
     const double a = 0.8 * (xi.x() - 0.5), b = 0.8 * (xi.y() - 0.5);
-    return Eigen::Vector3d((kRadius + 20 * xi.z()) *
-                           Eigen::Vector3d(std::sin(a) * std::cos(b), std::sin(b),
-                                           std::cos(a) * std::cos(b)));
+    return Eigen::Vector3d((kRadius + 20 * xi.z()) * Eigen::Vector3d(std::sin(a) * std::cos(b),
+                                                                     std::sin(b),
+                                                                     std::cos(a) * std::cos(b)));
   });
 }
 
@@ -65,8 +64,8 @@ TEST(WallSurface, NormalAndHessianAreDerivativesOfTheGap) {
   EXPECT_GT(compared, 150);
 }
 
-/// One patch of 40 x 40 mm whose nodal derivatives are drawn, so that the surface and the speed over
-/// it vary as much as on the walls of fitted breasts.
+/// One patch of 40 x 40 mm whose nodal derivatives are drawn, so that the surface and the speed
+/// over it vary as much as on the walls of fitted breasts.
 HermiteMesh uneven_slab(unsigned seed) {
   HermiteMesh mesh = box_mesh({40, 40, 10}, {1, 1, 1});
   std::mt19937 random(seed);

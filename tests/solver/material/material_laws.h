@@ -1,12 +1,12 @@
 #pragma once
 
-#include "solver/material/material.h"
-
-#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <limits>
 #include <vector>
+
+#include "solver/material/material.h"
 
 namespace mammotwin {
 

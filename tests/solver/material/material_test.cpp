@@ -1,9 +1,8 @@
-#include "tests/solver/material/material_laws.h"
-
 #include "solver/material/exponential.h"
 #include "solver/material/mixture.h"
 #include "solver/material/mooney_rivlin.h"
 #include "solver/material/neo_hookean.h"
+#include "tests/solver/material/material_laws.h"
 
 namespace mammotwin {
 namespace {

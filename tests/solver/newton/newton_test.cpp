@@ -1,12 +1,13 @@
-#include "tests/solver/test_meshes.h"
+#include "solver/newton/newton.h"
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <Eigen/LU>
 
 #include "solver/contact/plate_contact.h"
 #include "solver/material/neo_hookean.h"
-#include "solver/newton/newton.h"
-
-#include <Eigen/LU>
-#include <gtest/gtest.h>
-#include <tbb/global_control.h>
+#include "tests/solver/test_meshes.h"
 
 namespace mammotwin {
 namespace {
@@ -20,7 +21,8 @@ Model gel(const HermiteMesh& mesh, double bulk_ratio = 1e4) {
 
 // Displacement patch test: on distorted elements an affine motion of the boundary gives the same
 // affine motion inside, with one pressure everywhere. The motion preserves volume, so p only
-// balances: any uniform p is in equilibrium with clamped walls; the one found has J = 1 + p/κ, p = 0.
+// balances: any uniform p is in equilibrium with clamped walls; the one found has J = 1 + p/κ, p =
+// 0.
 TEST(Newton, PatchTestOnDistortedElements) {
   const HermiteMesh mesh = bent(box_mesh({30, 30, 30}, {3, 3, 3}), 8);
   const Model model = gel(mesh);
@@ -37,7 +39,8 @@ TEST(Newton, PatchTestOnDistortedElements) {
   dofs.number(mesh);
   std::vector<HermiteMesh::Node> pending(mesh.num_nodes(), HermiteMesh::Node::Zero());
   for (int dof = 0; dof < dofs.num_dofs(); ++dof)
-    if (dofs.prescribed(dof)) pending[dof / 24](dof % 24) = target[dof / 24](dof % 24) - mesh.node(dof / 24)(dof % 24);
+    if (dofs.prescribed(dof))
+      pending[dof / 24](dof % 24) = target[dof / 24](dof % 24) - mesh.node(dof / 24)(dof % 24);
   State state = model.rest();
   Newton newton(model, dofs);
   const auto report = newton.solve(state, {}, pending);
@@ -77,7 +80,8 @@ TEST(Newton, AxialSqueezeByDisplacementIsTheClosedForm) {
   ASSERT_TRUE(report.usable()) << report.reason;
   EXPECT_LE(report.iterations, 8);
   double force = 0;
-  for (const auto& node : newton.assembler().nodal_residual(state)) force -= node(2, 0) < 0 ? node(2, 0) : 0;
+  for (const auto& node : newton.assembler().nodal_residual(state))
+    force -= node(2, 0) < 0 ? node(2, 0) : 0;
   // kappa/mu = 1e6 leaves the volume, and so the force, off by about 1e-6.
   EXPECT_NEAR(force / block.force(stretch), 1, 1e-5);
   const auto again = newton.solve(state, {});

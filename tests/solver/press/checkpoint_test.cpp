@@ -1,8 +1,8 @@
-#include "tests/solver/dome_breast.h"
-
 #include "solver/press/checkpoint.h"
 
 #include <gtest/gtest.h>
+
+#include "tests/solver/dome_breast.h"
 
 namespace mammotwin {
 namespace {
@@ -30,14 +30,15 @@ CompressionOptions small_steps() {
   return options;
 }
 
-
 class ResumedCompression : public testing::TestWithParam<Case> {};
 
 TEST_P(ResumedCompression, EndsAsTheUninterruptedOneBitForBit) {
   const CompressionProblem problem = problem_of(GetParam());
   std::vector<std::vector<std::uint8_t>> kept;
   CompressionRestart keeping;
-  keeping.keep = [&](const CompressionCheckpoint& c) { kept.push_back(encode_checkpoint(c, kRun)); };
+  keeping.keep = [&](const CompressionCheckpoint& c) {
+    kept.push_back(encode_checkpoint(c, kRun));
+  };
   const CompressionResult whole = compress(problem, small_steps(), {}, keeping);
   ASSERT_TRUE(whole.report.usable()) << whole.report.reason;
   ASSERT_GE(kept.size(), 3u);

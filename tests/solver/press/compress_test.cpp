@@ -1,11 +1,10 @@
-#include "tests/solver/dome_breast.h"
-
-#include "solver/material/neo_hookean.h"
-
-#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <limits>
+
+#include "solver/material/neo_hookean.h"
+#include "tests/solver/dome_breast.h"
 
 namespace mammotwin {
 namespace {
@@ -46,8 +45,7 @@ TEST(Compress, ForceFromContactIsForceFromEnergy) {
 }
 
 TEST(Compress, IsTheSameInARotatedWorld) {
-  const Eigen::Matrix3d R(
-      Eigen::AngleAxisd(0.8, Eigen::Vector3d(0.2, 1, -0.5).normalized()));
+  const Eigen::Matrix3d R(Eigen::AngleAxisd(0.8, Eigen::Vector3d(0.2, 1, -0.5).normalized()));
   CompressionProblem turned = squeezed_problem();
   auto nodes = turned.mesh.mesh.nodes();
   for (auto& node : nodes) node = (R * node).eval();
@@ -55,7 +53,9 @@ TEST(Compress, IsTheSameInARotatedWorld) {
   turned.plates.up = R * turned.plates.up;
   turned.plates.depth = R * turned.plates.depth;
   const TissueSampler here = squeezed_problem().tissue;
-  turned.tissue = [here, R](const Eigen::Vector3d& x, double v) { return here(R.transpose() * x, v); };
+  turned.tissue = [here, R](const Eigen::Vector3d& x, double v) {
+    return here(R.transpose() * x, v);
+  };
   const CompressionResult result = compress(turned, {});
   ASSERT_TRUE(result.report.usable()) << result.report.reason;
   // Both stop within 1e-8 of balance; the paddle's height is corrected to 0.02 mm.
@@ -79,9 +79,11 @@ TEST(Compress, FromANearbyResultFollowsThePlates) {
   ASSERT_TRUE(here.report.usable()) << here.report.reason;
   ASSERT_TRUE(there.report.usable()) << there.report.reason;
   EXPECT_LT(there.report.newton_iterations, 20);  // from rest 60
-  EXPECT_NEAR(here.report.thickness_mm, 60, 0.5);  // softer contact by a penetration of at most that
+  EXPECT_NEAR(here.report.thickness_mm, 60,
+              0.5);  // softer contact by a penetration of at most that
   EXPECT_NEAR(here.plates.paddle_height - here.plates.support_height -
-                  (there.plates.paddle_height - there.plates.support_height), 2, 1e-9);
+                  (there.plates.paddle_height - there.plates.support_height),
+              2, 1e-9);
   EXPECT_LT(there.report.thickness_mm, here.report.thickness_mm - 0.5);
   EXPECT_GT(there.report.force_N, here.report.force_N);
 }
@@ -145,8 +147,8 @@ TEST(Compress, RefusesStiffnessThatIsNotPositive) {
   EXPECT_NE(refusal(problem).find("chest-wall spring"), std::string::npos);
 }
 
-// Plates far from the chest wall, hardly any springs, 0.8 of the thickness: nothing but friction holds
-// the breast between them.
+// Plates far from the chest wall, hardly any springs, 0.8 of the thickness: nothing but friction
+// holds the breast between them.
 TEST(Compress, HoldsByFrictionABreastThatSlipsOut) {
   CompressionProblem problem = dome_problem(22, false);
   problem.mesh = dome_breast({3, 3, 1});

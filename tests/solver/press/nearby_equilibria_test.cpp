@@ -1,11 +1,11 @@
-#include "tests/solver/dome_breast.h"
-
-#include "solver/material/neo_hookean.h"
 #include "solver/press/nearby_equilibria.h"
 
 #include <gtest/gtest.h>
 
 #include <functional>
+
+#include "solver/material/neo_hookean.h"
+#include "tests/solver/dome_breast.h"
 
 namespace mammotwin {
 namespace {
@@ -67,10 +67,10 @@ double error_of_step(const Change& change, double by) {
   return error / move;
 }
 
-// Two solves on either side differ by the step and terms of third order, so the relative error falls
-// with the square of the nudge: tissue 1.5e-5, 1.3e-6, 1.5e-7 for 1e-2, 3e-3, 1e-3; plates 3e-7 and
-// less, down to where the solves end. (Pressed to half, and on finer faces, points touch and let go
-// within hundredths of a mm: 1e-2 for plates moved by 3e-3 mm, falling the same way.)
+// Two solves on either side differ by the step and terms of third order, so the relative error
+// falls with the square of the nudge: tissue 1.5e-5, 1.3e-6, 1.5e-7 for 1e-2, 3e-3, 1e-3; plates
+// 3e-7 and less, down to where the solves end. (Pressed to half, and on finer faces, points touch
+// and let go within hundredths of a mm: 1e-2 for plates moved by 3e-3 mm, falling the same way.)
 TEST(NearbyEquilibria, StepIsTheDifferenceOfTwoSolves) {
   ASSERT_TRUE(equilibrium().report.usable()) << equilibrium().report.reason;
   const Change plates = [](CompressionProblem& p, double q) {

@@ -1,15 +1,15 @@
-#include "solver/contact/plate_mesh.h"
+#include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
-#include <gtest/gtest.h>
-
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <functional>
 #include <numbers>
 #include <random>
+
+#include "solver/contact/plate_mesh.h"
 
 namespace mammotwin {
 namespace {
@@ -68,13 +68,14 @@ TEST(FinitePlate, NormalAndHessianAreDerivativesOfTheGap) {
 /// A folder of its own, so that tests may run at once.
 std::filesystem::path file(const std::string& name) {
   const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-  const auto folder = std::filesystem::temp_directory_path() /
-                      ("mammotwin-plate-" + std::string(test->name()));
+  const auto folder =
+      std::filesystem::temp_directory_path() / ("mammotwin-plate-" + std::string(test->name()));
   std::filesystem::create_directories(folder);
   return folder / name;
 }
 
-/// z = height(x, y) over [0, length] x [-width/2, width/2] as facets about `step` wide, times scale.
+/// z = height(x, y) over [0, length] x [-width/2, width/2] as facets about `step` wide, times
+/// scale.
 std::filesystem::path sheet(const std::function<double(double, double)>& height, double length,
                             double width, double step, double scale = 1, bool upside_down = false) {
   const auto path = file("plate.stl");

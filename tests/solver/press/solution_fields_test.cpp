@@ -1,13 +1,13 @@
-#include "tests/solver/dome_breast.h"
-
-#include "solver/press/press.h"
 #include "solver/press/solution_fields.h"
+
+#include <gtest/gtest.h>
 
 #include <Eigen/LU>
 #include <Eigen/SVD>
-#include <gtest/gtest.h>
-
 #include <algorithm>
+
+#include "solver/press/press.h"
+#include "tests/solver/dome_breast.h"
 
 namespace mammotwin {
 namespace {
@@ -32,7 +32,8 @@ struct FatDome {
   }
 };
 
-void expect_everywhere(const PointField& field, const std::vector<double>& value, double tolerance) {
+void expect_everywhere(const PointField& field, const std::vector<double>& value,
+                       double tolerance) {
   ASSERT_EQ(field.components, static_cast<int>(value.size()));
   for (std::size_t i = 0; i < field.values.size(); ++i)
     EXPECT_NEAR(field.values[i], value[i % value.size()], tolerance);
@@ -51,8 +52,8 @@ TEST(SolutionFields, OfAHomogeneousStretchAreItsOwn) {
   const Eigen::Matrix3d sigma = 1.5 * (A * A.transpose() - I);
   const Eigen::Matrix3d deviator = sigma - sigma.trace() / 3 * I;
   const Eigen::Vector3d stretches = A.jacobiSvd().singularValues();
-  expect_everywhere(fields.at("principal_stretches"),
-                    {stretches[0], stretches[1], stretches[2]}, 1e-9);
+  expect_everywhere(fields.at("principal_stretches"), {stretches[0], stretches[1], stretches[2]},
+                    1e-9);
   expect_everywhere(fields.at("green_strain"),
                     {E(0, 0), E(1, 1), E(2, 2), E(0, 1), E(1, 2), E(0, 2)}, 1e-9);
   expect_everywhere(fields.at("second_piola_kirchhoff_kPa"),
