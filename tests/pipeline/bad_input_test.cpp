@@ -7,6 +7,7 @@
 
 #include "fitting/mesh/mesh_file.h"
 #include "tests/pipeline/patient_case.h"
+#include "tests/where.h"
 
 namespace mammotwin {
 namespace {

@@ -7,6 +7,8 @@
 #include <iterator>
 #include <random>
 
+#include "tests/where.h"
+
 namespace mammotwin {
 namespace {
 

@@ -9,6 +9,7 @@
 #include "tests/pipeline/patient_case.h"
 #include "tests/registration/mammogram_dicom.h"
 #include "tests/segmentation/files/dicom_writer.h"
+#include "tests/where.h"
 
 namespace mammotwin {
 namespace {

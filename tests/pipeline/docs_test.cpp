@@ -8,6 +8,8 @@
 #include <regex>
 #include <string>
 
+#include "tests/where.h"
+
 namespace mammotwin {
 namespace {
 

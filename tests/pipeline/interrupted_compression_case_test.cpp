@@ -17,6 +17,7 @@
 #include "tests/pipeline/kills.h"
 #include "tests/pipeline/scratch_folder.h"
 #include "tests/solver/dome_breast.h"
+#include "tests/where.h"
 
 namespace mammotwin {
 namespace {

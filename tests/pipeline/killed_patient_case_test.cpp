@@ -5,6 +5,7 @@
 
 #include "tests/pipeline/chain_run.h"
 #include "tests/pipeline/patient_case.h"
+#include "tests/where.h"
 
 namespace mammotwin {
 namespace {

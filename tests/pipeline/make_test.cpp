@@ -1,5 +1,6 @@
 #include "tests/pipeline/command.h"
 #include "tests/pipeline/scratch_folder.h"
+#include "tests/where.h"
 
 namespace mammotwin {
 namespace {

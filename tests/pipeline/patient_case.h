@@ -7,6 +7,7 @@
 
 #include "tests/pipeline/command.h"
 #include "tests/pipeline/scratch_folder.h"
+#include "tests/where.h"
 
 namespace mammotwin {
 

@@ -8,6 +8,7 @@
 
 #include "registration/export/csv.h"
 #include "tests/pipeline/patient_case.h"
+#include "tests/where.h"
 
 namespace mammotwin {
 namespace {

@@ -8,6 +8,7 @@
 #include "fitting/mesh/mesh_file.h"
 #include "registration/carry/point_carrier.h"
 #include "tests/pipeline/patient_case.h"
+#include "tests/where.h"
 
 namespace mammotwin {
 namespace {

@@ -3,6 +3,7 @@
 
 #include "segmentation/segment.h"
 #include "tests/segmentation/cases.h"
+#include "tests/where.h"
 
 namespace mammotwin {
 namespace {

@@ -10,6 +10,7 @@
 #include "pipeline/evaluate/niftysim/roll_hold.h"
 #include "pipeline/evaluate/victre/victre_comparison.h"
 #include "solver/press/compress.h"
+#include "tests/where.h"
 
 namespace mammotwin {
 namespace {

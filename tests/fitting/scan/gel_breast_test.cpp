@@ -8,6 +8,7 @@
 #include "fitting/scan/scanned_breast.h"
 #include "fitting/surface/closest_point.h"
 #include "fitting/surface/face_mesh.h"
+#include "tests/where.h"
 
 namespace mammotwin {
 namespace {

@@ -8,6 +8,7 @@
 
 #include "tests/pipeline/cohort/cohort_folder.h"
 #include "tests/pipeline/kills.h"
+#include "tests/where.h"
 
 namespace mammotwin {
 namespace {

@@ -1,6 +1,7 @@
 #include <filesystem>
 
 #include "tests/pipeline/cohort/cohort_folder.h"
+#include "tests/where.h"
 
 namespace mammotwin {
 namespace {

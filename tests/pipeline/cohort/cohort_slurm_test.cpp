@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "tests/pipeline/cohort/cohort_folder.h"
+#include "tests/where.h"
 
 namespace mammotwin {
 namespace {
@@ -16,7 +17,7 @@ class SlurmCohort : public CohortFolderTest {
     auto variables = environment(more);
     variables.push_back("ENGINE=slurm");
     return run_command(
-        {MAMMOTWIN_SOURCE_DIR "/tests/pipeline/with_slurm.sh", (folder_ / "slurm").string(),
+        {MAMMOTWIN_SOURCE_DIR "/tests/pipeline/cohort/with_slurm.sh", (folder_ / "slurm").string(),
          MAMMOTWIN_SOURCE_DIR "/pipeline/cohort/run_cohort.sh"},
         variables);
   }

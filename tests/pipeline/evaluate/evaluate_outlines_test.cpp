@@ -6,6 +6,7 @@
 #include "pipeline/evaluate/outline_row.h"
 #include "registration/view/compressed_view.h"
 #include "tests/registration/squeezed_box.h"
+#include "tests/where.h"
 
 namespace mammotwin {
 namespace {

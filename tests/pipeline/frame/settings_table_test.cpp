@@ -2,6 +2,7 @@
 
 #include "pipeline/patient/patient.h"
 #include "tests/pipeline/scratch_folder.h"
+#include "tests/where.h"
 
 namespace mammotwin {
 namespace {

@@ -2,6 +2,7 @@
 
 #include "pipeline/synthesize/hanging_truth.h"
 #include "solver/gravity/hang.h"
+#include "tests/where.h"
 
 namespace mammotwin {
 namespace {

@@ -1,5 +1,6 @@
 #include "pipeline/validation/gel_result.h"
 #include "tests/pipeline/scratch_folder.h"
+#include "tests/where.h"
 
 namespace mammotwin {
 namespace {

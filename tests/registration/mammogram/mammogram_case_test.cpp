@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "registration/mammogram/mammogram_findings.h"
+#include "tests/where.h"
 
 namespace mammotwin {
 namespace {
