@@ -12,7 +12,7 @@
 #include "solver/contact/penalty_continuation.h"
 #include "solver/load/load_stepping.h"
 #include "solver/material/neo_hookean.h"
-#include "tests/verification/condition_number.h"
+#include "pipeline/validation/gel_cylinder/condition_number.h"
 
 namespace mammotwin {
 

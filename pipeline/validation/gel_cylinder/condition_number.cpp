@@ -1,4 +1,4 @@
-#include "tests/verification/condition_number.h"
+#include "pipeline/validation/gel_cylinder/condition_number.h"
 
 #include <cmath>
 #include <functional>
