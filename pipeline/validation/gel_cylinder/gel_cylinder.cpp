@@ -8,11 +8,11 @@
 #include <stdexcept>
 #include <utility>
 
+#include "pipeline/validation/gel_cylinder/condition_number.h"
 #include "solver/contact/contact_figures.h"
 #include "solver/contact/penalty_continuation.h"
 #include "solver/load/load_stepping.h"
 #include "solver/material/neo_hookean.h"
-#include "pipeline/validation/gel_cylinder/condition_number.h"
 
 namespace mammotwin {
 
