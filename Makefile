@@ -22,7 +22,7 @@ unexport MAKEFLAGS MAKEOVERRIDES
 
 .PHONY: help patient segment fit unload compress register report slicer paraview synthesize cohort verify-results build \
         evaluate-segmentation evaluate-fitting evaluate-compression evaluate-unload evaluate-registration \
-        evaluate-outlines evaluate-niftysim evaluate-victre validate bench chain programs configured \
+        evaluate-outlines evaluate-niftysim evaluate-victre measured validate bench chain programs configured \
         install docs test clean
 .DEFAULT_GOAL := help
 
@@ -50,6 +50,7 @@ help:
 	@echo '                       the gel breast against its true skin: RESULTS/gel_breast/validation.json'
 	@echo 'make evaluate-niftysim   a breast that NiftySim compressed, node by node: RESULTS/evaluation/niftysim.json'
 	@echo 'make evaluate-victre   a phantom that FEBio compressed, its outline and tissue: RESULTS/evaluation/victre.json'
+	@echo 'make measured          the pages of docs/measured, from what evaluations wrote into RESULTS'
 	@echo 'make bench             times of kernels, linear algebra and whole solves (ten minutes)'
 	@echo 'make install PREFIX=/usr/local   programs, manual pages, completion, libraries'
 	@echo 'make docs              tutorial, how-tos, theory, reference: build/release/docs/index.html'
@@ -97,6 +98,9 @@ evaluate-niftysim: programs
 
 evaluate-victre: programs
 	@"$$BIN/mammotwin-evaluate-victre" "$$CASES/victre" "$$RESULTS/evaluation/victre.json"
+
+measured: programs
+	@"$$BIN/mammotwin-measured" docs/measured --evaluation "$$RESULTS/evaluation"
 
 bench: programs
 	@ninja -C build/release --quiet solver_benchmarks

@@ -9,18 +9,18 @@ namespace {
 
 using SettingsTableTest = ScratchFolder;
 
-TEST_F(SettingsTableTest, IsTheOneInTheReadme) {
-  const std::string readme = text_of(MAMMOTWIN_SOURCE_DIR "/pipeline/README.md");
+TEST_F(SettingsTableTest, IsTheOneInTheDocumentation) {
+  const std::string page = text_of(MAMMOTWIN_SOURCE_DIR "/docs/settings.md");
   const std::string begin = "--list-settings` -->\n", end = "<!-- end of settings -->";
-  const std::size_t from = readme.find(begin), to = readme.find(end);
+  const std::size_t from = page.find(begin), to = page.find(end);
   ASSERT_NE(from, std::string::npos);
   ASSERT_NE(to, std::string::npos);
   Patient patient;
   Settings settings;
   patient.declare(settings);
-  EXPECT_EQ(readme.substr(from + begin.size(), to - from - begin.size()),
+  EXPECT_EQ(page.substr(from + begin.size(), to - from - begin.size()),
             settings_table(settings.all()))
-      << "put the output of `mammotwin-segment --list-settings` there";
+      << "put the output of `mammotwin-segment --list-settings` into docs/settings.md";
 }
 
 }  // namespace
