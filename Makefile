@@ -20,10 +20,11 @@ override SYNTHETIC := $(value SYNTHETIC)
 export P DATA RESULTS FORCE BIN SEED PATIENTS JOBS ONLY ENGINE CONFIG PREFIX CASES SYNTHETIC
 unexport MAKEFLAGS MAKEOVERRIDES
 
-.PHONY: help patient segment fit unload compress register report slicer paraview synthesize cohort verify-results build \
+.PHONY: help patient segment fit unload compress register report slicer paraview synthesize cohort verify-results \
         evaluate-segmentation evaluate-fitting evaluate-compression evaluate-unload evaluate-registration \
         evaluate-outlines evaluate-niftysim evaluate-victre measured validate bench chain programs configured \
-        install docs test clean
+        configured_to_test install docs test clean
+.NOTPARALLEL:  # ninja itself uses all cores
 .DEFAULT_GOAL := help
 
 help:
@@ -61,69 +62,86 @@ help:
 	@echo 'RESULTS=folder         where results go (default results)'
 	@echo 'FORCE=1                runs stages that are up to date, too'
 
-patient segment fit unload compress register report slicer paraview synthesize: chain
+# A target builds the programs that it runs: `chain` are those of the stages.
+patient segment fit unload compress register report: chain
+slicer: chain mammotwin-slicer
+paraview: chain mammotwin-paraview
+synthesize: mammotwin-synthesize
+cohort: chain mammotwin-cohort
+verify-results: mammotwin-verify
+validate: mammotwin-validate mammotwin-validate-gel-breast
+patient segment fit unload compress register report slicer paraview synthesize:
 	@pipeline/run_patient.sh $@
 
-cohort: chain
+cohort:
 	@pipeline/cohort/run_cohort.sh
 
-evaluate-segmentation: programs
+evaluate-segmentation: mammotwin-evaluate-segmentation
 	@"$$BIN/mammotwin-evaluate-segmentation" "$$RESULTS/evaluation/segmentation.json" --cases "$$CASES" \
 	  $${SYNTHETIC:+--synthetic "$$SYNTHETIC"} $${JOBS:+--jobs "$$JOBS"} $${ONLY:+--only "$$ONLY"}
 
-evaluate-fitting: programs
+evaluate-fitting: mammotwin-evaluate-fitting
 	@"$$BIN/mammotwin-evaluate-fitting" "$$CASES" "$$RESULTS/evaluation/fitting.json"
 
-evaluate-unload: programs
+evaluate-unload: mammotwin-evaluate-unload
 	@"$$BIN/mammotwin-evaluate-unload" "$$CASES" "$$RESULTS/evaluation/unload.json" --views
 
-evaluate-compression: programs
+evaluate-compression: mammotwin-evaluate-compression
 	@"$$BIN/mammotwin-evaluate-compression" "$$RESULTS/evaluation/compression.json" --cases "$$CASES" \
 	  $${SYNTHETIC:+--synthetic "$$SYNTHETIC"} $${JOBS:+--jobs "$$JOBS"} $${ONLY:+--only "$$ONLY"}
 
-evaluate-registration: programs
+evaluate-registration: mammotwin-evaluate-registration
 	@"$$BIN/mammotwin-evaluate-registration" "$$RESULTS/evaluation/registration.json" \
 	  $${SYNTHETIC:+--synthetic "$$SYNTHETIC"} $${JOBS:+--jobs "$$JOBS"}
 
-evaluate-outlines: programs
+evaluate-outlines: mammotwin-evaluate-outlines
 	@"$$BIN/mammotwin-evaluate-outlines" "$$CASES/compressed_outlines" "$$RESULTS/evaluation/outlines.json" \
 	  $${PRESS:+--press} $$(find -L "$$RESULTS" -name cc.vtu -not -path '*/evaluation/outlines/*' | sort)
 
-validate: programs
+validate:
 	@"$$BIN/mammotwin-validate" sample_data/gel_cylinder "$$RESULTS/gel_cylinder/validation.json"
 	@"$$BIN/mammotwin-validate-gel-breast" sample_data/gel_breast/scan.ply "$$RESULTS/gel_breast/validation.json"
 
-evaluate-niftysim: programs
+evaluate-niftysim: mammotwin-evaluate-niftysim
 	@"$$BIN/mammotwin-evaluate-niftysim" "$$CASES/breast_ct_compression" "$$RESULTS/evaluation/niftysim.json"
 
-evaluate-victre: programs
+evaluate-victre: mammotwin-evaluate-victre
 	@"$$BIN/mammotwin-evaluate-victre" "$$CASES/victre" "$$RESULTS/evaluation/victre.json"
 
-measured: programs
+measured: mammotwin-measured
 	@"$$BIN/mammotwin-measured" docs/measured --evaluation "$$RESULTS/evaluation"
 
-bench: programs
-	@ninja -C build/release --quiet solver_benchmarks
+bench: configured_to_test
+	@pipeline/install/build.sh solver_benchmarks
 	@"$$BIN/solver_benchmarks"
 
-verify-results: chain
+verify-results:
 	@pipeline/cohort/verify_patient.sh
 
-# A patient needs the chain of stages only; evaluations, all programs; tests, everything.
-chain programs build: configured
-	@ninja -C build/release --quiet $(if $(filter build,$@),all,$@)
+chain programs: configured
+	@pipeline/install/build.sh $@
+
+mammotwin-%: configured
+	@pipeline/install/build.sh $@
 
 configured:
 	@pipeline/install/ensure_packages.sh
-	@test -f build/release/build.ninja || cmake --preset release
+	@pipeline/install/configure.sh
 
-docs: configured
-	@ninja -C build/release --quiet site
+# Tests, benchmarks and pages take some packages more.
+configured_to_test:
+	@pipeline/install/ensure_packages.sh debian_packages.txt debian_packages_develop.txt
+	@pipeline/install/configure.sh -D MAMMOTWIN_TESTS=ON
 
-test: build
+docs: configured_to_test
+	@pipeline/install/build.sh site
+
+test: configured_to_test
+	@pipeline/install/build.sh all
 	@ctest --test-dir build/release --output-on-failure -j2
 
-install: build
+install: configured
+	@pipeline/install/build.sh all
 	@cmake --install build/release --prefix "$$PREFIX"
 
 clean:

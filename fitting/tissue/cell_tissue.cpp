@@ -7,15 +7,13 @@
 #include <array>
 #include <cmath>
 
+#include "fitting/tissue/gauss_points.h"
+
 namespace mammotwin {
 
 namespace {
 
-// Gauss-Legendre on [0,1], and the sums of the weights where cells end.
-constexpr std::array<double, 4> points = {0.06943184420297371, 0.33000947820757187,
-                                          0.66999052179242813, 0.93056815579702629};
-constexpr std::array<double, 4> weights = {0.17392742256872693, 0.32607257743127307,
-                                           0.32607257743127307, 0.17392742256872693};
+// Sums of the gauss_weights, where cells end.
 constexpr std::array<double, 3> ends = {0.17392742256872693, 0.5, 0.82607257743127307};
 
 constexpr int cells_per_element = 64;
@@ -34,8 +32,8 @@ int cell_of(const MeshPoint& p) {
 /// Volume [mm³] that the Gauss point of a cell stands for.
 double weight_of(const HermiteMesh& mesh, int cell) {
   const int i = cell % 4, j = cell / 4 % 4, k = cell / 16 % 4;
-  const MeshPoint p{cell / cells_per_element, {points[i], points[j], points[k]}};
-  return weights[i] * weights[j] * weights[k] * mesh.jacobian(p).determinant();
+  const MeshPoint p{cell / cells_per_element, {gauss_points[i], gauss_points[j], gauss_points[k]}};
+  return gauss_weights[i] * gauss_weights[j] * gauss_weights[k] * mesh.jacobian(p).determinant();
 }
 
 /// Voxel indices [first, last] of a box.
@@ -50,7 +48,7 @@ IndexBox box_of(const HermiteMesh& mesh, const Volume<Fractions>& v) {
     const BezierElement control = bezier_element(mesh, e);
     for (int c = 0; c < control.cols(); ++c) box.extend(control.col(c).eval());
   }
-  // Control points may stand beyond the cut planes, which corners of elements reach.
+  // Control gauss_points may stand beyond the cut planes, which corners of elements reach.
   Eigen::AlignedBox3d corners;
   for (const auto& node : mesh.nodes()) corners.extend(node.col(0).eval());
   const Eigen::Vector3d low(corners.min().x(), box.min().y() - reach_mm, corners.min().z());
@@ -109,7 +107,7 @@ struct Tally {
   double volume = 0;           ///< of the voxels [mm³]
 
   /// A cell has a few voxels more or fewer than its weight: shares that are less than all are
-  /// scaled until the points hold the voxels' volume.
+  /// scaled until the gauss_points hold the voxels' volume.
   void keep_volume() {
     constexpr int rounds = 5;  // each leaves what newly full cells could not take
     for (int round = 0; round < rounds; ++round) {

@@ -3,17 +3,13 @@
 #include <Eigen/LU>
 #include <array>
 
+#include "fitting/tissue/gauss_points.h"
+
 namespace mammotwin {
 
 namespace {
 
 constexpr double mm3_in_ml = 1000;
-
-// Gauss-Legendre on [0,1].
-constexpr std::array<double, 4> points = {0.06943184420297371, 0.33000947820757187,
-                                          0.66999052179242813, 0.93056815579702629};
-constexpr std::array<double, 4> weights = {0.17392742256872693, 0.32607257743127307,
-                                           0.32607257743127307, 0.17392742256872693};
 
 void add(TissueVolumes& sum, const Fractions& f, double volume) {
   sum.fat += f.fat * volume / mm3_in_ml;
@@ -28,8 +24,9 @@ TissueVolumes tissue_in_mesh(const HermiteMesh& mesh, const FractionSampler& sam
   for (int e = 0; e < mesh.num_elements(); ++e)
     for (int q = 0; q < 64; ++q) {
       const int i = q % 4, j = q / 4 % 4, k = q / 16;
-      const MeshPoint p{e, {points[i], points[j], points[k]}};
-      const double volume = weights[i] * weights[j] * weights[k] * mesh.jacobian(p).determinant();
+      const MeshPoint p{e, {gauss_points[i], gauss_points[j], gauss_points[k]}};
+      const double volume =
+          gauss_weights[i] * gauss_weights[j] * gauss_weights[k] * mesh.jacobian(p).determinant();
       add(sum, sample(mesh.position(p), volume), volume);
     }
   return sum;

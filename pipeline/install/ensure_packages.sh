@@ -1,13 +1,15 @@
 #!/bin/sh
-# Installs the Debian packages that the build needs and that are missing, saying first which.
+# ensure_packages.sh [LIST...]: installs the Debian packages of the lists (default: debian_packages.txt) that are
+# missing, saying first which.
 set -eu
-list=$(dirname "$0")/debian_packages.txt
+[ $# -gt 0 ] || set -- debian_packages.txt
+cd "$(dirname "$0")"
 
 missing=
-while read -r package; do
+for package in $(cat "$@"); do
   state=$(dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null || true)
   [ "$state" = installed ] || missing="$missing $package"
-done < "$list"
+done
 [ -n "$missing" ] || exit 0
 
 as_root=

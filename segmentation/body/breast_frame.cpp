@@ -10,7 +10,7 @@
 namespace mammotwin {
 namespace {
 
-constexpr double least_height_mm = 20;  // over the skin between the breasts
+constexpr double least_cleft_mm = 20;  // over the skin between the breasts
 
 /// First body voxel of each column, i fastest; the number of rows where there is none.
 std::vector<int> front_rows(const Volume<std::uint8_t>& body) {
@@ -105,7 +105,7 @@ BreastFrame find_breast_frame(const Volume<std::uint8_t>& body) {
   frame.left_apex = most_anterior(body, rows, apices->valley, body.size.x() - 1);
   frame.midline_x = valley_x(body, rows, frame);
   frame.front_y = std::min(frame.left_apex.y(), frame.right_apex.y());
-  if (frame.sternal_y - frame.front_y < least_height_mm)
+  if (frame.sternal_y - frame.front_y < least_cleft_mm)
     throw std::runtime_error(
         "no breast found: nothing stands 20 mm or more out from the skin at "
         "the middle; expected a prone breast MRI");

@@ -19,7 +19,7 @@
 namespace mammotwin {
 namespace {
 
-constexpr double behind_sternum_mm = 100;
+constexpr double kept_behind_sternum_mm = 100;
 constexpr double skin_mm = 4, wall_mm = 2;  // left out of the bias: study, section 4
 constexpr double n4_block_mm = 4;
 
@@ -34,7 +34,7 @@ Crop side_box(const Volume<float>& image, const BreastFrame& frame, Side side) {
   };
   const int middle = column(frame.midline_x);
   const int rear =
-      std::clamp(static_cast<int>((frame.sternal_y + behind_sternum_mm - image.origin.y()) /
+      std::clamp(static_cast<int>((frame.sternal_y + kept_behind_sternum_mm - image.origin.y()) /
                                   image.spacing.y()),
                  0, image.size.y() - 1);
   Crop crop{Eigen::Vector3i::Zero(), {image.size.x() - 1, rear, image.size.z() - 1}};

@@ -8,8 +8,8 @@
 namespace mammotwin {
 namespace {
 
-constexpr int inside_mm = 7, outside_mm = 6, edge_mm = 2, blur_mm = 1, below_skin_mm = 4;
-constexpr int rough_from_mm = 2, rough_to_mm = 7;  // inside: clear of the edge's blur
+constexpr int inside_mm = 7, outside_mm = 6, edge_mm = 2, blur_mm = 1, clear_of_skin_mm = 4;
+constexpr int texture_from_mm = 2, texture_to_mm = 7;  // inside: clear of the edge's blur
 constexpr float forbidden = 10;
 
 /// Means over pieces of a ray in constant time.
@@ -56,7 +56,7 @@ class WallCost {
     }
     const RunningSum logs(log_intensity), muscle(likelihood), darks(dark), values(value),
         squares(square);
-    const int last = exit - below_skin_mm;
+    const int last = exit - clear_of_skin_mm;
     for (int d = 0; d < PolarRays::depths; ++d) {
       if (d < edge_mm + blur_mm || d > last) {
         cost[d] = forbidden;
@@ -67,7 +67,7 @@ class WallCost {
       const double region = (outside - inside) / strongest_;
       const double edge = knows_gland_ ? outward_fall(muscle, d) / (2 * strongest_)
                                        : outward_fall(logs, d) / (log_muscle_ - log_fat_);
-      const double dark_mm = darks.sum(d + 1, exit - below_skin_mm);
+      const double dark_mm = darks.sum(d + 1, exit - clear_of_skin_mm);
       const double dark_inside = darks.mean(d - inside_mm, d);
       cost[d] = static_cast<float>(0.5 * region - 2 * std::clamp(edge, -1.0, 1.0) + dark_mm / 10 +
                                    dark_inside + 2 * roughness(values, squares, d));
@@ -85,8 +85,8 @@ class WallCost {
   double roughness(const RunningSum& values, const RunningSum& squares, int d) const {
     if (roughness_ <= 0) return 0;
     constexpr double harmless = 1.5, full = 3;
-    const double mean = values.mean(d - rough_to_mm, d - rough_from_mm);
-    const double variance = squares.mean(d - rough_to_mm, d - rough_from_mm) - mean * mean;
+    const double mean = values.mean(d - texture_to_mm, d - texture_from_mm);
+    const double variance = squares.mean(d - texture_to_mm, d - texture_from_mm) - mean * mean;
     const double ratio = std::sqrt(std::max(0.0, variance)) / roughness_;
     return std::clamp((ratio - harmless) / (full - harmless), 0.0, 1.0);
   }

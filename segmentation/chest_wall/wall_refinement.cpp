@@ -11,18 +11,18 @@ namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 constexpr int reach_mm = 3;  // of the crossing from the wall
-constexpr int inside_from_mm = 2, inside_to_mm = 6;
-constexpr int outside_from_mm = 2, outside_to_mm = 5;
+constexpr int inner_from_mm = 2, inner_to_mm = 6;
+constexpr int outer_from_mm = 2, outer_to_mm = 5;
 constexpr double least_step = 0.3;  // of that from fat to muscle
-constexpr int half_window = 2;      // rays
+constexpr int nearby_rays = 2;      // rays
 constexpr double least_share = 0.25;
 
 /// From the wall to the nearest crossing of the middle; NaN where there is none to be trusted.
 double shift_of(const float* ray, int exit, double depth, const WallContrast& contrast) {
   const int at = static_cast<int>(std::lround(depth));
   const double step = contrast.muscle - contrast.fat;
-  const double inside = mean_along(ray, at - inside_to_mm, at - inside_from_mm);
-  const double outside = mean_along(ray, at + outside_from_mm, at + outside_to_mm);
+  const double inside = mean_along(ray, at - inner_to_mm, at - inner_from_mm);
+  const double outside = mean_along(ray, at + outer_from_mm, at + outer_to_mm);
   if ((inside - outside) / step < least_step) return none;
   const double middle = (inside + outside) / 2;
   double best = none;
@@ -39,8 +39,8 @@ double shift_of(const float* ray, int exit, double depth, const WallContrast& co
 double median_around(const std::vector<double>& map, int rows, int columns, int r, int c) {
   std::vector<double> near;
   int all = 0;
-  for (int b = std::max(0, r - half_window); b <= std::min(rows - 1, r + half_window); ++b)
-    for (int a = std::max(0, c - half_window); a <= std::min(columns - 1, c + half_window); ++a) {
+  for (int b = std::max(0, r - nearby_rays); b <= std::min(rows - 1, r + nearby_rays); ++b)
+    for (int a = std::max(0, c - nearby_rays); a <= std::min(columns - 1, c + nearby_rays); ++a) {
       const double value = map[static_cast<std::size_t>(b) * columns + a];
       ++all;
       if (std::isfinite(value)) near.push_back(value);

@@ -13,7 +13,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double same_place_mm = 0.01;
 constexpr std::size_t least_slices = 16;  // fewer is a localiser, not a breast
 
 struct Series {

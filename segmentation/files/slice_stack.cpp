@@ -11,7 +11,6 @@
 namespace mammotwin {
 namespace {
 
-constexpr double same_place_mm = 0.01;
 constexpr double parallel_tolerance = 1e-3;  // sine of the angle between normals: 0.06 degrees
 constexpr double gap_factor = 1.5;           // over the median distance: a slice is missing
 constexpr double sideways_mm = 0.5;          // half of a usual pixel
@@ -24,25 +23,25 @@ std::string placed(const SlicePlacement& slice, double along) {
   return text.str();
 }
 
-[[noreturn]] void fail(const std::string& message) { throw std::runtime_error(message); }
+[[noreturn]] void refuse(const std::string& message) { throw std::runtime_error(message); }
 
 void check_matching(const std::vector<SlicePlacement>& slices) {
   const SlicePlacement& first = slices.front();
   for (const SlicePlacement& slice : slices) {
     if (slice.rows != first.rows || slice.columns != first.columns)
-      fail("slices differ in matrix: " + first.name + " has " + std::to_string(first.rows) + " x " +
-           std::to_string(first.columns) + " pixels, " + slice.name + " " +
-           std::to_string(slice.rows) + " x " + std::to_string(slice.columns) +
-           "; expected one size throughout (are two acquisitions in one folder?)");
+      refuse("slices differ in matrix: " + first.name + " has " + std::to_string(first.rows) +
+             " x " + std::to_string(first.columns) + " pixels, " + slice.name + " " +
+             std::to_string(slice.rows) + " x " + std::to_string(slice.columns) +
+             "; expected one size throughout (are two acquisitions in one folder?)");
     if (std::abs(slice.row_spacing - first.row_spacing) > 1e-3 ||
         std::abs(slice.column_spacing - first.column_spacing) > 1e-3)
-      fail("slices differ in pixel spacing: " + first.name + " and " + slice.name +
-           "; expected one spacing throughout");
+      refuse("slices differ in pixel spacing: " + first.name + " and " + slice.name +
+             "; expected one spacing throughout");
     if (slice.normal().cross(first.normal()).norm() > parallel_tolerance ||
         std::abs(slice.along_row.dot(first.along_row) - 1) > parallel_tolerance)
-      fail("slices are not parallel: " + first.name + " and " + slice.name +
-           " are oriented differently; expected one stack of parallel slices (a localiser or a "
-           "mixed series cannot serve; choose a three-dimensional series)");
+      refuse("slices are not parallel: " + first.name + " and " + slice.name +
+             " are oriented differently; expected one stack of parallel slices (a localiser or a "
+             "mixed series cannot serve; choose a three-dimensional series)");
   }
 }
 
@@ -67,7 +66,7 @@ void check_holes(const std::vector<SlicePlacement>& slices, const std::vector<st
          << placed(a, a.position.dot(normal)) << " and " << placed(b, b.position.dot(normal));
   }
   text << "; expected one slice every " << median << " mm (export the series again)";
-  fail(text.str());
+  refuse(text.str());
 }
 
 }  // namespace
@@ -84,7 +83,7 @@ bool has_repeated_positions(const std::vector<SlicePlacement>& slices) {
 
 SliceStack stack_slices(const std::vector<SlicePlacement>& slices) {
   if (slices.size() < 2)
-    fail(
+    refuse(
         "holds one two-dimensional image; expected a three-dimensional breast MRI (a folder with "
         "all slices of one series)");
   check_matching(slices);
@@ -108,11 +107,11 @@ SliceStack stack_slices(const std::vector<SlicePlacement>& slices) {
     const std::size_t a = stack.order[n], b = stack.order[n + 1];
     const std::string pair = placed(slices[a], along(a)) + " and " + placed(slices[b], along(b));
     if (steps[n] < same_place_mm)
-      fail("two slices stand at one place: " + pair +
-           "; expected each slice once (remove the copy, or name the phase with mri.series)");
+      refuse("two slices stand at one place: " + pair +
+             "; expected each slice once (remove the copy, or name the phase with mri.series)");
     const Eigen::Vector3d between = slices[b].position - slices[a].position;
     if ((between - between.dot(normal) * normal).norm() > sideways_mm)
-      fail("slices shift sideways between " + pair + "; expected a straight stack");
+      refuse("slices shift sideways between " + pair + "; expected a straight stack");
   }
   stack.spacing = (along(stack.order.back()) - along(stack.order.front())) / steps.size();
   return stack;

@@ -17,6 +17,9 @@ struct SlicePlacement {
   Eigen::Vector3d normal() const { return along_row.cross(along_column); }
 };
 
+/// Slices no farther apart than this stand at one place.
+constexpr double same_place_mm = 0.01;
+
 /// Slices in order along their normal, equally spaced.
 struct SliceStack {
   std::vector<std::size_t> order;  ///< order[n] is the index of the n-th slice

@@ -13,29 +13,29 @@ namespace {
 
 using Keys = std::map<std::string, std::string>;
 
-struct Word {
+struct NamedTissue {
   const char* part;
   ForeignTissue tissue;
 };
 
 /// Parts of names, then SNOMED codes; the first that fits counts.
-constexpr std::array<Word, 17> words{{{"lesion", ForeignTissue::lesion},
-                                      {"tumour", ForeignTissue::lesion},
-                                      {"tumor", ForeignTissue::lesion},
-                                      {"mass", ForeignTissue::lesion},
-                                      {"cancer", ForeignTissue::lesion},
-                                      {"skin", ForeignTissue::skin},
-                                      {"gland", ForeignTissue::fibroglandular},
-                                      {"muscle", ForeignTissue::muscle},
-                                      {"pectoral", ForeignTissue::muscle},
-                                      {"chest wall", ForeignTissue::muscle},
-                                      {"fat", ForeignTissue::fat},
-                                      {"adipose", ForeignTissue::fat},
-                                      {"^52988006^", ForeignTissue::lesion},
-                                      {"^39937001^", ForeignTissue::skin},
-                                      {"^248300009^", ForeignTissue::fat},
-                                      {"^71616004^", ForeignTissue::muscle},
-                                      {"background", ForeignTissue::air}}};
+constexpr std::array<NamedTissue, 17> named_tissues{{{"lesion", ForeignTissue::lesion},
+                                                     {"tumour", ForeignTissue::lesion},
+                                                     {"tumor", ForeignTissue::lesion},
+                                                     {"mass", ForeignTissue::lesion},
+                                                     {"cancer", ForeignTissue::lesion},
+                                                     {"skin", ForeignTissue::skin},
+                                                     {"gland", ForeignTissue::fibroglandular},
+                                                     {"muscle", ForeignTissue::muscle},
+                                                     {"pectoral", ForeignTissue::muscle},
+                                                     {"chest wall", ForeignTissue::muscle},
+                                                     {"fat", ForeignTissue::fat},
+                                                     {"adipose", ForeignTissue::fat},
+                                                     {"^52988006^", ForeignTissue::lesion},
+                                                     {"^39937001^", ForeignTissue::skin},
+                                                     {"^248300009^", ForeignTissue::fat},
+                                                     {"^71616004^", ForeignTissue::muscle},
+                                                     {"background", ForeignTissue::air}}};
 
 std::string lower(std::string text) {
   for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
@@ -43,7 +43,7 @@ std::string lower(std::string text) {
 }
 
 std::optional<ForeignTissue> tissue_in(const std::string& text) {
-  for (const Word& word : words)
+  for (const NamedTissue& word : named_tissues)
     if (lower(text).find(word.part) != std::string::npos) return word.tissue;
   return std::nullopt;
 }

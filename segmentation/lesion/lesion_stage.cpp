@@ -14,7 +14,7 @@ namespace mammotwin {
 namespace {
 
 constexpr double outside_tolerance_mm = 4;  // a click on the edge is no error
-constexpr double least_agreement = 0.5, least_contrast = 1.3;
+constexpr double least_agreement = 0.5, least_contrast_if_brighter = 1.3;
 
 std::string text(const Eigen::Vector3d& x) {
   std::ostringstream out;
@@ -96,7 +96,7 @@ void judge(const FoundLesion& found, const PlacedSeed& seed, bool brighter,
                       " was outlined without fat suppression and contrast agent, "
                       "where it looks like gland: its extent rests on the fat around it; give "
                       "radius_mm or a label map if it lies in gland");
-  if (brighter && found.contrast() < least_contrast)
+  if (brighter && found.contrast() < least_contrast_if_brighter)
     quality.doubt(SegmentStatus::look, "lesion " + seed.id +
                                            " is less than 1.3 times as bright as "
                                            "its surroundings: its edge is uncertain");

@@ -12,7 +12,7 @@ namespace mammotwin {
 namespace {
 
 constexpr double layer_from_mm = 4, layer_to_mm = 7;
-constexpr double block_mm = 4, smoothing_mm = 15;
+constexpr double layer_block_mm = 4, smoothing_mm = 15;
 constexpr double from_mm = 20, full_mm = 40;  // behind the skin between the breasts
 constexpr float darkest = 0.2F;
 
@@ -21,7 +21,7 @@ Volume<float> layer_brightness(const Volume<float>& image, const Volume<float>& 
   auto layer = depth.like<std::uint8_t>(0);
   for (std::size_t v = 0; v < depth.values.size(); ++v)
     layer.values[v] = depth.values[v] > layer_from_mm && depth.values[v] < layer_to_mm;
-  Volume<float> brightness = smooth_field(image, layer, block_mm, smoothing_mm);
+  Volume<float> brightness = smooth_field(image, layer, layer_block_mm, smoothing_mm);
   std::replace(brightness.values.begin(), brightness.values.end(), 0.0F, 1.0F);
   return brightness;
 }
