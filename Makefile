@@ -128,12 +128,15 @@ configured:
 	@pipeline/install/ensure_packages.sh
 	@pipeline/install/configure.sh
 
-# Tests, benchmarks and pages take some packages more.
+# Tests and benchmarks take some packages more, so does the documentation.
 configured_to_test:
 	@pipeline/install/ensure_packages.sh debian_packages.txt debian_packages_develop.txt
 	@pipeline/install/configure.sh -D MAMMOTWIN_TESTS=ON
 
-docs: configured_to_test
+docs:
+	@pipeline/install/ensure_packages.sh debian_packages.txt debian_packages_docs.txt
+	@pipeline/install/configure.sh
+	@cmake build/release >/dev/null  # finds what was just installed
 	@pipeline/install/build.sh site
 
 test: configured_to_test
