@@ -3,6 +3,7 @@
 #include "solver/press/compress.h"
 
 #include "pipeline/frame/stage.h"
+#include "pipeline/patient/patient.h"
 #include "pipeline/steps/breast_problem.h"
 #include "pipeline/steps/compression_course.h"
 #include "pipeline/steps/compression_quality.h"
@@ -86,8 +87,7 @@ CompressionResult compress_with_checkpoints(const CompressionProblem& problem,
   return compress(problem, options, stage.progress, restart);
 }
 
-Outcome run(const Arguments& args, StageRun& stage) {
-  const Patient& patient = stage.patient;
+Outcome run(const Arguments& args, const Patient& patient, StageRun& stage) {
   const Segmentation segmentation = read_segmentation(args.segmentation, args.fractions);
   const Side side = segmentation.region.side;
   std::vector<std::string> remarks;

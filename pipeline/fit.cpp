@@ -2,6 +2,7 @@
 
 #include "fitting/fit_breast.h"
 #include "pipeline/frame/stage.h"
+#include "pipeline/patient/patient.h"
 #include "pipeline/steps/fit_quality.h"
 #include "segmentation/files/segmentation_file.h"
 
@@ -35,11 +36,11 @@ std::optional<ScannedSkin> scanned_skin(const Patient& patient) {
   return read_scanned_breast(*scan, patient.scan_options()).skin;
 }
 
-Outcome run(const Arguments& args, StageRun& stage) {
+Outcome run(const Arguments& args, const Patient& patient, StageRun& stage) {
   const Segmentation segmentation = read_segmentation(args.segmentation, args.fractions);
-  const std::optional<ScannedSkin> scan = scanned_skin(stage.patient);
+  const std::optional<ScannedSkin> scan = scanned_skin(patient);
   const auto [mesh, report] =
-      fit_breast(segmentation, stage.patient.fit, stage.progress, scan ? &*scan : nullptr);
+      fit_breast(segmentation, patient.fit, stage.progress, scan ? &*scan : nullptr);
   if (report.usable()) {
     write_mesh_file(stage.products.write_main(), mesh);
     write_exf(stage.products.write(args.mesh.stem().string() + ".exf"), mesh.mesh);

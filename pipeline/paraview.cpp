@@ -1,6 +1,7 @@
 // paraview: a compressed mesh -> the breast after each load step, as a series that ParaView plays.
 
 #include "pipeline/frame/stage.h"
+#include "pipeline/patient/patient.h"
 #include "pipeline/steps/compression_course.h"
 
 namespace mammotwin {
@@ -20,7 +21,7 @@ void declare(StageDeclaration& stage, Arguments& args) {
 
 StagePlan plan(const Arguments&, const Patient&) { return {}; }
 
-Outcome run(const Arguments& args, StageRun& stage) {
+Outcome run(const Arguments& args, const Patient&, StageRun& stage) {
   const MeshFile compressed = read_mesh_file(args.compressed);
   const std::vector<CourseStep> course = course_of(compressed);
   if (course.empty())

@@ -4,6 +4,7 @@
 #include <iostream>
 
 #include "pipeline/frame/stage.h"
+#include "pipeline/patient/patient.h"
 #include "pipeline/steps/dicom_products.h"
 #include "pipeline/steps/searched_views.h"
 #include "pipeline/steps/view_header.h"
@@ -84,13 +85,14 @@ void set_picture_ellipse(const SearchEllipse& ellipse, LesionRow& row) {
 
 class Registration {
  public:
-  Registration(const Segmentation& segmentation, StageRun& stage)
-      : stage_(stage),
+  Registration(const Segmentation& segmentation, const Patient& patient, StageRun& stage)
+      : patient_(patient),
+        stage_(stage),
         landmarks_(landmarks_of(segmentation)),
         nipple_{"nipple", segmentation.nipple_in_lps} {
     for (const Landmark& lesion : landmarks_)
       rows_.push_back(
-          mri_row(stage.patient.name(), segmentation.region.side, lesion, nipple_.prone_in_lps));
+          mri_row(patient_.name(), segmentation.region.side, lesion, nipple_.prone_in_lps));
     write_points("prone", [](const Landmark& landmark) { return landmark.prone_in_lps; });
     quality_["lesions"] = landmarks_.size();
   }
@@ -106,11 +108,11 @@ class Registration {
       if (lesion.on_detector.x() < 0)
         reasons_.push_back("lesion " + landmark.id + " lies behind the detector's edge in " +
                            view.view().name + ": that mammogram would not show it");
-      rows_.push_back(view_row(stage_.patient.name(), view.view(), lesion, nipple));
+      rows_.push_back(view_row(patient_.name(), view.view(), lesion, nipple));
       if (const auto covariance = registered.covariance(lesion.point)) {
         SearchEllipse ellipse = search_ellipse(*covariance, kEllipseProbability);
         set_ellipse(ellipse, rows_.back());
-        if (!stage_.patient.view(view.view().name).mammogram) {
+        if (!patient_.view(view.view().name).mammogram) {
           ellipse = search_ellipse(registered.covariance_in_picture(lesion.point).value(),
                                    kEllipseProbability);
           set_picture_ellipse(ellipse, rows_.back());
@@ -137,7 +139,7 @@ class Registration {
 
   /// For a view whose mammogram is a DICOM file.
   void export_dicom(const RegisteredView& registered, const DetectorImage& shown) {
-    const auto mammogram = dicom_mammogram(stage_.patient, registered.projection.view().name);
+    const auto mammogram = dicom_mammogram(patient_, registered.projection.view().name);
     if (!mammogram) return;
     write_dicom_products(registered, landmarks_, shown, *mammogram, stage_.products);
     quality_["dicom_export"] =
@@ -163,6 +165,7 @@ class Registration {
     write_markups(stage_.products.write("lesions_" + configuration + ".mrk.json"), points);
   }
 
+  const Patient& patient_;
   StageRun& stage_;
   std::vector<Landmark> landmarks_;
   Landmark nipple_;
@@ -171,7 +174,7 @@ class Registration {
   nlohmann::json quality_ = nlohmann::json::object();
 };
 
-Outcome run(const Arguments& args, StageRun& stage) {
+Outcome run(const Arguments& args, const Patient& patient, StageRun& stage) {
   stage.progress(0, "reading");
   const Segmentation segmentation = read_segmentation(args.segmentation, args.fractions);
   std::optional<Volume<float>> mri;
@@ -180,13 +183,13 @@ Outcome run(const Arguments& args, StageRun& stage) {
   std::vector<std::string> remarks;
   for (const auto& [name, path] : {std::pair("cc", args.cc), std::pair("mlo", args.mlo)})
     views.push_back(read_registered_view(
-        name, path, with_header(stage.patient, name, segmentation.region.side, remarks)));
-  Registration registration(segmentation, stage);
+        name, path, with_header(patient, name, segmentation.region.side, remarks)));
+  Registration registration(segmentation, patient, stage);
   registration.reasons() = remarks;
   registration.add_states(views[0]);
-  if (stage.patient.registration.search)
+  if (patient.registration.search)
     registration.quality()["search"] = search_and_register(
-        stage.patient, segmentation, views,
+        patient, segmentation, views,
         [&](double done, const std::string& what) { stage.progress(0.8 * done, what); },
         registration.reasons());
   double done = 0.8;
@@ -197,7 +200,7 @@ Outcome run(const Arguments& args, StageRun& stage) {
                           view);
     const DetectorImage shown =
         write_view_files(view, segmentation, mri, stage.products, registration.quality());
-    if (stage.patient.registration.dicom_export) registration.export_dicom(view, shown);
+    if (patient.registration.dicom_export) registration.export_dicom(view, shown);
     done += 0.1;
   }
   if (!args.landmarks.empty()) std::cout << landmark_errors(args.landmarks, views[0], views[1]);

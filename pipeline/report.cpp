@@ -3,6 +3,7 @@
 #include "pipeline/report/report.h"
 
 #include "pipeline/frame/stage.h"
+#include "pipeline/patient/patient.h"
 #include "pipeline/steps/view_header.h"
 #include "registration/mammogram/mammogram_header.h"
 
@@ -74,10 +75,10 @@ void add_mammograms(const Patient& patient, PatientResults& results) {
   }
 }
 
-Outcome run(const Arguments& args, StageRun& stage) {
+Outcome run(const Arguments& args, const Patient& patient, StageRun& stage) {
   stage.progress(0, "drawing");
   PatientResults results = read_patient_results(args.results);
-  add_mammograms(stage.patient, results);
+  add_mammograms(patient, results);
   write_report(results, stage.products.write_main(), MAMMOTWIN_VERSION);
   if (args.picture) write_report_picture(results, stage.products.write("picture.png"));
   return {};

@@ -5,6 +5,7 @@
 #include "fitting/scan/scanned_breast.h"
 #include "fitting/tissue/tissue_volumes.h"
 #include "pipeline/frame/stage.h"
+#include "pipeline/patient/patient.h"
 #include "segmentation/files/segmentation_file.h"
 
 namespace mammotwin {
@@ -39,8 +40,8 @@ Status status_of(SegmentStatus status) {
 }
 
 /// A scan has no tissue to tell apart: the breast in front of the base plane is all fat.
-Outcome run_scan(const std::filesystem::path& file, StageRun& stage) {
-  const ScannedBreast scanned = read_scanned_breast(file, stage.patient.scan_options());
+Outcome run_scan(const std::filesystem::path& file, const Patient& patient, StageRun& stage) {
+  const ScannedBreast scanned = read_scanned_breast(file, patient.scan_options());
   const Segmentation& s = scanned.segmentation;
   write_segmentation(stage.products.write_main(), s);
   write_fractions(stage.products.write("fractions.nrrd"), s.fractions);
@@ -60,10 +61,9 @@ Outcome run_scan(const std::filesystem::path& file, StageRun& stage) {
   return {Status::ok, {}, json};
 }
 
-Outcome run(const Arguments&, StageRun& stage) {
-  if (const auto scan = stage.patient.scan_file()) return run_scan(*scan, stage);
-  const SegmentResult result =
-      segment(stage.patient.segment_input(), stage.patient.segment, stage.progress);
+Outcome run(const Arguments&, const Patient& patient, StageRun& stage) {
+  if (const auto scan = patient.scan_file()) return run_scan(*scan, patient, stage);
+  const SegmentResult result = segment(patient.segment_input(), patient.segment, stage.progress);
   stage.progress(0.95, "writing");
   write_segmentation(stage.products.write_main(), result.segmentation);
   write_fractions(stage.products.write("fractions.nrrd"), result.segmentation.fractions);

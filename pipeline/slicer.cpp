@@ -3,6 +3,7 @@
 #include <fstream>
 
 #include "pipeline/frame/stage.h"
+#include "pipeline/patient/patient.h"
 #include "pipeline/slicer/scene.h"
 
 namespace mammotwin {
@@ -38,7 +39,7 @@ StagePlan plan(const Arguments& args, const Patient&) {
   return plan;
 }
 
-Outcome run(const Arguments& args, StageRun& stage) {
+Outcome run(const Arguments& args, const Patient&, StageRun& stage) {
   stage.progress(0, "writing surfaces");
   const std::string scene =
       slicer_scene(read_patient_results(args.results),

@@ -6,6 +6,7 @@
 
 #include "pipeline/frame/sidecar.h"
 #include "pipeline/frame/stage.h"
+#include "pipeline/patient/patient.h"
 #include "pipeline/steps/breast_problem.h"
 #include "pipeline/steps/second_state.h"
 #include "pipeline/steps/unload_quality.h"
@@ -46,12 +47,13 @@ std::string patient_position(const std::filesystem::path& segmentation) {
 }
 
 /// One factor for all stiffnesses where a second state is there to ask; else the settings'.
-double find_stiffness(StageRun& stage, const CompressionProblem& as_set, UnloadingRecord& record) {
-  const double factor = stage.patient.compression.stiffness_factor;
-  const auto second = stage.patient.second_state();
+double find_stiffness(const Patient& patient, StageRun& stage, const CompressionProblem& as_set,
+                      UnloadingRecord& record) {
+  const double factor = patient.compression.stiffness_factor;
+  const auto second = patient.second_state();
   if (!second || record.imaged == Pose::none) return factor;
   const SecondState state(*second, as_set.mesh);
-  const Eigen::Vector3d gravity = gravity_in_lps(stage.patient.gravity.second_gravity);
+  const Eigen::Vector3d gravity = gravity_in_lps(patient.gravity.second_gravity);
   record.stiffness_fit = fit_stiffness(
       as_set, gravity, [&](const auto& x) { return state.distance(x); }, {},
       [&](double f, const std::string& what) { stage.progress(0.6 * f, what); });
@@ -80,8 +82,7 @@ MeshFile unloaded_file(const MeshFile& prone, const UnloadResult& result,
   return file;
 }
 
-Outcome run(const Arguments& args, StageRun& stage) {
-  const Patient& patient = stage.patient;
+Outcome run(const Arguments& args, const Patient& patient, StageRun& stage) {
   const Segmentation segmentation = read_segmentation(args.segmentation, args.fractions);
   const MeshFile prone = read_mesh_file(args.mesh);
   const TissueSampler tissue = tissue_of(prone, segmentation.fractions);
@@ -95,7 +96,7 @@ Outcome run(const Arguments& args, StageRun& stage) {
   UnloadingRecord record;
   record.imaged = imaged;
   record.stiffness_factor =
-      find_stiffness(stage, problem_with(patient.compression.stiffness_factor), record);
+      find_stiffness(patient, stage, problem_with(patient.compression.stiffness_factor), record);
   if (record.stiffness_fit && !record.stiffness_fit->usable()) return judge_unloading(record);
   const CompressionProblem problem = problem_with(record.stiffness_factor);
   const UnloadResult result = unload(problem, {}, stage.progress);

@@ -16,27 +16,18 @@ constexpr int kBadData = 1;
 constexpr int kBadUsage = 2;
 
 struct CommonArguments {
-  std::optional<fs::path> patient_file;
+  std::optional<fs::path> settings_file;
   bool force = false;
 };
 
-std::string flag_of(std::string key) {
-  std::replace_if(
-      key.begin(), key.end(), [](char c) { return c == '.' || c == '_'; }, '-');
-  return "--" + key;
-}
-
-std::string bracketed_range(const Setting& setting) {
-  const std::string range = setting.range_text();
-  return range == "any" ? "" : " [" + range + "]";
-}
-
-void declare_common(CommandLine& command, const Settings& settings, CommonArguments& common) {
-  command.option("--patient", common.patient_file, "patient.toml with this patient's settings");
+void declare_common(CommandLine& command, const std::string& subject, const Settings& settings,
+                    CommonArguments& common) {
+  command.option("--" + subject, common.settings_file,
+                 subject + ".toml with this " + subject + "'s settings");
   command.flag("--force", common.force, "run even if the product is current");
   command.text_flag(
       "--list-settings", [&settings] { return settings_table(settings.all()); },
-      "print every key of patient.toml as a table");
+      "print every key of " + subject + ".toml as a table");
 }
 
 void require_reasons(const Outcome& outcome) {
@@ -77,13 +68,13 @@ struct Attempt {
   Usage usage;
 };
 
-Attempt attempt(const Stage& stage, const Patient& patient, Products& products,
-                const Checkpoint& checkpoint, int argc, char** argv) {
+Attempt attempt(const Stage& stage, Products& products, const Checkpoint& checkpoint, int argc,
+                char** argv) {
   const auto start = std::chrono::steady_clock::now();
   Attempt a;
   ProgressLine progress(stage.name);
   try {
-    StageRun run{patient, products, checkpoint, progress.callback()};
+    StageRun run{products, checkpoint, progress.callback()};
     a.outcome = stage.run(run);
     require_reasons(a.outcome);
   } catch (const std::bad_alloc&) {
@@ -100,11 +91,11 @@ Attempt attempt(const Stage& stage, const Patient& patient, Products& products,
   return a;
 }
 
-int run_parsed(const Stage& stage, const fs::path& product, const Patient& patient,
-               const Provenance& provenance, int argc, char** argv) {
+int run_parsed(const Stage& stage, const fs::path& product, const Provenance& provenance, int argc,
+               char** argv) {
   Products products(product);
   const Checkpoint checkpoint(product, provenance);
-  const Attempt a = attempt(stage, patient, products, checkpoint, argc, argv);
+  const Attempt a = attempt(stage, products, checkpoint, argc, argv);
   std::vector<std::string> written;
   if (a.outcome.usable()) {
     written = products.names();
@@ -144,66 +135,32 @@ int say_standing_failure(const Stage& stage, const nlohmann::json& sidecar) {
 }
 
 Provenance plan_provenance(const Stage& stage, const StageDeclaration& declaration,
-                           const Patient& patient, const Settings& settings) {
-  const StagePlan plan = stage.plan(patient);
+                           const SettingsFile& file, const Settings& settings) {
+  const StagePlan plan = stage.plan();
   std::vector<fs::path> inputs;
   for (const fs::path* input : declaration.inputs()) inputs.push_back(*input);
   inputs.insert(inputs.end(), plan.inputs.begin(), plan.inputs.end());
   nlohmann::json parameters = settings.parameters(plan.setting_prefixes);
-  parameters.update(patient.list_parameters(plan.setting_prefixes));
+  parameters.update(file.list_parameters(plan.setting_prefixes));
   return make_provenance(stage.name, parameters, inputs, declaration.product_path());
 }
 
 }  // namespace
 
-void StageDeclaration::input(const std::string& name, fs::path& variable, const std::string& help) {
-  command_.option(name, variable, help).required();
-  inputs_.push_back(&variable);
-}
-
-void StageDeclaration::product(const std::string& name, fs::path& variable,
-                               const std::string& help) {
-  command_.option(name, variable, help).required();
-  product_ = &variable;
-}
-
-void StageDeclaration::options_from(const std::string& prefix, bool cut_prefix) {
-  for (const Setting& setting : settings_.all()) {
-    if (!setting.starts_with(prefix)) continue;
-    auto given = std::make_shared<Given>();
-    given->key = setting.key;
-    given->flag = flag_of(cut_prefix ? setting.key.substr(prefix.size()) : setting.key);
-    const nlohmann::json value = setting.value();
-    command_.option(given->flag, given->text, setting.help + bracketed_range(setting))
-        .described_as(setting.type, value.is_null()     ? ""
-                                    : value.is_string() ? value.get<std::string>()
-                                                        : value.dump());
-    options_.push_back(given);
-  }
-}
-
-std::vector<StageDeclaration::Given> StageDeclaration::given() const {
-  std::vector<Given> given;
-  for (const auto& option : options_)
-    if (command_.has(option->flag)) given.push_back(*option);
-  return given;
-}
-
-int run_stage(int argc, char** argv, const Stage& stage) {
+int run_stage(int argc, char** argv, SettingsFile& file, const Stage& stage) {
   prepare_process(argv);
-  Patient patient;
   Settings settings;
-  patient.declare(settings);
+  file.declare(settings);
 
   CommandLine command("mammotwin-" + stage.name + ": " + stage.summary);
   CommonArguments common;
   StageDeclaration declaration(command, settings);
   stage.declare(declaration);
-  declare_common(command, settings, common);
+  declare_common(command, file.subject(), settings, common);
   if (const auto code = command.parse(argc, argv)) return *code;
   const fs::path product = declaration.product_path();
   try {
-    if (common.patient_file) patient.read(*common.patient_file, settings);
+    if (common.settings_file) file.read(*common.settings_file, settings);
   } catch (const std::exception& e) {
     return refuse_before_running(stage, product, e.what());
   }
@@ -215,7 +172,7 @@ int run_stage(int argc, char** argv, const Stage& stage) {
     return kBadUsage;
   }
   try {
-    const Provenance provenance = plan_provenance(stage, declaration, patient, settings);
+    const Provenance provenance = plan_provenance(stage, declaration, file, settings);
     if (!common.force && current_sidecar(product, provenance)) {
       std::cerr << stage.name << ": " << product.string() << " is up to date\n";
       return 0;
@@ -223,7 +180,7 @@ int run_stage(int argc, char** argv, const Stage& stage) {
     if (!common.force)
       if (const auto failure = standing_failure(product, provenance))
         return say_standing_failure(stage, *failure);
-    return run_parsed(stage, product, patient, provenance, argc, argv);
+    return run_parsed(stage, product, provenance, argc, argv);
   } catch (const std::exception& e) {
     return refuse_before_running(stage, product, e.what());
   }

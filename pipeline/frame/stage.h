@@ -9,9 +9,8 @@
 #include "pipeline/frame/outcome.h"
 #include "pipeline/frame/products.h"
 #include "pipeline/frame/progress_line.h"
-#include "pipeline/frame/settings.h"
+#include "pipeline/frame/settings_file.h"
 #include "pipeline/frame/stage_declaration.h"
-#include "pipeline/patient/patient.h"
 
 namespace mammotwin {
 
@@ -23,7 +22,6 @@ struct StagePlan {
 
 /// What `run` is given.
 struct StageRun {
-  const Patient& patient;
   Products& products;
   Checkpoint checkpoint;  ///< for a stage that takes long
   std::function<void(double, const std::string&)> progress;
@@ -34,26 +32,28 @@ struct Stage {
   std::string name;     ///< "fit"
   std::string summary;  ///< one sentence: what it turns into what
   std::function<void(StageDeclaration&)> declare;
-  std::function<StagePlan(const Patient&)> plan;
+  std::function<StagePlan()> plan;
   std::function<Outcome(StageRun&)> run;
 };
 
-/// The whole life of a stage: command line, patient.toml, "is it current already?", run, sidecar,
+/// The whole life of a stage: command line, settings file, "is it current already?", run, sidecar,
 /// rename, exit code (0 done, 1 bad data, 2 bad usage, 3 not converged). Nothing half-written
 /// stays.
-int run_stage(int argc, char** argv, const Stage& stage);
+int run_stage(int argc, char** argv, SettingsFile& file, const Stage& stage);
 
-/// The same for a command's three functions over its own arguments.
-template <class Arguments>
+/// The same for a command's three functions over its own arguments and its settings file (File: a
+/// SettingsFile).
+template <class Arguments, class File>
 int run_stage(int argc, char** argv, const std::string& name, const std::string& summary,
               void (*declare)(StageDeclaration&, Arguments&),
-              StagePlan (*plan)(const Arguments&, const Patient&),
-              Outcome (*run)(const Arguments&, StageRun&)) {
+              StagePlan (*plan)(const Arguments&, const File&),
+              Outcome (*run)(const Arguments&, const File&, StageRun&)) {
   Arguments args;
-  return run_stage(argc, argv,
+  File file;
+  return run_stage(argc, argv, file,
                    Stage{name, summary, [&](StageDeclaration& stage) { declare(stage, args); },
-                         [&](const Patient& patient) { return plan(args, patient); },
-                         [&](StageRun& stage) { return run(args, stage); }});
+                         [&] { return plan(args, file); },
+                         [&](StageRun& stage) { return run(args, file, stage); }});
 }
 
 }  // namespace mammotwin

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "fitting/scan/scanned_breast.h"
-#include "pipeline/frame/settings.h"
+#include "pipeline/frame/settings_file.h"
 #include "pipeline/patient/compression_settings.h"
 #include "pipeline/patient/gravity_settings.h"
 #include "pipeline/patient/lesion_entry.h"
@@ -20,18 +20,20 @@ namespace mammotwin {
 
 /// Everything that patient.toml may say: one options struct a stage, filled from one table of
 /// settings (`declare`), so that the file, the command lines and the sidecars agree.
-class Patient {
+class Patient : public SettingsFile {
  public:
   Patient() = default;
   Patient(const Patient&) = delete;  // settings point into it
   Patient& operator=(const Patient&) = delete;
 
+  std::string subject() const override { return "patient"; }
+
   /// Enters every key of patient.toml in the table.
-  void declare(Settings& settings);
+  void declare(Settings& settings) override;
 
   /// Reads patient.toml. Throws std::runtime_error naming file and key where the file is missing,
   /// is not TOML, has an unknown key (the nearest known one is named) or a value out of range.
-  void read(const std::filesystem::path& file, const Settings& settings);
+  void read(const std::filesystem::path& file, const Settings& settings) override;
 
   /// The patient's folder, as its name: "042"; empty without a patient.toml.
   std::string name() const;
@@ -66,7 +68,7 @@ class Patient {
   const ViewSettings& view(const std::string& name) const;
 
   /// Parameters that come in lists (lesions) below these prefixes, in the sidecar's form.
-  nlohmann::json list_parameters(const std::vector<std::string>& prefixes) const;
+  nlohmann::json list_parameters(const std::vector<std::string>& prefixes) const override;
 
   /// A path of patient.toml, which may be relative to it.
   std::filesystem::path resolve(const std::filesystem::path& path) const;

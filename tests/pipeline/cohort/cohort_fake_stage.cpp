@@ -14,6 +14,7 @@
 
 #include "pipeline/frame/checksum.h"
 #include "pipeline/frame/stage.h"
+#include "pipeline/patient/patient.h"
 
 namespace mammotwin {
 namespace {
@@ -68,8 +69,8 @@ nlohmann::json fake_quality(const std::string& hash) {
 }
 
 Outcome run_fake(const std::string& name, const Shape& shape, const Arguments& args,
-                 StageRun& run) {
-  const auto asked = behaviours(run.patient);
+                 const Patient& patient, StageRun& run) {
+  const auto asked = behaviours(patient);
   const auto is_asked = [&](const std::string& what) { return asked.count(what + " " + name) > 0; };
   if (is_asked("die")) raise(SIGKILL);
   if (is_asked("slow")) std::this_thread::sleep_for(std::chrono::seconds(2));
@@ -77,7 +78,7 @@ Outcome run_fake(const std::string& name, const Shape& shape, const Arguments& a
   if (is_asked("diverge"))
     return {
         Status::not_converged, {"the last good thickness is 61.2 mm"}, {{"thickness_mm", 61.2}}};
-  std::string text = name + args.view + sha256_of_path(mri_of(run.patient));
+  std::string text = name + args.view + sha256_of_path(mri_of(patient));
   for (std::size_t i = 0; i < shape.num_inputs; ++i) text += sha256_of_path(args.inputs[i]);
   const std::string hash = sha256_of_text(text);
   write_product(run.products.write_main(), hash);
@@ -88,7 +89,7 @@ Outcome run_fake(const std::string& name, const Shape& shape, const Arguments& a
   return {Status::ok, {}, fake_quality(hash)};
 }
 
-Stage fake_stage(const std::string& name, Arguments& args) {
+Stage fake_stage(const std::string& name, const Patient& patient, Arguments& args) {
   const Shape& shape = kShapes.at(name);
   Stage stage;
   stage.name = name;
@@ -102,10 +103,10 @@ Stage fake_stage(const std::string& name, Arguments& args) {
       declaration.input("input" + std::to_string(i), args.inputs[i], "");
     declaration.product("product", args.product, "");
   };
-  stage.plan = [](const Patient& patient) {
+  stage.plan = [&] {
     return StagePlan{{mri_of(patient), mri_of(patient).parent_path() / "behaviour.txt"}, {}};
   };
-  stage.run = [&, name](StageRun& run) { return run_fake(name, shape, args, run); };
+  stage.run = [&, name](StageRun& run) { return run_fake(name, shape, args, patient, run); };
   return stage;
 }
 
@@ -115,6 +116,8 @@ Stage fake_stage(const std::string& name, Arguments& args) {
 int main(int argc, char** argv) {
   const std::string called = std::filesystem::path(argv[0]).filename().string();
   mammotwin::Arguments args;
+  mammotwin::Patient patient;
   return mammotwin::run_stage(
-      argc, argv, mammotwin::fake_stage(called.substr(std::string("mammotwin-").size()), args));
+      argc, argv, patient,
+      mammotwin::fake_stage(called.substr(std::string("mammotwin-").size()), patient, args));
 }
