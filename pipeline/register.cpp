@@ -1,21 +1,24 @@
 // register: compressed meshes + view geometry -> lesions on the CC and MLO detectors.
 
-#include <cstdio>
 #include <iostream>
 
 #include "pipeline/frame/stage.h"
 #include "pipeline/patient/patient.h"
 #include "pipeline/steps/dicom_products.h"
+#include "pipeline/steps/lesion_ellipses.h"
+#include "pipeline/steps/projected_findings.h"
+#include "pipeline/steps/registration_products.h"
 #include "pipeline/steps/searched_views.h"
 #include "pipeline/steps/view_header.h"
-#include "registration/carry/point_carrier.h"
-#include "registration/carry/ray_curve.h"
-#include "registration/export/lesion_table.h"
-#include "registration/export/markups.h"
+#include "registration/export/detector_record.h"
 #include "segmentation/files/segmentation_file.h"
 
 namespace mammotwin {
 namespace {
+
+using nlohmann::json;
+
+constexpr double kSearchShare = 0.8;  // of the stage's time, for the progress line
 
 struct Arguments {
   std::filesystem::path segmentation, fractions, cc, mlo, lesions, landmarks;
@@ -49,162 +52,91 @@ StagePlan plan(const Arguments& args, const Patient& patient) {
   return plan;
 }
 
-std::vector<Landmark> landmarks_of(const Segmentation& segmentation) {
-  std::vector<Landmark> landmarks;
-  for (const Lesion& lesion : segmentation.lesions)
-    landmarks.push_back({lesion.id, lesion.centroid_in_lps});
-  return landmarks;
-}
-
-/// A lesion that the mesh does not hold has no position that could be trusted.
-void require_inside(const ProjectedLandmark& lesion) {
-  if (lesion.outside_mm <= kLesionOutsideLimit_mm) return;
-  char text[200];
-  std::snprintf(text, sizeof text,
-                "lesion %s lies %.1f mm outside the breast's mesh; at most %.0f mm can be carried: "
-                "look at the chest wall and at the lesion's place in the report",
-                lesion.landmark.id.c_str(), lesion.outside_mm, kLesionOutsideLimit_mm);
-  throw std::runtime_error(text);
-}
-
-/// What `lesions.csv` gives; half of this probability's semi-axes is 0.55 of them.
-constexpr double kEllipseProbability = 0.9;
-constexpr int kRimPoints = 36;
-
-void set_ellipse(const SearchEllipse& ellipse, LesionRow& row) {
-  row.ellipse_major_mm = ellipse.major_mm;
-  row.ellipse_minor_mm = ellipse.minor_mm;
-  row.ellipse_angle_deg = ellipse.angle_deg;
-}
-
-void set_picture_ellipse(const SearchEllipse& ellipse, LesionRow& row) {
-  row.picture_ellipse_major_mm = ellipse.major_mm;
-  row.picture_ellipse_minor_mm = ellipse.minor_mm;
-  row.picture_ellipse_angle_deg = ellipse.angle_deg;
-}
-
-class Registration {
- public:
-  Registration(const Segmentation& segmentation, const Patient& patient, StageRun& stage)
-      : patient_(patient),
-        stage_(stage),
-        landmarks_(landmarks_of(segmentation)),
-        nipple_{"nipple", segmentation.nipple_in_lps} {
-    for (const Landmark& lesion : landmarks_)
-      rows_.push_back(
-          mri_row(patient_.name(), segmentation.region.side, lesion, nipple_.prone_in_lps));
-    write_points("prone", [](const Landmark& landmark) { return landmark.prone_in_lps; });
-    quality_["lesions"] = landmarks_.size();
-  }
-
-  void add(const RegisteredView& registered) {
-    const ViewProjection& view = registered.projection;
-    const ViewRays rays(registered.prone, registered.compressed, view.view(), view.detector());
-    int number = 0;
-    const ProjectedLandmark nipple = view.project(nipple_);
-    for (const Landmark& landmark : landmarks_) {
-      const ProjectedLandmark lesion = view.project(landmark);
-      require_inside(lesion);
-      if (lesion.on_detector.x() < 0)
-        reasons_.push_back("lesion " + landmark.id + " lies behind the detector's edge in " +
-                           view.view().name + ": that mammogram would not show it");
-      rows_.push_back(view_row(patient_.name(), view.view(), lesion, nipple));
-      if (const auto covariance = registered.covariance(lesion.point)) {
-        SearchEllipse ellipse = search_ellipse(*covariance, kEllipseProbability);
-        set_ellipse(ellipse, rows_.back());
-        if (!patient_.view(view.view().name).mammogram) {
-          ellipse = search_ellipse(registered.covariance_in_picture(lesion.point).value(),
-                                   kEllipseProbability);
-          set_picture_ellipse(ellipse, rows_.back());
-        }
-        write_closed_curve(stage_.products.write("ellipse_" + view.view().name + "_" +
-                                                 std::to_string(++number) + ".mrk.json"),
-                           landmark.id + " in " + view.view().name,
-                           ellipse_in_prone(rays, lesion.on_detector, rim(ellipse, kRimPoints),
-                                            lesion.in_view.z()));
-      }
-    }
-    write_points(view.view().name,
-                 [&](const Landmark& l) { return view.project(l).compressed_in_lps; });
-    quality_["detectors"][view.view().name] = detector_json(view.detector());
-  }
-
-  /// Lesions and nipple as the breast hangs or lies in another state, for biopsy and radiotherapy.
-  void add_states(const RegisteredView& registered) {
-    for (const auto& [name, mesh] : registered.states) {
-      const PointCarrier carrier(registered.prone, mesh);
-      write_points(name, [&](const Landmark& l) { return carrier.carry(l.prone_in_lps).in_lps; });
-    }
-  }
-
-  /// For a view whose mammogram is a DICOM file.
-  void export_dicom(const RegisteredView& registered, const DetectorImage& shown) {
-    const auto mammogram = dicom_mammogram(patient_, registered.projection.view().name);
-    if (!mammogram) return;
-    write_dicom_products(registered, landmarks_, shown, *mammogram, stage_.products);
-    quality_["dicom_export"] =
-        "dicom/ carries the patient and study attributes of the mammograms, as dicom_export asks";
-  }
-
-  nlohmann::json& quality() { return quality_; }
-  std::vector<std::string>& reasons() { return reasons_; }
-
-  Outcome finish() {
-    write_lesion_table(stage_.products.write_main(), rows_);
-    if (landmarks_.empty())
-      reasons_.push_back("patient.toml names no lesion, so there is nothing to predict");
-    return {reasons_.empty() ? Status::ok : Status::look, reasons_, quality_};
-  }
-
- private:
-  template <class Place>
-  void write_points(const std::string& configuration, Place place) {
-    std::vector<MarkupPoint> points;
-    for (const Landmark& landmark : landmarks_) points.push_back({landmark.id, place(landmark)});
-    points.push_back({nipple_.id, place(nipple_)});
-    write_markups(stage_.products.write("lesions_" + configuration + ".mrk.json"), points);
-  }
-
-  const Patient& patient_;
-  StageRun& stage_;
-  std::vector<Landmark> landmarks_;
-  Landmark nipple_;
-  std::vector<LesionRow> rows_;
-  std::vector<std::string> reasons_;
-  nlohmann::json quality_ = nlohmann::json::object();
+struct Inputs {
+  Segmentation segmentation;
+  std::optional<Volume<float>> mri;
+  std::vector<RegisteredView> views;  ///< as compress left them
+  std::vector<std::string> remarks;   ///< on the mammograms' headers
 };
+
+Inputs read_inputs(const Arguments& args, const Patient& patient) {
+  Inputs inputs{read_segmentation(args.segmentation, args.fractions), {}, {}, {}};
+  if (std::filesystem::exists(args.mri())) inputs.mri = read_image_file(args.mri());
+  for (const auto& [name, path] : {std::pair("cc", args.cc), std::pair("mlo", args.mlo)}) {
+    const Side side = inputs.segmentation.region.side;
+    inputs.views.push_back(
+        read_registered_view(name, path, with_header(patient, name, side, inputs.remarks)));
+  }
+  return inputs;
+}
+
+RegisteredViews search(const Patient& patient, const Inputs& inputs, const StageRun& stage) {
+  if (!patient.registration.search) return {inputs.views, {}, {}};
+  return search_and_register(
+      patient, inputs.segmentation, inputs.views,
+      [&](double done, const std::string& what) { stage.progress(kSearchShare * done, what); });
+}
+
+PredictedView predict(const Patient& patient, const Findings& findings,
+                      const RegisteredView& view) {
+  PredictedView predicted{view, project(findings, view.projection), {}};
+  const bool has_mammogram = patient.view(view.projection.view().name).mammogram.has_value();
+  predicted.ellipses = lesion_ellipses(predicted.findings, view, has_mammogram);
+  return predicted;
+}
+
+/// Everything of one view; what the sidecar says of it goes to `quality`.
+void write_view_products(const Patient& patient, const Inputs& inputs, const PredictedView& view,
+                         Products& products, json& quality) {
+  const ViewProjection& projection = view.registered.projection;
+  const std::string& name = projection.view().name;
+  quality["detectors"][name] = detector_record(projection.detector());
+  write_prediction(view, products);
+  const DetectorImage shown =
+      write_view_files(view.registered, inputs.segmentation, inputs.mri, products, quality);
+  if (!patient.registration.dicom_export) return;
+  const auto mammogram = dicom_mammogram(patient, name);
+  if (!mammogram) return;
+  write_dicom_products(view, shown, *mammogram, products);
+  quality["dicom_export"] =
+      "dicom/ carries the patient and study attributes of the mammograms, as dicom_export asks";
+}
+
+Outcome outcome_of(const Inputs& inputs, const RegisteredViews& registered,
+                   const std::vector<PredictedView>& views, json quality) {
+  std::vector<std::string> reasons = inputs.remarks;
+  reasons.insert(reasons.end(), registered.remarks.begin(), registered.remarks.end());
+  for (const PredictedView& view : views)
+    reasons.insert(reasons.end(), view.findings.remarks.begin(), view.findings.remarks.end());
+  if (inputs.segmentation.lesions.empty())
+    reasons.push_back("patient.toml names no lesion, so there is nothing to predict");
+  return {reasons.empty() ? Status::ok : Status::look, reasons, std::move(quality)};
+}
 
 Outcome run(const Arguments& args, const Patient& patient, StageRun& stage) {
   stage.progress(0, "reading");
-  const Segmentation segmentation = read_segmentation(args.segmentation, args.fractions);
-  std::optional<Volume<float>> mri;
-  if (std::filesystem::exists(args.mri())) mri = read_image_file(args.mri());
-  std::vector<RegisteredView> views;
-  std::vector<std::string> remarks;
-  for (const auto& [name, path] : {std::pair("cc", args.cc), std::pair("mlo", args.mlo)})
-    views.push_back(read_registered_view(
-        name, path, with_header(patient, name, segmentation.region.side, remarks)));
-  Registration registration(segmentation, patient, stage);
-  registration.reasons() = remarks;
-  registration.add_states(views[0]);
-  if (patient.registration.search)
-    registration.quality()["search"] = search_and_register(
-        patient, segmentation, views,
-        [&](double done, const std::string& what) { stage.progress(0.8 * done, what); },
-        registration.reasons());
-  double done = 0.8;
-  for (const RegisteredView& view : views) {
-    stage.progress(done, view.projection.view().name);
-    registration.add(view);
-    write_registered_view(stage.products.write(view.projection.view().name + "_registered.vtu"),
-                          view);
-    const DetectorImage shown =
-        write_view_files(view, segmentation, mri, stage.products, registration.quality());
-    if (patient.registration.dicom_export) registration.export_dicom(view, shown);
-    done += 0.1;
+  const Inputs inputs = read_inputs(args, patient);
+  const Findings findings = findings_of(inputs.segmentation);
+  const RegisteredViews registered = search(patient, inputs, stage);
+
+  std::vector<PredictedView> views;
+  for (const RegisteredView& view : registered.views)
+    views.push_back(predict(patient, findings, view));
+
+  json quality{{"lesions", findings.lesions.size()}};
+  if (patient.registration.search) quality["search"] = registered.figures;
+  write_states(findings, registered.views.front(), stage.products);
+  double done = kSearchShare;
+  for (const PredictedView& view : views) {
+    stage.progress(done, view.registered.projection.view().name);
+    write_view_products(patient, inputs, view, stage.products, quality);
+    done += (1 - kSearchShare) / views.size();
   }
-  if (!args.landmarks.empty()) std::cout << landmark_errors(args.landmarks, views[0], views[1]);
-  return registration.finish();
+  write_lesion_table(stage.products.write_main(),
+                     lesion_rows(patient.name(), inputs.segmentation.region.side, findings, views));
+  if (!args.landmarks.empty())
+    std::cout << landmark_errors(args.landmarks, registered.views[0], registered.views[1]);
+  return outcome_of(inputs, registered, views, std::move(quality));
 }
 
 }  // namespace

@@ -78,7 +78,7 @@ MeshFile unloaded_file(const MeshFile& prone, const UnloadResult& result,
   for (const auto& [name, pose] : record.poses)
     if (pose.result.report.usable()) file.configurations[name] = pose.result.deformed;
   file.mesh = HermiteMesh(result.unloaded, prone.mesh.elements());
-  file.metadata["stiffness_factor"] = {record.stiffness_factor};
+  write_stiffness_factor(record.stiffness_factor, file);
   return file;
 }
 

@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "pipeline/report/patient_results.h"
+#include "registration/export/detector_record.h"
 #include "segmentation/files/segmentation_file.h"
 
 namespace mammotwin {
@@ -37,19 +38,11 @@ void try_read(const fs::path& file, PatientResults& results, const std::function
   }
 }
 
-/// The geometry that `register` used for a view, from its sidecar; defaults where it says nothing.
+/// The geometry that `register` used for a view; defaults where its sidecar says nothing.
 Detector detector_of(const PatientResults& results, const std::string& view) {
-  Detector detector;
   const nlohmann::json* sidecar = results.sidecar("lesions.csv");
-  if (!sidecar) return detector;
-  const nlohmann::json empty = nlohmann::json::object();
-  const auto child = [&](const nlohmann::json& parent, const std::string& key) {
-    return parent.is_object() && parent.contains(key) ? parent[key] : empty;
-  };
-  const nlohmann::json said = child(child(child(*sidecar, "quality"), "detectors"), view);
-  detector.source_distance_mm = said.value("source_distance_mm", detector.source_distance_mm);
-  detector.support_gap_mm = said.value("support_gap_mm", detector.support_gap_mm);
-  return detector;
+  const nlohmann::json::json_pointer place("/quality/detectors/" + view);
+  return sidecar && sidecar->contains(place) ? read_detector_record((*sidecar)[place]) : Detector();
 }
 
 void read_view(const fs::path& folder, const std::string& name, PatientResults& results) {

@@ -3,9 +3,13 @@
 #include <algorithm>
 #include <utility>
 
+#include "fitting/mesh/metadata_field.h"
 #include "fitting/tissue/cell_tissue.h"
 
 namespace mammotwin {
+namespace {
+constexpr const char* kStiffnessFactor = "stiffness_factor";
+}
 
 TissueSampler tissue_of(const MeshFile& mesh, const Volume<Fractions>& fractions) {
   const auto tissue = std::make_shared<const CellTissue>(prone_file(mesh).mesh, fractions);
@@ -32,8 +36,12 @@ CompressionProblem breast_problem(MeshFile mesh, TissueSampler tissue,
 }
 
 double stiffness_factor_of(const MeshFile& mesh, const CompressionSettings& settings) {
-  const auto written = mesh.metadata.find("stiffness_factor");
-  return written == mesh.metadata.end() ? settings.stiffness_factor : written->second.at(0);
+  const auto* written = find_field(mesh.metadata, "the mesh", kStiffnessFactor, 1);
+  return written ? written->front() : settings.stiffness_factor;
+}
+
+void write_stiffness_factor(double factor, MeshFile& file) {
+  file.metadata[kStiffnessFactor] = {factor};
 }
 
 MeshFile prone_file(const MeshFile& file) {

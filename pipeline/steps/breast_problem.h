@@ -19,6 +19,8 @@ CompressionProblem breast_problem(MeshFile mesh, TissueSampler tissue,
 /// The factor that `unload` used, from the metadata of the mesh that it wrote; else the settings'.
 double stiffness_factor_of(const MeshFile& mesh, const CompressionSettings& settings);
 
+void write_stiffness_factor(double factor, MeshFile& file);
+
 /// Largest way of a chest-wall node between two shapes of the mesh [mm].
 double wall_slide(const MeshFile& mesh, const std::vector<HermiteMesh::Node>& from,
                   const std::vector<HermiteMesh::Node>& to);

@@ -6,15 +6,16 @@
 namespace mammotwin {
 namespace {
 
-std::vector<AnnotatedMark> marks_of(const RegisteredView& view,
-                                    const std::vector<Landmark>& lesions) {
+std::vector<AnnotatedMark> marks_of(const PredictedView& view) {
   std::vector<AnnotatedMark> marks;
-  for (const Landmark& lesion : lesions) {
-    const ProjectedLandmark found = view.projection.project(lesion);
-    AnnotatedMark mark{lesion.id, found.on_detector, {}, lesion.prone_in_lps, found.in_view.z()};
-    if (const auto covariance = view.covariance(found.point))
-      mark.ellipse = search_ellipse(*covariance, 0.9);
-    marks.push_back(mark);
+  for (std::size_t i = 0; i < view.findings.lesions.size(); ++i) {
+    const ProjectedLandmark& lesion = view.findings.lesions[i];
+    AnnotatedMark& mark = marks.emplace_back();
+    mark.id = lesion.landmark.id;
+    mark.on_detector = lesion.on_detector;
+    if (!view.ellipses.empty()) mark.ellipse = view.ellipses[i].on_detector;
+    mark.prone_in_lps = lesion.landmark.prone_in_lps;
+    mark.height_mm = lesion.in_view.z();
   }
   return marks;
 }
@@ -28,15 +29,15 @@ std::string orientation_of(const CompressedView& view) {
 
 }  // namespace
 
-void write_dicom_products(const RegisteredView& view, const std::vector<Landmark>& lesions,
-                          const DetectorImage& shown, const std::filesystem::path& mammogram,
-                          Products& products) {
-  const CompressedView& geometry = view.projection.view();
-  const std::vector<AnnotatedMark> marks = marks_of(view, lesions);
+void write_dicom_products(const PredictedView& view, const DetectorImage& shown,
+                          const std::filesystem::path& mammogram, Products& products) {
+  const ViewProjection& projection = view.registered.projection;
+  const CompressedView& geometry = projection.view();
+  const std::vector<AnnotatedMark> marks = marks_of(view);
   const auto file = [&](const char* what) {
     return products.write("dicom/" + geometry.name + what);
   };
-  write_presentation_state(file("_gsps.dcm"), mammogram, view.projection.detector(), marks,
+  write_presentation_state(file("_gsps.dcm"), mammogram, projection.detector(), marks,
                            geometry.name);
   write_measurement_report(file("_sr.dcm"), mammogram, marks, geometry.name);
   write_simulated_mammogram(file("_simulated.dcm"), mammogram, hung_pixels(shown, geometry.side),

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "pipeline/steps/registered_view.h"
+#include "pipeline/steps/registration_products.h"
 #include "registration/view/simulated_mammogram.h"
 
 namespace mammotwin {
@@ -8,8 +8,7 @@ namespace mammotwin {
 /// dicom/cc_gsps.dcm, cc_sr.dcm and cc_simulated.dcm for a view "cc", in the study of its mammogram
 /// and with its patient attributes (registration/export/dicom_export.h): only where the patient's
 /// file asks for them.
-void write_dicom_products(const RegisteredView& view, const std::vector<Landmark>& lesions,
-                          const DetectorImage& shown, const std::filesystem::path& mammogram,
-                          Products& products);
+void write_dicom_products(const PredictedView& view, const DetectorImage& shown,
+                          const std::filesystem::path& mammogram, Products& products);
 
 }  // namespace mammotwin

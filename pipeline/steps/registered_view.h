@@ -2,16 +2,12 @@
 
 #include <filesystem>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 
-#include "pipeline/frame/products.h"
 #include "pipeline/patient/compression_settings.h"
 #include "registration/search/search_ellipse.h"
 #include "registration/view/project_lesions.h"
-#include "registration/view/simulated_mammogram.h"
-#include "segmentation/segmentation.h"
 
 namespace mammotwin {
 
@@ -36,18 +32,9 @@ struct RegisteredView {
 RegisteredView read_registered_view(const std::string& name, const std::filesystem::path& path,
                                     const ViewSettings& settings);
 
-/// What `read_registered_view` reads back: the registered mesh with its view, its uncertainty (the
-/// breast with each state's number varied, "varied_roll_deg" ...) and where the baseline lies.
+/// What `read_registered_view` reads back: the registered mesh with its view and its record
+/// (pipeline/steps/registered_record.h).
 void write_registered_view(const std::filesystem::path& path, const RegisteredView& view);
-
-/// What the report needs to draw the view on its detector.
-nlohmann::json detector_json(const Detector& detector);
-
-/// For a view "cc": cc_from_prone.nrrd and prone_from_cc.nrrd, simulated_cc.png and, with an MRI,
-/// mri_in_cc.nrrd; the fields' composition error goes to `quality`. Returns the view as shown.
-DetectorImage write_view_files(const RegisteredView& view, const Segmentation& segmentation,
-                               const std::optional<Volume<float>>& mri, Products& products,
-                               nlohmann::json& quality);
 
 /// Table of target registration errors for a file of landmark pairs.
 /// Throws std::runtime_error where a view that has marks has no pixel spacing.

@@ -95,41 +95,43 @@ void judge(const SearchedView& view, std::vector<std::string>& reasons) {
                                  view.state[i]));
 }
 
-void take(const SearchedView& searched, RegisteredView& view) {
+SearchInput search_input(const Patient& patient, const Segmentation& segmentation,
+                         const RegisteredView& view) {
+  const CompressedView& geometry = view.projection.view();
+  SearchInput input{
+      view.file,
+      geometry,
+      view.projection.detector(),
+      nearby_solver(patient, geometry, view.file, tissue_of(view.file, segmentation.fractions)),
+      {}};
+  if (patient.view(geometry.name).mammogram) input.evidence = evidence_of(patient, view);
+  return input;
+}
+
+RegisteredView registered(RegisteredView view, const SearchedView& searched) {
   view.compressed = searched.compressed;
   view.uncertainty = searched.uncertainty;
   view.projection = ViewProjection(view.prone, view.compressed, searched.view,
                                    view.projection.detector(), searched.baseline);
+  return view;
 }
 
 }  // namespace
 
-std::map<std::string, json> search_and_register(const Patient& patient,
-                                                const Segmentation& segmentation,
-                                                std::vector<RegisteredView>& views,
-                                                const Progress& progress,
-                                                std::vector<std::string>& reasons) {
+RegisteredViews search_and_register(const Patient& patient, const Segmentation& segmentation,
+                                    std::vector<RegisteredView> views, const Progress& progress) {
   std::vector<SearchInput> inputs;
-  for (const RegisteredView& view : views) {
-    const CompressedView& geometry = view.projection.view();
-    SearchInput input{
-        view.file,
-        geometry,
-        view.projection.detector(),
-        nearby_solver(patient, geometry, view.file, tissue_of(view.file, segmentation.fractions)),
-        {}};
-    if (patient.view(geometry.name).mammogram) input.evidence = evidence_of(patient, view);
-    inputs.push_back(std::move(input));
-  }
+  for (const RegisteredView& view : views)
+    inputs.push_back(search_input(patient, segmentation, view));
   const std::vector<SearchedView> searched =
       search_views(inputs, segmentation.fractions, segmentation.nipple_in_lps, progress);
-  std::map<std::string, json> said;
+  RegisteredViews found;
   for (std::size_t v = 0; v < views.size(); ++v) {
-    take(searched[v], views[v]);
-    judge(searched[v], reasons);
-    if (searched[v].after) said[searched[v].view.name] = search_json(searched[v]);
+    found.views.push_back(registered(std::move(views[v]), searched[v]));
+    judge(searched[v], found.remarks);
+    if (searched[v].after) found.figures[searched[v].view.name] = search_json(searched[v]);
   }
-  return said;
+  return found;
 }
 
 }  // namespace mammotwin

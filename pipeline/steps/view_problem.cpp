@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "pipeline/steps/breast_problem.h"
+#include "pipeline/steps/solution_record.h"
 #include "registration/view/view_frame.h"
 
 namespace mammotwin {
@@ -77,38 +78,32 @@ CompressionProblem view_problem(const Patient& patient, const ViewSettings& view
 }
 
 void remember_solution(const CompressionResult& result, MeshFile& file) {
-  file.metadata["pressure_kpa"] = result.pressure;
-  file.metadata["plates"] = {result.plates.support_height,
-                             result.plates.paddle_height,
-                             result.plates.edge,
-                             result.plates.lateral_middle,
-                             result.penalty,
-                             result.report.target_thickness_mm};
+  write_solution({result.pressure, result.plates.support_height, result.plates.paddle_height,
+                  result.plates.edge, result.plates.lateral_middle, result.penalty,
+                  result.report.target_thickness_mm},
+                 file);
 }
 
 std::optional<NearbySolver> nearby_solver(const Patient& patient, const CompressedView& view,
                                           const MeshFile& compressed, const TissueSampler& tissue) {
-  const auto pressure = compressed.metadata.find("pressure_kpa");
-  const auto plates = compressed.metadata.find("plates");
-  if (pressure == compressed.metadata.end() || plates == compressed.metadata.end())
-    return std::nullopt;
+  const auto solution = read_solution(compressed, view.name + ".vtu");
+  if (!solution) return std::nullopt;
   SolvedView base{{}, view};
   CompressionResult& result = base.result;
   result.deformed = compressed.mesh.nodes();
-  result.pressure = pressure->second;
-  const std::vector<double>& numbers = plates->second;
-  result.plates.support_height = numbers.at(0);
-  result.plates.paddle_height = numbers.at(1);
-  result.plates.edge = numbers.at(2);
-  result.plates.lateral_middle = numbers.at(3);
-  result.penalty = numbers.at(4);
-  result.report.target_thickness_mm = numbers.at(5);
+  result.pressure = solution->pressure_kpa;
+  result.plates.support_height = solution->support_height_mm;
+  result.plates.paddle_height = solution->paddle_height_mm;
+  result.plates.edge = solution->edge_mm;
+  result.plates.lateral_middle = solution->lateral_middle_mm;
+  result.penalty = solution->penalty_kpa_per_mm;
+  result.report.target_thickness_mm = solution->target_thickness_mm;
   result.report.thickness_mm = view.thickness_mm;
   ViewSettings settings = patient.view(view.name);
   settings.angle_deg = view.angle_deg;
   return NearbySolver(
       base, [&patient, tissue, settings, side = view.side, mesh = reference_of(compressed),
-             thickness = numbers.at(5)](const ViewState& state) {
+             thickness = solution->target_thickness_mm](const ViewState& state) {
         return changed(patient, settings, side, mesh, tissue, thickness, state);
       });
 }

@@ -4,22 +4,16 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "fitting/mesh/metadata_field.h"
+
 namespace mammotwin {
 namespace {
 
-using Metadata = std::map<std::string, std::vector<double>>;
-
 const std::vector<double>& entry(const Metadata& metadata, const std::string& file,
                                  const std::string& key, std::size_t count) {
-  const auto found = metadata.find(key);
-  if (found == metadata.end())
-    throw std::runtime_error(file + ": the field " + key +
-                             " is missing; expected a mesh written by mammotwin-compress");
-  if (found->second.size() != count)
-    throw std::runtime_error(file + ": the field " + key + " has " +
-                             std::to_string(found->second.size()) + " numbers; expected " +
-                             std::to_string(count));
-  return found->second;
+  if (const auto* numbers = find_field(metadata, file, key, count)) return *numbers;
+  throw std::runtime_error(file + ": the field " + key +
+                           " is missing; expected a mesh written by mammotwin-compress");
 }
 
 }  // namespace

@@ -1,0 +1,41 @@
+#include "pipeline/steps/projected_findings.h"
+
+#include <cstdio>
+#include <stdexcept>
+
+namespace mammotwin {
+namespace {
+
+/// A lesion that the mesh does not hold has no position that could be trusted.
+void require_inside(const ProjectedLandmark& lesion) {
+  if (lesion.outside_mm <= kLesionOutsideLimit_mm) return;
+  char text[200];
+  std::snprintf(text, sizeof text,
+                "lesion %s lies %.1f mm outside the breast's mesh; at most %.0f mm can be carried: "
+                "look at the chest wall and at the lesion's place in the report",
+                lesion.landmark.id.c_str(), lesion.outside_mm, kLesionOutsideLimit_mm);
+  throw std::runtime_error(text);
+}
+
+}  // namespace
+
+Findings findings_of(const Segmentation& segmentation) {
+  Findings findings{{}, {"nipple", segmentation.nipple_in_lps}};
+  for (const Lesion& lesion : segmentation.lesions)
+    findings.lesions.push_back({lesion.id, lesion.centroid_in_lps});
+  return findings;
+}
+
+ProjectedFindings project(const Findings& findings, const ViewProjection& view) {
+  ProjectedFindings projected{{}, view.project(findings.nipple), {}};
+  for (const Landmark& landmark : findings.lesions) {
+    projected.lesions.push_back(view.project(landmark));
+    require_inside(projected.lesions.back());
+    if (projected.lesions.back().on_detector.x() < 0)
+      projected.remarks.push_back("lesion " + landmark.id + " lies behind the detector's edge in " +
+                                  view.view().name + ": that mammogram would not show it");
+  }
+  return projected;
+}
+
+}  // namespace mammotwin

@@ -1,0 +1,103 @@
+#include "pipeline/steps/registration_products.h"
+
+#include <nlohmann/json.hpp>
+
+#include "registration/carry/point_carrier.h"
+#include "registration/export/markups.h"
+#include "registration/export/view_products.h"
+#include "segmentation/files/segmentation_file.h"
+
+namespace mammotwin {
+namespace {
+
+void set_ellipse(const LesionEllipse& ellipse, LesionRow& row) {
+  row.ellipse_major_mm = ellipse.on_detector.major_mm;
+  row.ellipse_minor_mm = ellipse.on_detector.minor_mm;
+  row.ellipse_angle_deg = ellipse.on_detector.angle_deg;
+  if (!ellipse.in_picture) return;
+  row.picture_ellipse_major_mm = ellipse.in_picture->major_mm;
+  row.picture_ellipse_minor_mm = ellipse.in_picture->minor_mm;
+  row.picture_ellipse_angle_deg = ellipse.in_picture->angle_deg;
+}
+
+/// lesions_<configuration>.mrk.json: lesions, then the nipple.
+void write_points(const std::string& configuration, const std::vector<MarkupPoint>& points,
+                  Products& products) {
+  write_markups(products.write("lesions_" + configuration + ".mrk.json"), points);
+}
+
+template <class Place>
+std::vector<MarkupPoint> points_of(const Findings& findings, Place place) {
+  std::vector<MarkupPoint> points;
+  for (const Landmark& lesion : findings.lesions) points.push_back({lesion.id, place(lesion)});
+  points.push_back({findings.nipple.id, place(findings.nipple)});
+  return points;
+}
+
+std::vector<MarkupPoint> compressed_points(const ProjectedFindings& findings) {
+  std::vector<MarkupPoint> points;
+  for (const ProjectedLandmark& lesion : findings.lesions)
+    points.push_back({lesion.landmark.id, lesion.compressed_in_lps});
+  points.push_back({findings.nipple.landmark.id, findings.nipple.compressed_in_lps});
+  return points;
+}
+
+}  // namespace
+
+std::vector<LesionRow> lesion_rows(const std::string& patient, Side side, const Findings& findings,
+                                   const std::vector<PredictedView>& views) {
+  std::vector<LesionRow> rows;
+  for (const Landmark& lesion : findings.lesions)
+    rows.push_back(mri_row(patient, side, lesion, findings.nipple.prone_in_lps));
+  for (const PredictedView& view : views)
+    for (std::size_t i = 0; i < view.findings.lesions.size(); ++i) {
+      rows.push_back(view_row(patient, view.registered.projection.view(), view.findings.lesions[i],
+                              view.findings.nipple));
+      if (!view.ellipses.empty()) set_ellipse(view.ellipses[i], rows.back());
+    }
+  return rows;
+}
+
+void write_states(const Findings& findings, const RegisteredView& view, Products& products) {
+  write_points("prone", points_of(findings, [](const Landmark& l) { return l.prone_in_lps; }),
+               products);
+  for (const auto& [name, mesh] : view.states) {
+    const PointCarrier carrier(view.prone, mesh);
+    const auto carried = [&](const Landmark& l) { return carrier.carry(l.prone_in_lps).in_lps; };
+    write_points(name, points_of(findings, carried), products);
+  }
+}
+
+void write_prediction(const PredictedView& view, Products& products) {
+  const std::string& name = view.registered.projection.view().name;
+  for (std::size_t i = 0; i < view.ellipses.size(); ++i)
+    write_closed_curve(
+        products.write("ellipse_" + name + "_" + std::to_string(i + 1) + ".mrk.json"),
+        view.findings.lesions[i].landmark.id + " in " + name, view.ellipses[i].rim_in_prone);
+  write_points(name, compressed_points(view.findings), products);
+  write_registered_view(products.write(name + "_registered.vtu"), view.registered);
+}
+
+DetectorImage write_view_files(const RegisteredView& view, const Segmentation& segmentation,
+                               const std::optional<Volume<float>>& mri, Products& products,
+                               nlohmann::json& quality) {
+  const CompressedView& geometry = view.projection.view();
+  const std::string& name = geometry.name;
+  const ViewFields fields = view_fields(view.prone, view.compressed);
+  write_displacement_field(products.write(name + "_from_prone.nrrd"), fields.compressed_from_prone);
+  write_displacement_field(products.write("prone_from_" + name + ".nrrd"),
+                           fields.prone_from_compressed);
+  quality["field_composition"][name] = {{"mean_mm", fields.error.mean_mm},
+                                        {"p99_mm", fields.error.p99_mm},
+                                        {"max_mm", fields.error.max_mm}};
+  const SimulatedView simulated = simulate_view(
+      view.prone, view.compressed, &segmentation.fractions, geometry, view.projection.detector());
+  const DetectorImage shown = as_shown(simulated);
+  write_view_png(products.write("simulated_" + name + ".png"), shown, geometry.side);
+  if (mri)
+    write_image(products.write("mri_in_" + name + ".nrrd"),
+                mri_in_view(view.prone, view.compressed, *mri));
+  return shown;
+}
+
+}  // namespace mammotwin
