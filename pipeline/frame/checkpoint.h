@@ -20,7 +20,8 @@ class Checkpoint {
   /// it, so that a reader can tell it from another run's.
   const std::string& run() const { return run_; }
 
-  std::optional<std::vector<std::uint8_t>> read() const;  ///< nothing where there is none
+  /// Nothing where there is none, or where a byte of it is not as it was written.
+  std::optional<std::vector<std::uint8_t>> read() const;
 
   /// Whole or not at all. A full disk is not an error: the run then cannot be taken up again.
   void write(const std::vector<std::uint8_t>& bytes) const;

@@ -21,6 +21,8 @@ class Sha256 {
   void add(const char* data, std::size_t size) { EVP_DigestUpdate(context_.get(), data, size); }
 
   void add_file(const std::filesystem::path& path) {
+    if (!std::filesystem::is_regular_file(path))  // a pipe or a device might never end
+      throw std::runtime_error(path.string() + ": cannot be read; expected a file or a folder");
     std::ifstream in(path, std::ios::binary);
     std::vector<char> buffer(1 << 18);
     while (in.read(buffer.data(), static_cast<std::streamsize>(buffer.size())) || in.gcount() > 0)

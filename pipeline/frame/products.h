@@ -7,8 +7,9 @@
 
 namespace mammotwin {
 
-/// Files that appear together or not at all: each is written under a temporary name in its own
-/// folder and renamed by `commit`. What is not committed is removed when this goes out of scope.
+/// Files that appear together or not at all: each is written in a folder of this run's own, beside
+/// the products and closed to other users, and renamed by `commit`. What is not committed is
+/// removed when this goes out of scope.
 class Products {
  public:
   /// Creates the folder of `main_product`. Throws std::runtime_error if it cannot be written.
@@ -25,15 +26,18 @@ class Products {
   std::filesystem::path folder() const;
   std::vector<std::string> names() const;
 
-  /// Renames all, the main product last. Throws std::runtime_error on failure.
+  /// Renames all, the main product last; when it returns, a loss of power takes none of them away.
+  /// Throws std::runtime_error on failure.
   void commit();
 
  private:
   std::filesystem::path main_;
+  std::filesystem::path own_folder_;  ///< empty before the first `write`
   std::vector<std::pair<std::string, std::filesystem::path>> pending_;
 };
 
-/// Writes text under a temporary name and renames it to `path`.
+/// Writes text under a temporary name and renames it to `path`. A link that stands there is
+/// replaced, not followed. Throws std::runtime_error on failure; nothing has changed then.
 void write_text_atomically(const std::filesystem::path& path, const std::string& text);
 
 }  // namespace mammotwin

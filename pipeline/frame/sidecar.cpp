@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "pipeline/frame/checksum.h"
+#include "pipeline/frame/products.h"
 
 namespace mammotwin {
 namespace {
@@ -67,6 +68,12 @@ Provenance make_provenance(const std::string& stage, const json& parameters,
         {{"path", relative_to(folder_of(product), input)}, {"sha256", sha256_of_path(input)}});
   }
   return p;
+}
+
+void write_sidecar(const fs::path& product, const json& sidecar) {
+  constexpr int indent = 1;
+  const std::string text = sidecar.dump(indent, ' ', false, json::error_handler_t::replace);
+  write_text_atomically(sidecar_path(product), text + "\n");
 }
 
 fs::path sidecar_path(const fs::path& product) {

@@ -27,6 +27,10 @@ Provenance make_provenance(const std::string& stage, const nlohmann::json& param
 
 nlohmann::json provenance_json(const Provenance& provenance);
 
+/// As the product's sidecar, whole or not at all. Bytes that are no UTF-8 (of a file's name, say)
+/// become U+FFFD. Throws std::runtime_error where it cannot be written.
+void write_sidecar(const std::filesystem::path& product, const nlohmann::json& sidecar);
+
 /// results/P/prone.vtu -> results/P/prone.vtu.json.
 std::filesystem::path sidecar_path(const std::filesystem::path& product);
 

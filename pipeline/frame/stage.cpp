@@ -103,7 +103,7 @@ int run_parsed(const Stage& stage, const fs::path& product, const Provenance& pr
   }
   remove_stale_outputs(product, written);
   const auto sidecar = make_sidecar(product, provenance, a.outcome, written, a.usage);
-  write_text_atomically(sidecar_path(product), sidecar.dump(1) + "\n");
+  write_sidecar(product, sidecar);
   if (a.outcome.status != Status::refused) checkpoint.remove();
   say_outcome(stage, product, a.outcome, a.usage.seconds);
   return exit_code(a.outcome.status);
@@ -117,8 +117,7 @@ int refuse_before_running(const Stage& stage, const fs::path& product, const std
     Products products(product);
     const Outcome outcome{Status::refused, {reason}, nlohmann::json::object()};
     const auto provenance = make_provenance(stage.name, nlohmann::json::object(), {}, product);
-    write_text_atomically(sidecar_path(product),
-                          make_sidecar(product, provenance, outcome, {}, {}).dump(1) + "\n");
+    write_sidecar(product, make_sidecar(product, provenance, outcome, {}, {}));
   } catch (const std::exception& e) {
     std::cerr << stage.name << ": " << e.what() << "\n";
   }

@@ -60,7 +60,8 @@ Bytes ChainRun::products() const {
   Bytes bytes;
   if (!fs::exists(results / patient)) return bytes;
   for (const auto& entry : fs::directory_iterator(results / patient))
-    if (entry.path().extension() != ".json" || entry.path().stem().extension() == ".mrk")
+    if (entry.is_regular_file() &&
+        (entry.path().extension() != ".json" || entry.path().stem().extension() == ".mrk"))
       bytes[entry.path().filename().string()] = text_of(entry.path());
   return bytes;
 }

@@ -25,7 +25,8 @@ class KilledRun : public CohortFolderTest {
     std::map<std::string, std::string> bytes;
     if (!fs::exists(results("p"))) return bytes;
     for (const auto& entry : fs::directory_iterator(results("p")))
-      if (entry.path().extension() != ".json" || entry.path().stem().extension() == ".mrk")
+      if (entry.is_regular_file() &&
+          (entry.path().extension() != ".json" || entry.path().stem().extension() == ".mrk"))
         bytes[entry.path().filename().string()] = text_of(entry.path());
     return bytes;
   }

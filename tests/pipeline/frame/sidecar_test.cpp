@@ -1,5 +1,7 @@
 #include "pipeline/frame/sidecar.h"
 
+#include <sys/stat.h>
+
 #include "pipeline/frame/checksum.h"
 #include "pipeline/frame/products.h"
 #include "tests/pipeline/scratch_folder.h"
@@ -45,6 +47,18 @@ TEST_F(SidecarTest, AProductIsNotCurrentAfterAnyChange) {
   EXPECT_TRUE(current_sidecar(product_, provenance()));
   write("in", "other data");
   EXPECT_FALSE(current_sidecar(product_, provenance())) << "another input";
+}
+
+TEST_F(SidecarTest, TextThatIsNoUtf8DoesNotEndAStage) {
+  nlohmann::json sidecar{{"reasons", {"a series called M\xfcller"}}};
+  mammotwin::write_sidecar(product_, sidecar);
+  EXPECT_NE(text_of(sidecar_path(product_)).find("M\xef\xbf\xbdller"), std::string::npos);
+}
+
+TEST_F(SidecarTest, APipeAsAnInputIsRefusedAndNotWaitedFor) {
+  ASSERT_EQ(mkfifo((folder_ / "pipe").c_str(), 0600), 0);
+  const std::string message = message_of([&] { sha256_of_path(folder_ / "pipe"); });
+  EXPECT_NE(message.find("pipe: cannot be read; expected a file"), std::string::npos) << message;
 }
 
 TEST_F(SidecarTest, FormerOutputsDoNotLeadOutOfTheFolder) {
