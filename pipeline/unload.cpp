@@ -10,6 +10,7 @@
 #include "pipeline/steps/breast_problem.h"
 #include "pipeline/steps/second_state.h"
 #include "pipeline/steps/unload_quality.h"
+#include "segmentation/files/detached_data.h"
 #include "segmentation/files/segmentation_file.h"
 
 namespace mammotwin {
@@ -32,7 +33,10 @@ void declare(StageDeclaration& stage, Arguments& args) {
 StagePlan plan(const Arguments&, const Patient& patient) {
   StagePlan plan{{},
                  {"gravity", "unload.", "materials.", "compress.chest_wall", "compress.cut_face"}};
-  if (const auto second = patient.second_state()) plan.inputs.push_back(*second);
+  if (const auto second = patient.second_state()) {
+    plan.inputs.push_back(*second);
+    if (const auto data = detached_data_file(*second)) plan.inputs.push_back(*data);
+  }
   return plan;
 }
 

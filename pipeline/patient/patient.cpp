@@ -4,6 +4,7 @@
 
 #include "pipeline/frame/nearest_name.h"
 #include "pipeline/frame/toml_file.h"
+#include "segmentation/files/detached_data.h"
 
 namespace mammotwin {
 namespace {
@@ -20,6 +21,14 @@ void refuse_unknown(const std::string& where, const std::string& key, const Sett
   if (settings.find(key)) return;
   throw std::runtime_error(where + ": unknown key " + key + "; the nearest known one is " +
                            nearest_name(key, settings.keys()));
+}
+
+/// A header's voxels are as much of the input as itself.
+std::vector<fs::path> with_detached_data(std::vector<fs::path> files) {
+  const std::size_t headers = files.size();
+  for (std::size_t n = 0; n < headers; ++n)
+    if (const auto data = detached_data_file(files[n])) files.push_back(*data);
+  return files;
 }
 
 }  // namespace
@@ -224,7 +233,7 @@ std::vector<fs::path> Patient::segment_files() const {
   for (const LesionSeed& seed : input.lesions)
     for (const auto& path : {seed.markups, seed.label_map})
       if (path) files.push_back(*path);
-  return files;
+  return with_detached_data(std::move(files));
 }
 
 json Patient::list_parameters(const std::vector<std::string>& prefixes) const {

@@ -10,15 +10,16 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "segmentation/files/dicom_pixel_length.h"
+
 namespace mammotwin {
 namespace {
 
 using gdcm::DataSet;
 using gdcm::Tag;
 
-const Tag modality_tag(0x0008, 0x0060), description_tag(0x0008, 0x103e),
-    series_uid_tag(0x0020, 0x000e), patient_id_tag(0x0010, 0x0020),
-    series_number_tag(0x0020, 0x0011), position_tag(0x0020, 0x0032),
+const Tag modality_tag(0x0008, 0x0060), series_uid_tag(0x0020, 0x000e),
+    patient_id_tag(0x0010, 0x0020), series_number_tag(0x0020, 0x0011), position_tag(0x0020, 0x0032),
     orientation_tag(0x0020, 0x0037), spacing_tag(0x0028, 0x0030), rows_tag(0x0028, 0x0010),
     columns_tag(0x0028, 0x0011), frames_tag(0x0028, 0x0008), temporal_position_tag(0x0020, 0x0100),
     acquisition_tag(0x0020, 0x0012), echo_tag(0x0018, 0x0086), slice_distance_tag(0x0018, 0x0088),
@@ -173,7 +174,6 @@ std::vector<DicomSlice> read_dicom_slices(const std::filesystem::path& file) {
   slice.series_uid = text(set, series_uid_tag);
   slice.patient_id = text(set, patient_id_tag);
   slice.series_number = text(set, series_number_tag);
-  slice.series_description = text(set, description_tag);
   slice.image_type = text(set, image_type_tag);
   slice.acquisition_time = text(set, acquisition_time_tag);
   slice.patient_position = known_position(text(set, patient_position_tag));
@@ -220,6 +220,11 @@ std::vector<float> read_dicom_pixels(const std::filesystem::path& file) {
   if (image.GetBufferLength() != expected)
     return fail("its pixels take " + std::to_string(image.GetBufferLength()) + " bytes; expected " +
                 std::to_string(expected) + " (export it again)");
+  try {
+    if (image.GetPixelFormat().GetBitsAllocated() % 8 == 0) check_pixels_whole(file, expected);
+  } catch (const std::runtime_error& error) {
+    return fail(error.what());
+  }
   std::vector<char> bytes(expected);
   if (!image.GetBuffer(bytes.data()))
     return fail("pixels cannot be decoded; expected a complete DICOM image (export it again)");

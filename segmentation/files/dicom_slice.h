@@ -17,7 +17,6 @@ struct DicomSlice {
   std::string modality;                ///< "MR" serves
   std::string series_uid, patient_id;  ///< compared, never shown
   std::string series_number;
-  std::string series_description;
   std::string image_type;        ///< "ORIGINAL\\PRIMARY", "DERIVED\\SECONDARY\\..."
   std::string acquisition_time;  ///< compared, never shown
   bool geometry_known = true;    ///< false: the header does not say where the frames stand

@@ -15,15 +15,20 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t least_slices = 16;  // fewer is a localiser, not a breast
 
+bool is_short_number(const std::string& text) {
+  constexpr std::size_t most_digits = 6;  // longer ones are identifiers
+  return !text.empty() && text.size() <= most_digits &&
+         text.find_first_not_of("0123456789") == std::string::npos;
+}
+
 struct Series {
-  std::string uid, number, description;
+  std::string uid, number;
   std::vector<DicomSlice> slices;
 
+  /// What tells it apart and names nobody: descriptions and file names may hold anything.
   std::string name() const {
-    return "series " + (number.empty() ? "without number" : number) +
-           (description.empty() ? "" : " \"" + description + "\"") + " (" +
-           std::to_string(slices.size()) + " slices, for example " +
-           slices.front().file.filename().string() + ")";
+    return "series " + (is_short_number(number) ? number : "without number") + " (" +
+           std::to_string(slices.size()) + " slices)";
   }
 };
 
@@ -67,7 +72,6 @@ std::vector<Series> group_series(const std::vector<fs::path>& files, std::size_t
     Series& series = by_uid[slices.front().series_uid];
     series.uid = slices.front().series_uid;
     series.number = slices.front().series_number;
-    series.description = slices.front().series_description;
     series.slices.insert(series.slices.end(), slices.begin(), slices.end());
   }
   std::vector<Series> all;

@@ -13,9 +13,9 @@ namespace {
 namespace fs = std::filesystem;
 
 void check_exists(const fs::path& path) {
-  if (!fs::exists(path))
+  if (!fs::is_regular_file(path) && !fs::is_directory(path))  // a pipe or a device may never end
     throw std::runtime_error(
-        "does not exist; expected a folder with a DICOM series, or a DICOM, "
+        "does not exist or is no file; expected a folder with a DICOM series, or a DICOM, "
         "NIfTI, NRRD or MetaImage file");
   if (fs::is_regular_file(path) && fs::file_size(path) == 0)
     throw std::runtime_error("is empty (0 bytes); expected an image (copy or export it again)");

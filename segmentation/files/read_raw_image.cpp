@@ -10,6 +10,7 @@
 
 #include "segmentation/files/scan_meta.h"
 #include "segmentation/files/scan_nifti.h"
+#include "segmentation/files/trial_read.h"
 
 namespace mammotwin {
 namespace {
@@ -93,6 +94,34 @@ void check_nifti(const fs::path& path, const itk::ImageIOBase& io) {
                              "only (replace them before)");
 }
 
+void check_meta(const fs::path& path, const itk::ImageIOBase& io) {
+  if (is_meta(lower_name(path)))
+    check_meta_voxels(path, read_meta_header(path),
+                      static_cast<std::uintmax_t>(io.GetImageSizeInBytes()));
+}
+
+/// The libraries end the program over some damaged headers, and never end over others: they try in
+/// a child process first.
+itk::ImageIOBase::Pointer read_header(const fs::path& path) {
+  const std::string name = lower_name(path);
+  if (is_meta(name)) read_meta_header(path);
+  if (is_nifti(name)) check_nifti_placement(path);
+  const auto read = [&] {
+    itk::ImageIOBase::Pointer io = io_for(name);
+    io->SetFileName(path.string());
+    io->ReadImageInformation();
+    return io;
+  };
+  const char* damaged =
+      "its header cannot be read; expected a NIfTI, NRRD or MetaImage file (is it damaged?)";
+  if (first_fatal(1, [&](std::size_t) { read(); })) throw std::runtime_error(damaged);
+  try {
+    return read();
+  } catch (const itk::ExceptionObject&) {
+    throw std::runtime_error(damaged);
+  }
+}
+
 template <class T>
 std::vector<float> as_floats(const std::vector<char>& bytes) {
   const T* first = reinterpret_cast<const T*>(bytes.data());
@@ -142,19 +171,13 @@ bool is_image_file_name(const fs::path& path) {
 
 RawImage read_raw_image(const fs::path& path, std::map<std::string, std::string>* keys,
                         int components) {
-  if (is_meta(lower_name(path))) check_meta_header(path);
-  const itk::ImageIOBase::Pointer io = io_for(lower_name(path));
-  io->SetFileName(path.string());
+  const itk::ImageIOBase::Pointer io = read_header(path);
   RawImage image;
   std::vector<char> bytes;
-  try {
-    io->ReadImageInformation();
-  } catch (const itk::ExceptionObject&) {
-    throw std::runtime_error("its header cannot be read; expected a NIfTI, NRRD or MetaImage file");
-  }
   check_dimensions(*io, static_cast<unsigned>(components));
   check_spacing(*io);
   check_nifti(path, *io);
+  check_meta(path, *io);
   itk::ImageIORegion region(io->GetNumberOfDimensions());
   for (unsigned d = 0; d < io->GetNumberOfDimensions(); ++d)
     region.SetSize(d, io->GetDimensions(d));

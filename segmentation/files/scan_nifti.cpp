@@ -29,27 +29,59 @@ T value_at(const char* bytes, bool swapped) {
   return value;
 }
 
+using NiftiHeader = std::array<char, nifti2_header>;
+
 struct Layout {
-  bool swapped = false;
+  bool swapped = false, second_version = false;
   std::uintmax_t voxels_at = 0;  ///< byte where they begin
 };
 
-Layout read_layout(gzFile_s* file) {
-  std::array<char, nifti2_header> header{};
+Layout read_layout(gzFile_s* file, NiftiHeader& header) {
   const int got = gzread(file, header.data(), header.size());
   const auto is = [&](std::int32_t bytes, bool swapped) {
-    return got >= 4 && value_at<std::int32_t>(header.data(), swapped) == bytes;
+    return got >= bytes && value_at<std::int32_t>(header.data(), swapped) == bytes;
   };
   for (const bool swapped : {false, true}) {
     // vox_offset: a float at byte 108 of version 1, 64 bits at byte 168 of version 2
     if (is(nifti1_header, swapped))
-      return {swapped, static_cast<std::uintmax_t>(
-                           std::max(0.0F, value_at<float>(header.data() + 108, swapped)))};
+      return {swapped, false,
+              static_cast<std::uintmax_t>(
+                  std::max(0.0F, value_at<float>(header.data() + 108, swapped)))};
     if (is(nifti2_header, swapped))
-      return {swapped, static_cast<std::uintmax_t>(std::max<std::int64_t>(
-                           0, value_at<std::int64_t>(header.data() + 168, swapped)))};
+      return {swapped, true,
+              static_cast<std::uintmax_t>(
+                  std::max<std::int64_t>(0, value_at<std::int64_t>(header.data() + 168, swapped)))};
   }
   throw std::runtime_error("its header cannot be read; expected a NIfTI file");
+}
+
+/// `count` numbers from byte `at` on, floats in version 1 and doubles in version 2.
+void check_numbers(const NiftiHeader& header, const Layout& layout, int at, int count,
+                   const std::string& name) {
+  constexpr double farthest_mm = 1e5;  // a hundred metres from the isocentre
+  for (int n = 0; n < count; ++n) {
+    const double value =
+        layout.second_version
+            ? value_at<double>(header.data() + at + n * sizeof(double), layout.swapped)
+            : value_at<float>(header.data() + at + n * sizeof(float), layout.swapped);
+    if (!(std::abs(value) <= farthest_mm))
+      throw std::runtime_error("its " + name + " holds the number " + std::to_string(value) +
+                               "; expected finite numbers of at most 100000 (is the header "
+                               "damaged?)");
+  }
+}
+
+/// Does a code say that the field counts?
+bool field_counts(const NiftiHeader& header, const Layout& layout, int at) {
+  return layout.second_version ? value_at<std::int32_t>(header.data() + at, layout.swapped) > 0
+                               : value_at<std::int16_t>(header.data() + at, layout.swapped) > 0;
+}
+
+using NiftiFile = std::unique_ptr<gzFile_s, Close>;
+NiftiFile open_nifti(const std::filesystem::path& path) {
+  NiftiFile file(gzopen(path.c_str(), "rb"));
+  if (!file) throw std::runtime_error("cannot be opened; expected a readable file");
+  return file;
 }
 
 template <class T>
@@ -62,11 +94,22 @@ std::uintmax_t count_not_finite(const std::vector<char>& piece, std::size_t byte
 
 }  // namespace
 
+void check_nifti_placement(const std::filesystem::path& path) {
+  NiftiHeader header{};
+  const Layout layout = read_layout(open_nifti(path).get(), header);
+  const bool v2 = layout.second_version;  // bytes of each field by the standards of both versions
+  check_numbers(header, layout, v2 ? 104 : 76, 4, "pixdim");
+  if (field_counts(header, layout, v2 ? 344 : 252))
+    check_numbers(header, layout, v2 ? 352 : 256, 6, "qform");
+  if (field_counts(header, layout, v2 ? 348 : 254))
+    check_numbers(header, layout, v2 ? 400 : 280, 12, "sform");
+}
+
 NiftiVoxels scan_nifti(const std::filesystem::path& path, int value_bytes, bool floating,
                        std::uintmax_t enough_bytes) {
-  const std::unique_ptr<gzFile_s, Close> file(gzopen(path.c_str(), "rb"));
-  if (!file) throw std::runtime_error("cannot be opened; expected a readable file");
-  const Layout layout = read_layout(file.get());
+  const NiftiFile file = open_nifti(path);
+  NiftiHeader header{};
+  const Layout layout = read_layout(file.get(), header);
   NiftiVoxels found;
   if (gzseek(file.get(), static_cast<z_off_t>(layout.voxels_at), SEEK_SET) < 0) return found;
   std::vector<char> piece(1 << 20);

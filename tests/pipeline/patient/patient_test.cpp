@@ -19,6 +19,16 @@ class PatientTest : public ScratchFolder {
     EXPECT_NE(message.find(part), std::string::npos) << message;
   }
 
+  /// The same for a patient of whom nothing has been read before.
+  void expect_message_of_another(const std::string& toml, const std::string& part) {
+    Patient patient;
+    Settings settings;
+    patient.declare(settings);
+    const std::string message =
+        message_of([&] { patient.read(write("patient.toml", toml), settings); });
+    EXPECT_NE(message.find(part), std::string::npos) << toml << message;
+  }
+
   Patient patient_;
   Settings settings_;
 };
@@ -35,6 +45,15 @@ TEST_F(PatientTest, TakesTheFolderMriWhereNoImageIsNamed) {
   EXPECT_NE(message_of([&] { patient_.segment_input(); }).find("no image"), std::string::npos);
   std::filesystem::create_directory(folder_ / "mri");
   EXPECT_EQ(patient_.segment_input().mri, folder_ / "mri");
+}
+
+TEST_F(PatientTest, ADetachedDataFileIsAnInputToo) {
+  write("scan.nhdr", "NRRD0004\ntype: short\ndata file: scan.raw\n");
+  write("scan.raw", "voxels");
+  read("[mri]\npath = \"scan.nhdr\"\n");
+  const auto files = patient_.segment_files();
+  ASSERT_EQ(files.size(), 2u);
+  EXPECT_EQ(files[1], folder_ / "scan.raw");
 }
 
 TEST_F(PatientTest, ReadsLesionsInEveryForm) {
