@@ -11,6 +11,7 @@
 #include "pipeline/steps/searched_views.h"
 #include "pipeline/steps/view_header.h"
 #include "registration/export/detector_record.h"
+#include "registration/export/predictions_text.h"
 #include "segmentation/files/segmentation_file.h"
 
 namespace mammotwin {
@@ -139,6 +140,10 @@ Outcome run(const Arguments& args, const Patient& patient, StageRun& stage) {
   return outcome_of(inputs, registered, views, std::move(quality));
 }
 
+std::string predictions(const Arguments& args) {
+  return predictions_text(read_lesion_table(args.lesions));
+}
+
 }  // namespace
 }  // namespace mammotwin
 
@@ -146,5 +151,5 @@ int main(int argc, char** argv) {
   using namespace mammotwin;
   return run_stage(argc, argv, "register",
                    "compressed meshes + view geometry -> lesions on the CC and MLO detectors",
-                   declare, plan, run);
+                   declare, plan, run, predictions);
 }

@@ -9,6 +9,8 @@ last=$1
 
 fail() { echo "$*" >&2; exit 2; }
 
+[ -n "${RESULTS:-}" ] || fail "RESULTS is empty: name the folder that results go to"
+[ -n "${DATA:-}" ] || fail "DATA is empty: name the folder of patients"
 [ -n "${P:-}" ] || fail "name a patient: make $last P=042 (a folder of $DATA)"
 is_plain_name "$P" ||
   fail "P is not a plain name: use letters, digits, '.', '_' and '-', beginning with a letter or digit"
@@ -18,6 +20,7 @@ toml=$DATA/$P/patient.toml
 [ -f "$toml" ] || fail "$toml: no such file (DATA=$DATA is the folder of patients, P=$P one of them)"
 
 out=$RESULTS/$P
+export MAMMOTWIN_ENDS_WITH_ITS_PARENT=1  # make, told to stop, ends this script and not what it runs
 set -- --patient "$toml"
 [ -z "${FORCE:-}" ] || set -- "$@" --force
 
@@ -53,11 +56,3 @@ done
 
 echo
 echo "Results of $P: $out (open $out/report.html)"
-awk -F, '
-  NR == 1 { for (i = 1; i <= NF; i++) column[$i] = i; next }
-  NR == 2 { print "Predicted lesion positions [mm]: from the detector'"'"'s chest-wall edge, its middle, the support" }
-  $column["view"] != "mri" {
-    printf "  %-8s %-4s depth %6.1f  lateral %6.1f  height %5.1f  on the detector (%.1f, %.1f)\n",
-      $column["lesion"], toupper($column["view"]), $column["depth_mm"], $column["lateral_mm"],
-      $column["height_mm"], $column["detector_u_mm"], $column["detector_v_mm"]
-  }' "$out/lesions.csv"

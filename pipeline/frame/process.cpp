@@ -1,8 +1,10 @@
 #include "pipeline/frame/process.h"
 
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <csignal>
 #include <cstdlib>
 #include <string_view>
 
@@ -13,6 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 constexpr char kPrepared[] = "MAMMOTWIN_PREPARED";
+constexpr char kEndsWithParent[] = "MAMMOTWIN_ENDS_WITH_ITS_PARENT";
 
 bool names_a_path(std::string_view argument) {
   return argument.find('/') != std::string_view::npos && argument.front() != '-';
@@ -21,6 +24,7 @@ bool names_a_path(std::string_view argument) {
 }  // namespace
 
 void prepare_process(char** argv) {
+  if (std::getenv(kEndsWithParent)) prctl(PR_SET_PDEATHSIG, SIGTERM);
   if (std::getenv(kPrepared)) return;
   setenv(kPrepared, "1", 1);
   setenv("OPENBLAS_NUM_THREADS", "1", 1);

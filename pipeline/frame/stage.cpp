@@ -44,6 +44,10 @@ void say_outcome(const Stage& stage, const fs::path& product, const Outcome& out
               << minutes_and_seconds(seconds) << "\n";
 }
 
+void say_data(const Stage& stage) {
+  if (stage.data) std::cout << stage.data() << std::flush;
+}
+
 /// Nothing of an earlier run lies beside a sidecar that speaks of another: neither the product of a
 /// stage that has failed since, nor a file that is not written any more.
 void remove_stale_outputs(const fs::path& product, const std::vector<std::string>& written) {
@@ -106,6 +110,7 @@ int run_parsed(const Stage& stage, const fs::path& product, const Provenance& pr
   write_sidecar(product, sidecar);
   if (a.outcome.status != Status::refused) checkpoint.remove();
   say_outcome(stage, product, a.outcome, a.usage.seconds);
+  if (a.outcome.usable()) say_data(stage);
   return exit_code(a.outcome.status);
 }
 
@@ -174,6 +179,7 @@ int run_stage(int argc, char** argv, SettingsFile& file, const Stage& stage) {
     const Provenance provenance = plan_provenance(stage, declaration, file, settings);
     if (!common.force && current_sidecar(product, provenance)) {
       std::cerr << stage.name << ": " << product.string() << " is up to date\n";
+      say_data(stage);
       return 0;
     }
     if (!common.force)

@@ -22,6 +22,11 @@ struct LesionEntry {
 /// Enters the keys of one `[[lesions]]`, below `prefix`.
 void declare_lesion(Settings& settings, const std::string& prefix, LesionEntry& entry);
 
+/// Throws BadSetting unless the id can stand in every table, file and page as it is: no control
+/// characters, no marks that turn the direction of text, nothing that a spreadsheet takes for a
+/// formula.
+void require_plain_id(const std::string& where, const std::string& id);
+
 /// Throws BadSetting unless the entry says in exactly one way where the lesion is.
 void require_one_place(const std::string& where, const LesionEntry& entry);
 

@@ -159,6 +159,7 @@ void Patient::read_lesions(const std::string& file, const json& list) {
       settings.assign(file + ": " + where + "." + key, key, value);
     }
     require_one_place(file + ": " + where, entry);
+    if (entry.id) require_plain_id(file + ": " + where, *entry.id);
     if (!entry.id) entry.id = "L" + std::to_string(lesions_.size());
   }
 }

@@ -1,6 +1,8 @@
 #include "pipeline/steps/breast_problem.h"
 
 #include <algorithm>
+#include <stdexcept>
+#include <string>
 #include <utility>
 
 #include "fitting/mesh/metadata_field.h"
@@ -9,7 +11,16 @@
 namespace mammotwin {
 namespace {
 constexpr const char* kStiffnessFactor = "stiffness_factor";
+
+/// Without them nobody knows where skin and chest wall are.
+void require_face_labels(const MeshFile& mesh) {
+  if (static_cast<int>(mesh.faces.size()) == mesh.mesh.num_elements()) return;
+  throw std::runtime_error("the mesh's array face_labels has " + std::to_string(mesh.faces.size()) +
+                           " rows; expected " + std::to_string(mesh.mesh.num_elements()) +
+                           ", one an element: make the mesh again with fit");
 }
+
+}  // namespace
 
 TissueSampler tissue_of(const MeshFile& mesh, const Volume<Fractions>& fractions) {
   const auto tissue = std::make_shared<const CellTissue>(prone_file(mesh).mesh, fractions);
@@ -21,6 +32,7 @@ TissueSampler tissue_of(const MeshFile& mesh, const Volume<Fractions>& fractions
 
 CompressionProblem breast_problem(MeshFile mesh, TissueSampler tissue,
                                   const CompressionSettings& settings, double stiffness_factor) {
+  require_face_labels(mesh);
   CompressionProblem problem;
   problem.mesh = std::move(mesh);
   if (const auto prone = problem.mesh.configurations.find("prone");

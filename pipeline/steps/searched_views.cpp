@@ -28,13 +28,13 @@ ViewEvidence evidence_of(const Patient& patient, const RegisteredView& view) {
   const MammogramImage image =
       is_dicom(path) ? read_mammogram_dicom(path) : read_mammogram_png(path);
   if (image.columns != detector.pixels->columns || image.rows != detector.pixels->rows)
-    throw std::runtime_error(path.filename().string() + " has " + std::to_string(image.columns) +
-                             " x " + std::to_string(image.rows) + " pixels; " + key +
-                             ".detector says " + std::to_string(detector.pixels->columns) + " x " +
-                             std::to_string(detector.pixels->rows));
+    throw std::runtime_error(
+        "the " + geometry.name + " mammogram has " + std::to_string(image.columns) + " x " +
+        std::to_string(image.rows) + " pixels; " + key + ".detector says " +
+        std::to_string(detector.pixels->columns) + " x " + std::to_string(detector.pixels->rows));
   const MammogramFindings found = find_breast(image, std::abs(geometry.angle_deg) > 15);
   if (found.chest_wall != detector.pixels->chest_wall)
-    throw std::runtime_error(path.filename().string() +
+    throw std::runtime_error("the " + geometry.name + " mammogram" +
                              ": the breast lies on the image's other side than " + key +
                              ".detector.chest_wall says; is it the other breast, or mirrored?");
   return view_evidence(image, found, detector, settings.nipple_pixel);

@@ -1,11 +1,25 @@
 #include "pipeline/steps/view_header.h"
 
+#include <algorithm>
+#include <array>
+#include <fstream>
 #include <stdexcept>
 
 #include "registration/mammogram/header_geometry.h"
 
 namespace mammotwin {
 namespace {
+
+/// A file that is neither must not be taken for a view without a mammogram.
+void require_png(const std::filesystem::path& path, const std::string& key) {
+  constexpr char signature[] = "\x89PNG\r\n\x1a\n";  // PNG specification, 5.2
+  std::array<char, sizeof signature - 1> first{};
+  std::ifstream(path, std::ios::binary).read(first.data(), first.size());
+  if (!std::equal(first.begin(), first.end(), signature))
+    throw std::runtime_error(key +
+                             ": the file is no DICOM and no PNG; expected one of them (is it "
+                             "damaged? copy or export it again)");
+}
 
 HeaderOverrides overrides_of(const ViewSettings& view) {
   return {view.thickness_mm,     view.angle_deg,  view.source_distance_mm, view.support_gap_mm,
@@ -32,8 +46,9 @@ std::optional<std::filesystem::path> dicom_mammogram(const Patient& patient,
   const auto& named = patient.view(view).mammogram;
   if (!named) return std::nullopt;
   const std::filesystem::path path = patient.resolve(*named);
-  if (!is_dicom(path)) return std::nullopt;
-  return path;
+  if (is_dicom(path)) return path;
+  require_png(path, "views." + view + ".mammogram");
+  return std::nullopt;
 }
 
 ViewSettings with_header(const Patient& patient, const std::string& name, Side side,
@@ -41,14 +56,14 @@ ViewSettings with_header(const Patient& patient, const std::string& name, Side s
   ViewSettings view = patient.view(name);
   const auto path = dicom_mammogram(patient, name);
   if (!path) return view;
-  const std::string file = path->filename().string();
+  const std::string role = "the " + name + " mammogram";  // files are named after patients
   try {
     const HeaderGeometry header =
         header_geometry(read_mammogram_header(*path), name, side, overrides_of(view));
-    for (const std::string& remark : header.remarks) remarks.push_back(file + ": " + remark);
+    for (const std::string& remark : header.remarks) remarks.push_back(role + ": " + remark);
     take(header, view);
   } catch (const std::runtime_error& error) {
-    throw std::runtime_error(file + ": " + error.what());
+    throw std::runtime_error(role + ": " + error.what());
   }
   return view;
 }

@@ -35,7 +35,9 @@ TEST_F(RunPatientTest, AsksForANameWhereThereIsNone) {
 }
 
 TEST_F(RunPatientTest, KeepsNamesOfItsOwnResults) {
-  for (const char* name : {"evaluation", "gel_cylinder"}) EXPECT_EQ(run(name).exit_code, 2) << name;
+  for (const char* name :
+       {"evaluation", "gel_cylinder", "cohort.tsv", "cohort_times.tsv", "failed.tsv"})
+    EXPECT_EQ(run(name).exit_code, 2) << name;
 }
 
 TEST_F(RunPatientTest, NamesThePatientFileThatIsMissing) {
@@ -45,9 +47,22 @@ TEST_F(RunPatientTest, NamesThePatientFileThatIsMissing) {
   EXPECT_FALSE(std::filesystem::exists(folder_ / "results"));
 }
 
+TEST_F(RunPatientTest, DoesNotTakeAnEmptyFolderForTheRoot) {
+  for (const char* variable : {"RESULTS", "DATA"}) {
+    std::vector<std::string> environment{"P=a", "DATA=" + folder_.string(), "RESULTS=r",
+                                         "BIN=" MAMMOTWIN_BIN};
+    environment.push_back(std::string(variable) + "=");
+    const CommandResult result =
+        run_command({MAMMOTWIN_SOURCE_DIR "/pipeline/run_patient.sh", "patient"}, environment);
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_NE(result.text.find(std::string(variable) + " is empty"), std::string::npos)
+        << result.text;
+  }
+}
+
 TEST_F(RunPatientTest, MakeExpandsNothingInItsVariables) {
   const std::string mark = (folder_ / "mark").string();
-  for (const char* variable : {"P", "DATA", "RESULTS"})
+  for (const char* variable : {"P", "DATA", "RESULTS", "FORCE", "SEED", "PRESS"})
     run_command({"make", "-C", MAMMOTWIN_SOURCE_DIR, "--dry-run", "patient",
                  std::string(variable) + "=$(shell touch " + mark + ")"});
   EXPECT_FALSE(std::filesystem::exists(mark));

@@ -47,6 +47,19 @@ TEST_F(PatientTest, TakesTheFolderMriWhereNoImageIsNamed) {
   EXPECT_EQ(patient_.segment_input().mri, folder_ / "mri");
 }
 
+TEST_F(PatientTest, ALesionsNameIsTextThatCanStandAnywhere) {
+  const auto toml = [](const std::string& id) {
+    return "[[lesions]]\npoint_lps_mm = [1, 2, 3]\nid = \"" + id + "\"\n";
+  };
+  for (const char* id : {"a\\nb", "a\\tb", "=cmd()", "@x", "-1+1", "a\\u202eb", "\\u0007"})
+    expect_message_of_another(toml(id), "lesions[0].id");
+  expect_message_of_another(toml(std::string(65, 'a')), "longer than 64");
+  Patient patient;
+  Settings settings;
+  patient.declare(settings);
+  patient.read(write("patient.toml", toml("L 1, upper <outer> \\u00fc")), settings);
+}
+
 TEST_F(PatientTest, ADetachedDataFileIsAnInputToo) {
   write("scan.nhdr", "NRRD0004\ntype: short\ndata file: scan.raw\n");
   write("scan.raw", "voxels");

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "registration/export/predictions_text.h"
 #include "registration/view/breast_position.h"
 #include "tests/registration/squeezed_box.h"
 
@@ -36,6 +37,22 @@ TEST(BreastPosition, ReadsTheClockFacingThePatient) {
   EXPECT_EQ(at(Side::left, 1, -30), "lower outer 6");
   EXPECT_EQ(at(Side::left, -4, 30), "upper inner 12");  // 352 deg rounds up to a full turn
   EXPECT_EQ(at(Side::left, 3, 4), "central ");
+}
+
+TEST(PredictionsText, KeepsANameWithACommaTogether) {
+  LesionRow mri, view;
+  mri.lesion = view.lesion = "a, \"b\"";
+  mri.view = "mri", view.view = "cc";
+  view.depth_mm = 12.34, view.lateral_mm = -5, view.height_mm = 20;
+  view.detector_u_mm = 13, view.detector_v_mm = -5.25;
+  const auto path = scratch("predictions.csv");
+  write_lesion_table(path, {mri, view});
+  const std::string text = predictions_text(read_lesion_table(path));
+  EXPECT_NE(text.find("a, \"b\" CC   depth 12.3  lateral -5.0  height 20.0  on the detector (13.0, "
+                      "-5.2)"),
+            std::string::npos)
+      << text;
+  EXPECT_EQ(predictions_text({mri}), "");
 }
 
 TEST(LesionTable, HasTheColumnsThatOthersRead) {
