@@ -11,7 +11,7 @@
 #include "fitting/fit_limits.h"
 #include "fitting/fit_quality.h"
 #include "fitting/mesh/jacobian_bound.h"
-#include "fitting/solve/fit_course.h"
+#include "fitting/solve/fit_mesh.h"
 #include "fitting/surface/skin_to_fit.h"
 
 namespace mammotwin {
@@ -38,6 +38,7 @@ void check(const FitOptions& o) {
           "accuracy must be 0.05 to 5 mm");
   require(!o.smoothing || (*o.smoothing >= 1e-12 && *o.smoothing <= 1e-3),
           "smoothing must be 1e-12 to 1e-3");
+  require(o.max_iterations >= 1 && o.max_iterations <= 10000, "max_iterations must be 1 to 10000");
   require(o.shape >= 0.1 && o.shape <= 10, "shape must be 0.1 to 10");
 }
 
@@ -169,18 +170,20 @@ class BreastFit {
     report.elements = elements;
     report.noise_mm = noise_mm_;
     report.smoothing = options_.smoothing.value_or(smoothing_for(noise_mm_));
-    const FitCourse course =
-        fit_slab(slab, goal, options_.shape, report.smoothing, report, progress_);
+    const FittedMesh fitted = fit_mesh(slab, goal, options_, report, progress_);
+    if (report.iterations >= options_.max_iterations)
+      report.reasons.push_back("The fit ended after " + std::to_string(report.iterations) +
+                               " iterations (fit.max_iterations), before it was done.");
     if (!skin.doubt.empty()) report.reasons.push_back(skin.doubt);
-    if (!course.valid) {
+    if (!fitted.valid) {
       report.status = "not_converged";
       report.reasons.push_back(
           "No mesh was found whose elements are all valid; look at the "
           "segmentation's skin and chest wall, or try other element counts.");
-      report.farthest_in_lps = most_folded(course.mesh);
+      report.farthest_in_lps = most_folded(fitted.mesh);
       return result;
     }
-    result.mesh.mesh = course.mesh;
+    result.mesh.mesh = fitted.mesh;
     result.mesh.faces = slab_faces(slab);
     tell(0.9, "measuring the fit");
     measure(result.mesh, s_, data(skin.region), wall_, report);

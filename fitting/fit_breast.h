@@ -25,6 +25,10 @@ struct FitOptions {
   /// Weight of the mean foldover-free energy against the same, 0.1 to 10. Lower follows the skin
   /// closer with worse shaped elements.
   double shape = 0.3;
+  /// Of Ceres in all stages together, steps that were refused included, 1 to 10,000.
+  int max_iterations = 200;
+  /// What mammotwin-fit says of them: 0 nothing, 1 a line an iteration, 2 Ceres' full reports, too.
+  int verbosity = 0;
 };
 
 /// The default elements for a skin of this area; a scan's are finer.
@@ -34,6 +38,17 @@ Eigen::Vector3i elements_for(double skin_area_mm2, bool scanned);
 struct ScannedSkin {
   TriangleSurface surface;  ///< without holes, beyond the region on all sides [mm]
   double noise_mm = 0;      ///< standard deviation of its points
+};
+
+enum class StepOutcome { accepted, refused_by_cost, refused_by_proof };
+
+/// One iteration of Ceres.
+struct FitIteration {
+  std::string stage;
+  StepOutcome outcome = StepOutcome::accepted;
+  double cost = 0;         ///< that is left [mm²]; its weights differ by stage
+  double skin_rms_mm = 0;  ///< that is left, smoothed data to mesh
+  double radius = 0;       ///< of the trust region for the next step
 };
 
 /// Distances are to the label boundary without any smoothing, all of it inside the region.
@@ -50,11 +65,12 @@ struct FitReport {
   double nipple_error_mm = 0;     ///< largest within 15 mm of the nipple, both directions
   double chest_wall_rms_mm = 0;   ///< labelled muscle front to the mesh
   double min_jacobian_bound = 0;  ///< det(∂x/∂ξ) is at least this fraction of its mean, proved
-  double min_scaled_jacobian = 0;  ///< smallest over 7³ points an element
-  double covered_fraction = 0;     ///< of the breast's voxels in the region
-  double covered_lesions = 1;      ///< of the lesions' voxels in the region
-  int iterations = 0;
-  std::vector<double> skin_rms_by_iteration_mm;  ///< to the smoothed surface, data to mesh
+  double min_scaled_jacobian = 0;           ///< smallest over 7³ points an element
+  double covered_fraction = 0;              ///< of the breast's voxels in the region
+  double covered_lesions = 1;               ///< of the lesions' voxels in the region
+  int iterations = 0;                       ///< of Ceres, refused steps included
+  std::vector<FitIteration> course;         ///< of the mesh that is given; each stage's start, too
+  std::vector<std::string> solver_reports;  ///< Ceres' own, one a call
   Eigen::Vector3d farthest_in_lps = Eigen::Vector3d::Zero();  ///< where skin_max_mm was met
   bool usable() const { return status == "ok" || status == "look"; }
 };

@@ -1,5 +1,7 @@
 // fit: tissue labels -> tri-cubic Hermite mesh of the breast.
 
+#include <iostream>
+
 #include "fitting/fit_breast.h"
 #include "pipeline/frame/stage.h"
 #include "pipeline/patient/patient.h"
@@ -41,6 +43,7 @@ Outcome run(const Arguments& args, const Patient& patient, StageRun& stage) {
   const std::optional<ScannedSkin> scan = scanned_skin(patient);
   const auto [mesh, report] =
       fit_breast(segmentation, patient.fit, stage.progress, scan ? &*scan : nullptr);
+  std::cerr << fit_talk(report, patient.fit.verbosity);
   if (report.usable()) {
     write_mesh_file(stage.products.write_main(), mesh);
     write_exf(stage.products.write(args.mesh.stem().string() + ".exf"), mesh.mesh);

@@ -65,6 +65,27 @@ void FitTarget::forget_feet() {
   }
 }
 
+void FitTarget::weigh_mesh(const HermiteMesh& mesh) {
+  const SkinPatches patches(slab_, mesh);
+  mesh_shares_.clear();
+  for (int m = 0; m < num_mesh_samples(); ++m) {
+    const SkinPatches::Point at = patches.at(mesh_sample(m));
+    mesh_shares_.push_back(at.by_s.cross(at.by_t).norm());
+  }
+  const double total = std::accumulate(mesh_shares_.begin(), mesh_shares_.end(), 0.0);
+  for (int m = 0; m < num_mesh_samples(); ++m)
+    mesh_shares_[m] *= importance(patches.at(mesh_sample(m)).x) / total;
+}
+
+int FitTarget::num_mesh_samples() const {
+  return slab_.elements.x() * slab_.elements.y() * skin_samples * skin_samples;
+}
+
+SkinPatches::Coordinates FitTarget::mesh_sample(int m) const {
+  const int nx = slab_.elements.x() * skin_samples;
+  return {(m % nx + 0.5) / skin_samples, (m / nx + 0.5) / skin_samples};
+}
+
 std::vector<PlaneSample> FitTarget::samples(const HermiteMesh& mesh, const Weights& weights) {
   const SkinPatches patches(slab_, mesh);
   std::vector<PlaneSample> out;
@@ -116,19 +137,13 @@ void FitTarget::add_edges(const SkinPatches& patches, double weight,
 
 void FitTarget::add_mesh_to_data(const SkinPatches& patches, double weight,
                                  std::vector<PlaneSample>& out) {
-  const int nx = slab_.elements.x() * skin_samples, ny = slab_.elements.y() * skin_samples;
   const std::size_t first = out.size();
-  out.resize(first + nx * ny);
-  std::vector<double> areas(nx * ny);
-  tbb::parallel_for(0, nx * ny, [&](int m) {
-    const SkinPatches::Coordinates st((m % nx + 0.5) / skin_samples, (m / nx + 0.5) / skin_samples);
-    const SkinPatches::Point at = patches.at(st);
-    const ClosestPoint::Hit hit = closest_(at.x);
-    areas[m] = at.by_s.cross(at.by_t).norm();
-    out[first + m] = {patches.mesh_point(st), hit.normal, hit.x, areas[m] * importance(at.x)};
+  out.resize(first + num_mesh_samples());
+  tbb::parallel_for(0, num_mesh_samples(), [&](int m) {
+    const SkinPatches::Coordinates st = mesh_sample(m);
+    const ClosestPoint::Hit hit = closest_(patches.at(st).x);
+    out[first + m] = {patches.mesh_point(st), hit.normal, hit.x, weight * mesh_shares_[m]};
   });
-  const double total = std::accumulate(areas.begin(), areas.end(), 0.0);
-  for (int m = 0; m < nx * ny; ++m) out[first + m].weight *= weight / total;
 }
 
 void FitTarget::add_wall(const HermiteMesh& mesh, double weight,
@@ -143,8 +158,11 @@ void FitTarget::add_wall(const HermiteMesh& mesh, double weight,
       const Eigen::Vector2d slope = wall_.slope(x.x(), x.z());
       const Eigen::Vector3d target(x.x(), wall_(x.x(), x.z()), x.z());
       const Eigen::Vector3d normal = Eigen::Vector3d(-slope.x(), 1, -slope.y()).normalized();
-      const double distance = normal.dot(x - target) / wall_trust_mm;
-      out.push_back({p, normal, target, weight * share / (1 + distance * distance)});
+      // Cauchy's loss, trust² log(1 + (distance / trust)²), as the square that touches it here.
+      const double squared = std::pow(normal.dot(x - target) / wall_trust_mm, 2);
+      const double beyond = std::log1p(squared) - squared / (1 + squared);
+      out.push_back({p, normal, target, weight * share / (1 + squared),
+                     weight * share * wall_trust_mm * wall_trust_mm * beyond});
     }
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "fitting/slab/skin_patches.h"
-#include "fitting/solve/fit_model.h"
+#include "fitting/solve/plane_samples.h"
 #include "fitting/surface/closest_point.h"
 
 namespace mammotwin {
@@ -18,7 +18,11 @@ class FitTarget {
     double data_to_mesh = 1, mesh_to_data = 0.5, edges = 0.5, wall = 0.25;
   };
 
-  /// Finds the nearest points anew and makes one plane sample of each.
+  /// Gives each of the mesh's skin samples the share of this mesh's skin that it stands for. Shares
+  /// that followed the mesh would let a fit shrink what is far from the data.
+  void weigh_mesh(const HermiteMesh& mesh);
+
+  /// Finds the nearest points anew and makes one plane sample of each; `weigh_mesh` comes first.
   std::vector<PlaneSample> samples(const HermiteMesh& mesh, const Weights& weights);
 
   /// Back to where the flattening puts every datum.
@@ -28,6 +32,8 @@ class FitTarget {
   double skin_rms() const { return skin_rms_; }
 
  private:
+  int num_mesh_samples() const;
+  SkinPatches::Coordinates mesh_sample(int index) const;
   double importance(const Eigen::Vector3d& x) const;  ///< 1, more round the nipple
   void add_data_to_mesh(const SkinPatches& patches, double weight, std::vector<PlaneSample>& out);
   void add_edges(const SkinPatches& patches, double weight, std::vector<PlaneSample>& out);
@@ -41,6 +47,7 @@ class FitTarget {
   Eigen::Vector3d nipple_;
   ClosestPoint closest_;
   std::vector<double> areas_;                   ///< share of each vertex, sum 1
+  std::vector<double> mesh_shares_;             ///< of each sample of the mesh, times importance
   std::vector<SkinPatches::Coordinates> feet_;  ///< of each vertex
   std::array<std::vector<SkinPatches::Coordinates>, 4> edge_feet_;
   double skin_rms_ = 0;

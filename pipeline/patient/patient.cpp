@@ -126,6 +126,10 @@ void Patient::declare_fit(Settings& s) {
   s.number("fit.smoothing", fit.smoothing, {1e-12, 1e-3},
            "weight of the Sobolev term; default: from the data's noise");
   s.number("fit.shape", fit.shape, {0.1, 10}, "weight of well-shaped elements against closeness");
+  s.integer("fit.max_iterations", fit.max_iterations, {1, 10000},
+            "iterations of the least-squares solver, in all");
+  s.integer("fit.verbosity", fit.verbosity, {0, 2},
+            "1: a line for each iteration of the fit; 2: the solver's full reports, too");
 }
 
 const ViewSettings& Patient::view(const std::string& name) const {

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "fitting/mesh/block_mesh.h"
+#include "fitting/solve/fit_problem.h"
 #include "fitting/solve/fit_samples.h"
-#include "fitting/solve/newton_step.h"
 
 namespace mammotwin {
 namespace {
@@ -42,17 +42,6 @@ Points points_on(const Skin& skin, int per_side) {
   return points;
 }
 
-/// BoxFit::hold for each sample, in both directions along its plane.
-void hold_along_planes(const HermiteMesh& mesh, double share, std::vector<PlaneSample>& samples) {
-  const std::size_t count = samples.size();
-  for (std::size_t i = 0; i < count; ++i) {
-    const PlaneSample s = samples[i];
-    const Eigen::Vector3d first = s.normal.unitOrthogonal();
-    for (const Eigen::Vector3d& along : {first, Eigen::Vector3d(s.normal.cross(first))})
-      samples.push_back({s.point, along, mesh.position(s.point), share * s.weight});
-  }
-}
-
 }  // namespace
 
 std::vector<HermiteMesh::Node> box_nodes(const Slab& slab) {
@@ -82,18 +71,20 @@ double fit_box(const Slab& slab, const Skin& skin, const BoxFit& options,
   const Eigen::Vector3d no_nipple(1e6, 0, 0);
   FitTarget target(slab, points.skin, points.flat, wall, no_nipple);
   const HermiteMesh start(nodes, grid_corners(slab.elements));
-  NewtonStep newton(start.elements(), held_parameters(slab));
-  FitModel model(slab, start, kNextToNothing, kNoSmoothing,
-                 std::vector<int>(start.num_elements(), 0));
   FitTarget::Weights weights;
   weights.mesh_to_data = 0;  // goes to flat triangles
-  for (int step = 0; step < options.steps; ++step) {
-    const HermiteMesh mesh(nodes, start.elements());
-    std::vector<PlaneSample> samples = target.samples(mesh, weights);
-    if (options.hold > 0) hold_along_planes(mesh, options.hold, samples);
-    model.update(nodes, samples);
-    newton.step(model, nodes);
+  target.weigh_mesh(start);
+  FitPoint point(slab, start, target);
+  point.model().weigh(kNextToNothing, kNoSmoothing);
+  point.set_weights(weights);
+  FitProblem problem(point, start.elements(), held_parameters(slab), nodes);
+  ceres::Solver::Options solver = FitProblem::options();
+  solver.max_num_iterations = options.steps;
+  if (options.hold > 0) {
+    solver.trust_region_strategy_type = ceres::LEVENBERG_MARQUARDT;
+    solver.initial_trust_region_radius = solver.max_trust_region_radius = 1 / options.hold;
   }
+  problem.solve(solver);
   target.samples(HermiteMesh(nodes, start.elements()), weights);
   return target.skin_rms();
 }

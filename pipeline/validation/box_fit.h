@@ -19,9 +19,9 @@ Eigen::Vector3d bell_on_box(double u, double v);
 struct BoxFit {
   int points_per_side = 65;
   int steps = 30;
-  /// Weight against a datum's of a pull along the skin towards where each point of the mesh lies
-  /// before a step: next to nothing else holds the mesh from sliding farther than the planes that
-  /// stand for the skin are true. It does not move where the steps end.
+  /// Levenberg and Marquardt's damping at least, of the Hessian's diagonal: next to nothing else
+  /// holds the mesh from sliding farther than the planes that stand for the skin are true. It does
+  /// not move where the steps end. 0: Powell's dog leg, undamped.
   double hold = 1e-3;
 };
 

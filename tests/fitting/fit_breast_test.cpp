@@ -77,17 +77,35 @@ TEST(FitBreast, LabelsItsFaces) {
   EXPECT_EQ(count[static_cast<int>(FaceLabel::cut)], 4 * 4 * 2);
 }
 
-TEST(FitBreast, IsTheSameOnOneThreadAndItsProgressGrowsToOne) {
-  const tbb::global_control control(tbb::global_control::max_allowed_parallelism, 1);
+TEST(FitBreast, IsTheSameBitForBitOnOneTwoAndFourThreads) {
+  for (std::size_t threads : {std::size_t{1}, std::size_t{2}, std::size_t{4}}) {
+    const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
+    EXPECT_EQ(fit_breast(dome_breast(), coarse()).mesh.mesh.nodes(),
+              fit_of_bell().mesh.mesh.nodes())
+        << threads << " threads";
+  }
+}
+
+TEST(FitBreast, ItsProgressGrowsToOne) {
   double last = -1;
-  const FitResult fit =
-      fit_breast(dome_breast(), coarse(), [&](double fraction, const std::string& what) {
-        EXPECT_GE(fraction, last);
-        EXPECT_FALSE(what.empty());
-        last = fraction;
-      });
+  fit_breast(dome_breast(), coarse(), [&](double fraction, const std::string& what) {
+    EXPECT_GE(fraction, last);
+    EXPECT_FALSE(what.empty());
+    last = fraction;
+  });
   EXPECT_EQ(last, 1);
-  EXPECT_EQ(fit.mesh.mesh.nodes(), fit_of_bell().mesh.mesh.nodes());
+}
+
+TEST(FitBreast, SaysThatItEndedTooEarlyAndWhatItsIterationsDid) {
+  FitOptions options = coarse();
+  const FitReport& whole = fit_of_bell().report;
+  ASSERT_FALSE(whole.course.empty());
+  EXPECT_LT(whole.course.back().skin_rms_mm, whole.course.front().skin_rms_mm);
+  options.max_iterations = whole.iterations / 2;
+  const FitReport half = fit_breast(dome_breast(), options).report;
+  EXPECT_EQ(half.iterations, options.max_iterations);
+  ASSERT_FALSE(half.reasons.empty());
+  EXPECT_NE(half.reasons.front().find("fit.max_iterations"), std::string::npos);
 }
 
 /// The bell with a nipple, a ball of 5 mm radius in its skin off the tip, and the landmark

@@ -1,9 +1,10 @@
 #include "fitting/solve/foldover_energy.h"
 
+#include <ceres/jet.h>
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
+#include <cmath>
 #include <random>
 
 namespace mammotwin {
@@ -35,45 +36,50 @@ TEST(FoldoverEnergy, DoesNotSeeRotations) {
   for (const auto& F : examples()) EXPECT_NEAR(e.value(R * F) / e.value(F), 1, 1e-11);
 }
 
-TEST(FoldoverEnergy, GradientMatchesDifferences) {
-  const FoldoverEnergy e = FoldoverEnergy::for_smallest(-0.5);
-  const double h = 1e-6;
-  for (const auto& F : examples())
-    for (int p = 0; p < 9; ++p) {
-      Eigen::Matrix3d up = F, down = F;
-      up.data()[p] += h;
-      down.data()[p] -= h;
-      const double difference = (e.value(up) - e.value(down)) / (2 * h);
-      // h² times third derivatives, which grow as 1/ε³ = 1e3 of the value.
-      EXPECT_NEAR(e.gradient(F)[p], difference, 1e-6 * (1 + e.gradient(F).norm()));
-    }
-}
+/// The residuals and their derivatives by F, by automatic differentiation.
+struct Differentiated {
+  Eigen::Matrix<double, 11, 1> residuals;
+  Eigen::Matrix<double, 11, 9> jacobian;
 
-TEST(FoldoverEnergy, HessianMatchesDifferences) {
-  const FoldoverEnergy e = FoldoverEnergy::for_smallest(-0.5);
-  const double h = 1e-6;
-  for (const auto& F : examples())
-    for (int p = 0; p < 9; ++p) {
-      Eigen::Matrix3d up = F, down = F;
-      up.data()[p] += h;
-      down.data()[p] -= h;
-      const FoldoverEnergy::Gradient difference = (e.gradient(up) - e.gradient(down)) / (2 * h);
-      EXPECT_LT((e.hessian(F).col(p) - difference).norm(), 1e-6 * (1 + e.hessian(F).norm()));
+  Differentiated(const FoldoverEnergy& e, const Eigen::Matrix3d& F) {
+    using Jet = ceres::Jet<double, 9>;
+    Eigen::Matrix<Jet, 3, 3> variable;
+    for (int p = 0; p < 9; ++p) variable.data()[p] = Jet(F.data()[p], p);
+    const auto r = e.residuals(variable);
+    for (int i = 0; i < 11; ++i) {
+      residuals[i] = r[i].a;
+      jacobian.row(i) = r[i].v.transpose();
     }
-}
-
-TEST(FoldoverEnergy, PositiveHessianIsTheHessianWithItsNegativeEigenvaluesAtZero) {
-  const FoldoverEnergy e = FoldoverEnergy::for_smallest(-0.5);
-  int negative = 0;
-  for (const auto& F : examples()) {
-    const Eigen::SelfAdjointEigenSolver<FoldoverEnergy::Hessian> eigen(e.hessian(F));
-    negative += eigen.eigenvalues()[0] < 0;
-    const FoldoverEnergy::Hessian expected = eigen.eigenvectors() *
-                                             eigen.eigenvalues().cwiseMax(0).asDiagonal() *
-                                             eigen.eigenvectors().transpose();
-    EXPECT_LT((e.positive_hessian(F) - expected).norm(), 1e-12 * expected.norm());
   }
-  EXPECT_EQ(negative, 12);  // all of the examples
+};
+
+TEST(FoldoverEnergy, IsWhatItsHeaderSaysAndTheSumOfItsResidualsSquares) {
+  const FoldoverEnergy e = FoldoverEnergy::for_smallest(-0.5);
+  for (const auto& F : examples()) {
+    const double d = F.determinant(), g = (d + std::hypot(d, e.epsilon)) / 2;
+    const double expected =
+        F.squaredNorm() / (3 * std::pow(g, 2.0 / 3)) + 0.05 * (d * d + 1) / (2 * g);
+    EXPECT_NEAR(e.value(F) / expected, 1, 1e-13);
+    EXPECT_NEAR(Differentiated(e, F).residuals.squaredNorm() / expected, 1, 1e-13);
+  }
+}
+
+TEST(FoldoverEnergy, GradientIsThatOfItsResiduals) {
+  const FoldoverEnergy e = FoldoverEnergy::for_smallest(-0.5);
+  for (const auto& F : examples()) {
+    const Differentiated by(e, F);
+    const FoldoverEnergy::Gradient expected = 2 * by.jacobian.transpose() * by.residuals;
+    EXPECT_LT((e.gradient(F) - expected).norm(), 1e-12 * (1 + expected.norm()));
+  }
+}
+
+TEST(FoldoverEnergy, GaussNewtonHessianIsThatOfItsResiduals) {
+  const FoldoverEnergy e = FoldoverEnergy::for_smallest(-0.5);
+  for (const auto& F : examples()) {
+    const Differentiated by(e, F);
+    const FoldoverEnergy::Hessian expected = 2 * by.jacobian.transpose() * by.jacobian;
+    EXPECT_LT((e.gauss_newton(F) - expected).norm(), 1e-12 * expected.norm());
+  }
 }
 
 }  // namespace

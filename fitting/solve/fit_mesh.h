@@ -1,7 +1,5 @@
 #pragma once
 
-#include <optional>
-
 #include "fitting/fit_breast.h"
 #include "fitting/solve/fit_samples.h"
 
@@ -17,7 +15,7 @@ struct FitGoal {
 };
 
 /// How a fit ended.
-struct FitCourse {
+struct FittedMesh {
   HermiteMesh mesh;    ///< the last one, valid or not
   bool valid = false;  ///< det(∂x/∂ξ) > 0 is proved
 };
@@ -25,9 +23,9 @@ struct FitCourse {
 /// Columns gathered round the nipple, as many as asked.
 Slab slab_around_nipple(const Eigen::Vector3i& elements, const FitGoal& goal);
 
-/// From straight rays to a valid mesh near the data, by the recipe of fitting/README.md. Adds steps
-/// and distances to the report.
-FitCourse fit_slab(const Slab& slab, const FitGoal& goal, double shape, double smoothing,
-                   FitReport& report, const FitProgress& progress);
+/// From straight rays to a valid mesh near the data, stage by stage (fitting/README.md). Adds its
+/// course to the report, whose `smoothing` it takes.
+FittedMesh fit_mesh(const Slab& slab, const FitGoal& goal, const FitOptions& options,
+                    FitReport& report, const FitProgress& progress);
 
 }  // namespace mammotwin
