@@ -19,7 +19,6 @@ constexpr double untangling_gain = 0.01;  // of the cost: the mesh need only be 
 
 /// Are there elements that the solver would not like? Mending them costs distance to the skin.
 bool lacks_shape(const HermiteMesh& mesh) {
-  constexpr double needed_scaled_jacobian = 0.12;  // 0.1 is asked
   const std::vector<double> scaled = scaled_jacobians(mesh);
   return *std::min_element(scaled.begin(), scaled.end()) < needed_scaled_jacobian;
 }

@@ -14,9 +14,8 @@ namespace mammotwin {
 
 namespace {
 
-// In the end elements that have this scaled Jacobian keep it, and others lose a tenth of theirs a
+// In the end elements that have the scaled Jacobian needed keep it, others lose a tenth of theirs a
 // step at most.
-constexpr double needed_scaled_jacobian = 0.1;
 constexpr double kept_part = 0.9;
 // [mm²], beside costs of order 1.
 constexpr double refused_cost = 1e6;

@@ -5,6 +5,9 @@
 
 namespace mammotwin {
 
+/// What the solver asks of every element.
+inline constexpr double needed_scaled_jacobian = 0.1;
+
 /// What a mesh must be for a step to count.
 enum class MeshDemand {
   none,
