@@ -82,7 +82,7 @@ void judge(FitReport& r) {
 }
 
 void measure(MeshFile& file, const Segmentation& s, const TriangleSurface& data,
-             const ChestWall& wall, FitReport& r) {
+             const MuscleFront& wall, FitReport& r) {
   const SurfaceDistances skin =
       surface_distances(file.mesh, file.faces, FaceLabel::skin, data, s.nipple_in_lps);
   file.fields["skin_distance_mm"] = skin_distance_field(file, data);
@@ -116,7 +116,7 @@ class BreastFit {
         options_(options),
         progress_(progress),
         scan_(scan),
-        wall_(find_chest_wall(s.labels, s.region)),
+        wall_(find_muscle_front(s.labels, s.region)),
         skin_(scan ? scanned_skin_to_fit(scan->surface, s.region) : find_skin_to_fit(s, wall_)),
         noise_mm_(scan ? scan->noise_mm : noise_of_labels(s)) {}
 
@@ -210,7 +210,7 @@ class BreastFit {
   const FitOptions& options_;
   const FitProgress& progress_;
   const ScannedSkin* scan_;
-  ChestWall wall_;
+  MuscleFront wall_;
   SkinToFit skin_;
   double noise_mm_;
 };

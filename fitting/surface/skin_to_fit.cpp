@@ -104,7 +104,7 @@ SkinToFit without_grazed_edges(SkinToFit skin, const std::vector<Lesion>& lesion
 }
 
 /// As little closed and as little of the region left out as makes the skin a disc with corners.
-SkinToFit find_disc(const Segmentation& s, const ChestWall& wall) {
+SkinToFit find_disc(const Segmentation& s, const MuscleFront& wall) {
   TriangleSurface boundary;
   std::string reason;
   for (int closing : closings) {
@@ -129,7 +129,7 @@ SkinToFit find_disc(const Segmentation& s, const ChestWall& wall) {
 
 }  // namespace
 
-SkinToFit find_skin_to_fit(const Segmentation& segmentation, const ChestWall& wall) {
+SkinToFit find_skin_to_fit(const Segmentation& segmentation, const MuscleFront& wall) {
   return without_grazed_edges(find_disc(segmentation, wall), segmentation.lesions);
 }
 
@@ -157,7 +157,7 @@ SkinToFit scanned_skin_to_fit(const TriangleSurface& scan, const BreastRegion& r
 }
 
 TriangleSurface skin_as_labelled(const Segmentation& s, const BreastRegion& region,
-                                 const ChestWall& wall) {
+                                 const MuscleFront& wall) {
   const Volume<float> solid = solid_from_labels(s.labels, region, wall.height, {});
   return cropped(solid_boundary(solid), region, s.labels.spacing.minCoeff() / 20);
 }

@@ -19,7 +19,7 @@ struct SkinToFit {
 /// 21 mm, as few and as little as will do, but never past a lesion. An edge whose plane the skin
 /// grazes, at less than some 15 degrees on the whole, is pulled in by up to 6 mm: elements there
 /// would have to be as flat. Throws std::runtime_error if nothing helps.
-SkinToFit find_skin_to_fit(const Segmentation& segmentation, const ChestWall& wall);
+SkinToFit find_skin_to_fit(const Segmentation& segmentation, const MuscleFront& wall);
 
 /// The same skin with the region's edges within 40 mm of a place pulled in by `by` [mm], never
 /// past a lesion; without triangles where no edge is near or that leaves no disc.
@@ -32,6 +32,6 @@ SkinToFit scanned_skin_to_fit(const TriangleSurface& scan, const BreastRegion& r
 
 /// The skin as labelled: neither closed nor smoothed.
 TriangleSurface skin_as_labelled(const Segmentation& segmentation, const BreastRegion& region,
-                                 const ChestWall& wall);
+                                 const MuscleFront& wall);
 
 }  // namespace mammotwin

@@ -258,11 +258,11 @@ Eigen::Vector2d HeightField::slope(double x, double z) const {
           (y(x, z + spacing_z_ / 2) - y(x, z - spacing_z_ / 2)) / spacing_z_};
 }
 
-ChestWall find_chest_wall(const Volume<std::uint8_t>& labels, const BreastRegion& region) {
+MuscleFront find_muscle_front(const Volume<std::uint8_t>& labels, const BreastRegion& region) {
   const ColumnRange range = columns_of(labels, region);
   const int nx = labels.size.x();
   const RawHeights raw = raw_heights(labels, range);
-  ChestWall wall;
+  MuscleFront wall;
   for (int k = range.k0; k <= range.k1; ++k)
     for (int i = range.i0; i <= range.i1; ++i) {
       const double y = raw.muscle[i + static_cast<std::size_t>(nx) * k];

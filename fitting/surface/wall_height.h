@@ -27,7 +27,7 @@ class HeightField {
 };
 
 /// The front of the muscle inside the region.
-struct ChestWall {
+struct MuscleFront {
   /// Smoothed (median over 9 x 9 columns, then Gaussian of 2 mm), then pushed back to hold every
   /// lesion: a tumour that has grown into the muscle lies in a pit with slopes of 1.5.
   HeightField height;
@@ -38,6 +38,6 @@ struct ChestWall {
 /// Columns without muscle: gaps that do not reach the region's border are interpolated (a tumour
 /// on the pectoral muscle leaves such pits), others take the end of the tissue. Pieces of muscle
 /// of fewer than 2,000 voxels are ignored.
-ChestWall find_chest_wall(const Volume<std::uint8_t>& labels, const BreastRegion& region);
+MuscleFront find_muscle_front(const Volume<std::uint8_t>& labels, const BreastRegion& region);
 
 }  // namespace mammotwin

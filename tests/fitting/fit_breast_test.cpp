@@ -179,7 +179,7 @@ TEST(SkinToFit, LeavesOutARaggedEdgeAndSaysSo) {
         const bool under_the_arch = std::abs(x.x()) < 22 && x.y() > -44;
         if (!under_the_arch && x.y() <= 0) s.labels(i, j, k) = label::fat;
       }
-  const SkinToFit skin = find_skin_to_fit(s, find_chest_wall(s.labels, s.region));
+  const SkinToFit skin = find_skin_to_fit(s, find_muscle_front(s.labels, s.region));
   EXPECT_EQ(why_not_a_square(skin.surface, skin.region), "");
   EXPECT_NE(skin.doubt.find("upper edge"), std::string::npos) << skin.doubt;
   EXPECT_LT(skin.region.z_max, s.region.z_max - 2);
@@ -187,7 +187,7 @@ TEST(SkinToFit, LeavesOutARaggedEdgeAndSaysSo) {
 
   Lesion lesion{"1", {0, -5, 40}, 0.1};
   s.lesions.push_back(lesion);
-  EXPECT_THROW(find_skin_to_fit(s, find_chest_wall(s.labels, s.region)), std::runtime_error);
+  EXPECT_THROW(find_skin_to_fit(s, find_muscle_front(s.labels, s.region)), std::runtime_error);
 }
 
 TEST(SkinToFit, LeavesOutAnEdgeThatTheSkinGrazesAndSaysSo) {
@@ -201,7 +201,7 @@ TEST(SkinToFit, LeavesOutAnEdgeThatTheSkinGrazesAndSaysSo) {
         const bool block = std::abs(x.x()) < 25 && x.z() > 10 && x.z() < 41 && x.y() > -45;
         if (block && s.labels(i, j, k) == label::air) s.labels(i, j, k) = label::fat;
       }
-  const SkinToFit skin = find_skin_to_fit(s, find_chest_wall(s.labels, s.region));
+  const SkinToFit skin = find_skin_to_fit(s, find_muscle_front(s.labels, s.region));
   EXPECT_NE(skin.doubt.find("upper edge"), std::string::npos) << skin.doubt;
   // Marching cubes every 2 mm of a Gaussian of 1 mm spread the cliff over some 3 mm.
   EXPECT_LT(skin.region.z_max, 41);
@@ -209,7 +209,7 @@ TEST(SkinToFit, LeavesOutAnEdgeThatTheSkinGrazesAndSaysSo) {
   EXPECT_EQ(skin.region.x_max, s.region.x_max);
 
   const Segmentation plain = dome_breast();
-  EXPECT_EQ(find_skin_to_fit(plain, find_chest_wall(plain.labels, plain.region)).doubt, "");
+  EXPECT_EQ(find_skin_to_fit(plain, find_muscle_front(plain.labels, plain.region)).doubt, "");
 }
 
 TEST(FitBreast, TakesAsManyColumnsAsTheSkinIsLarge) {

@@ -1,14 +1,15 @@
+#include "fitting/surface/wall_height.h"
+
 #include <gtest/gtest.h>
 
-#include "fitting/surface/wall_height.h"
 #include "tests/fitting/dome.h"
 
 namespace mammotwin {
 namespace {
 
-TEST(ChestWall, IsTheFrontOfTheMuscle) {
+TEST(MuscleFront, IsTheFrontOfTheMuscle) {
   const Segmentation s = dome_breast();
-  const ChestWall wall = find_chest_wall(s.labels, s.region);
+  const MuscleFront wall = find_muscle_front(s.labels, s.region);
   // The dome's muscle begins in the first voxel behind y = 0, whose front face is at −1 or 0.
   EXPECT_NEAR(wall.height(3, 5), 0, 1.001);
   EXPECT_LT(wall.height.slope(3, 5).norm(), 1e-12);
@@ -28,39 +29,39 @@ Segmentation dome_with_pit(std::uint8_t value, double depth) {
   return s;
 }
 
-TEST(ChestWall, BridgesAPitThatDoesNotReachTheBorder) {
+TEST(MuscleFront, BridgesAPitThatDoesNotReachTheBorder) {
   const Segmentation whole = dome_breast(), pit = dome_with_pit(label::air, 0);
-  EXPECT_NEAR(find_chest_wall(pit.labels, pit.region).height(0, 0),
-              find_chest_wall(whole.labels, whole.region).height(0, 0), 1e-6);
+  EXPECT_NEAR(find_muscle_front(pit.labels, pit.region).height(0, 0),
+              find_muscle_front(whole.labels, whole.region).height(0, 0), 1e-6);
 }
 
-TEST(ChestWall, HoldsALesionThatHasGrownIntoTheMuscle) {
+TEST(MuscleFront, HoldsALesionThatHasGrownIntoTheMuscle) {
   const Segmentation s = dome_with_pit(label::lesion, 8);
-  const HeightField wall = find_chest_wall(s.labels, s.region).height;
+  const HeightField wall = find_muscle_front(s.labels, s.region).height;
   EXPECT_GT(wall(0, 0), 7);  // the last voxel ends at y = 7
   EXPECT_GT(wall(13, 0), 7);
   EXPECT_LT(wall(30, 0), 1.001);
   EXPECT_LT(wall.slope(18, 0).norm(), 1.6);
 }
 
-TEST(ChestWall, TakesTheEndOfTissueWhereTheBorderHasNoMuscle) {
+TEST(MuscleFront, TakesTheEndOfTissueWhereTheBorderHasNoMuscle) {
   Segmentation s = dome_breast();
   for (int k = 0; k < s.labels.size.z(); ++k)
     for (int j = 0; j < s.labels.size.y(); ++j)
       for (int i = 0; i < s.labels.size.x(); ++i)
         if (s.labels(i, j, k) == label::muscle && s.labels.position(i, j, k).x() > 20)
           s.labels(i, j, k) = s.labels.position(i, j, k).y() < 6 ? label::fat : label::air;
-  const ChestWall wall = find_chest_wall(s.labels, s.region);
+  const MuscleFront wall = find_muscle_front(s.labels, s.region);
   EXPECT_NEAR(wall.height(35, 0), 6, 2);
   EXPECT_NEAR(wall.height(-20, 0), 0, 1.001);
 }
 
-TEST(ChestWall, IgnoresSpecksOfMuscle) {
+TEST(MuscleFront, IgnoresSpecksOfMuscle) {
   Segmentation s = dome_breast();
-  const double before = find_chest_wall(s.labels, s.region).height(0, 0);
+  const double before = find_muscle_front(s.labels, s.region).height(0, 0);
   for (int k = 28; k < 32; ++k)
     for (int i = 18; i < 22; ++i) s.labels(i, 20, k) = label::muscle;
-  EXPECT_EQ(find_chest_wall(s.labels, s.region).height(0, 0), before);
+  EXPECT_EQ(find_muscle_front(s.labels, s.region).height(0, 0), before);
 }
 
 }  // namespace
