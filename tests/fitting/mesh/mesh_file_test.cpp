@@ -61,6 +61,22 @@ MeshFile full_example() {
   return file;
 }
 
+TEST_F(MeshFileTest, AnArrayThatIsThereTwiceIsRefused) {
+  write_mesh_file(path("a.vtu"), full_example());
+  std::stringstream text;
+  text << std::ifstream(path("a.vtu")).rdbuf();
+  const std::string whole = text.str();
+  for (const std::string name : {"face_labels", "metadata:view_angle_deg", "distance_mm"}) {
+    const std::size_t begin = whole.rfind("<DataArray", whole.find("Name=\"" + name + "\""));
+    const std::size_t end = whole.find("</DataArray>", begin) + std::string("</DataArray>").size();
+    ASSERT_LT(begin, end);
+    std::ofstream(path("b.vtu")) << whole.substr(0, end) << "\n"
+                                 << whole.substr(begin, end - begin) << whole.substr(end);
+    const std::string error = error_of_reading(path("b.vtu"));
+    EXPECT_NE(error.find("b.vtu: array " + name + " is there twice"), std::string::npos) << error;
+  }
+}
+
 TEST_F(MeshFileTest, EverythingComesBackBitForBit) {
   const MeshFile file = full_example();
   write_mesh_file(path("a.vtu"), file);
