@@ -48,9 +48,10 @@ TEST(PredictionsText, KeepsANameWithACommaTogether) {
   const auto path = scratch("predictions.csv");
   write_lesion_table(path, {mri, view});
   const std::string text = predictions_text(read_lesion_table(path));
-  EXPECT_NE(text.find("a, \"b\" CC   depth 12.3  lateral -5.0  height 20.0  on the detector (13.0, "
-                      "-5.2)"),
-            std::string::npos)
+  EXPECT_NE(
+      text.find("a, \"b\"   CC   depth 12.3  lateral -5.0  height 20.0  on the detector (13.0, "
+                "-5.2)"),
+      std::string::npos)
       << text;
   EXPECT_EQ(predictions_text({mri}), "");
 }
