@@ -16,27 +16,13 @@ constexpr double kMostKept = 1e8;   // doubles, 0.8 GB: up to some 40,000 unknow
 
 using ConstMap = Eigen::Map<const Eigen::MatrixXd>;
 
-/// Adds a child's update into its parent's panel and update; both lists ascend, so lower stays
-/// lower.
-void extend_add(const Eigen::VectorXd& update, const std::vector<int>& to_parent, int pivots,
-                int parent_size, double* panel, double* parent_update) {
+/// Adds column j of a child's update (a lower triangle of `n` rows) to a column of its parent that
+/// begins at its row 0; both ascend, so lower stays lower.
+void add_column(const Eigen::VectorXd& update, const std::vector<int>& to_parent, int j,
+                double* target) {
   const int n = static_cast<int>(to_parent.size());
-  const int rest = parent_size - pivots;
-  for (int j = 0; j < n; ++j) {
-    const int column = to_parent[j];
-    double* target =
-        column < pivots
-            ? panel + static_cast<std::ptrdiff_t>(column) * parent_size
-            : parent_update + static_cast<std::ptrdiff_t>(column - pivots) * rest - pivots;
-    const double* source = update.data() + static_cast<std::ptrdiff_t>(j) * n;
-    for (int i = j; i < n; ++i) target[to_parent[i]] += source[i];
-  }
-}
-
-/// Zeroes columns of a lower trapezium.
-void clear_lower(double* columns, int rows, int count) {
-  for (int j = 0; j < count; ++j)
-    std::fill_n(columns + static_cast<std::ptrdiff_t>(j) * rows + j, rows - j, 0.0);
+  const double* source = update.data() + static_cast<std::ptrdiff_t>(j) * n;
+  for (int i = j; i < n; ++i) target[to_parent[i]] += source[i];
 }
 
 }  // namespace
@@ -73,37 +59,59 @@ void Cholesky::factor_subtree(int index, const std::vector<double>& values) {
     if (subtree_flops_[child] <= kTaskFlops) factor_subtree(child, values);
   tasks.wait();
   if (!definite_) return;
-  assemble(index, values);
-  eliminate(index);
-}
-
-void Cholesky::assemble(int index, const std::vector<double>& values) {
-  const Front& front = tree_.fronts[index];
-  const Eigen::Index size = front.size(), rest = size - front.num_pivots;
-  panels_[index].resize(size * front.num_pivots);
-  updates_[index].resize(rest * rest);
-  clear_lower(panels_[index].data(), size, front.num_pivots);
-  clear_lower(updates_[index].data(), rest, rest);
-  for (std::size_t k = 0; k < front.sources.size(); ++k)
-    panels_[index][front.targets[k]] += values[front.sources[k]];
-  for (int child : front.children) {
-    extend_add(updates_[child], tree_.fronts[child].to_parent, front.num_pivots, front.size(),
-               panels_[index].data(), updates_[index].data());
-    if (!keep_updates_) updates_[child].resize(0);
-  }
-}
-
-void Cholesky::eliminate(int index) {
-  const Front& front = tree_.fronts[index];
-  double* panel = panels_[index].data();
-  if (!factor_panel(panel, front.size(), front.num_pivots)) {
+  std::vector<int> next(front.children.size(), 0);  // column of each child that comes next
+  fill_panel(index, values, next);
+  if (!eliminate(index)) {
     definite_ = false;
     return;
   }
-  const int rest = front.size() - front.num_pivots;
+  add_updates(index, next);
+}
+
+/// Each column is cleared just before it is added to, while it is in the cache.
+void Cholesky::fill_panel(int index, const std::vector<double>& values, std::vector<int>& next) {
+  const Front& front = tree_.fronts[index];
+  const Eigen::Index size = front.size();
+  panels_[index].resize(size * front.num_pivots);
+  for (int p = 0; p < front.num_pivots; ++p) {
+    double* column = panels_[index].data() + p * size;
+    std::fill(column + p, column + size, 0.0);
+    for (int k = front.starts[p]; k < front.starts[p + 1]; ++k)
+      column[front.rows[k]] += values[front.sources[k]];
+    for (std::size_t c = 0; c < next.size(); ++c) {
+      const auto& to_parent = tree_.fronts[front.children[c]].to_parent;
+      if (next[c] == static_cast<int>(to_parent.size()) || to_parent[next[c]] != p) continue;
+      add_column(updates_[front.children[c]], to_parent, next[c]++, column);
+    }
+  }
+}
+
+/// The pivots' columns, and what they leave for the parent: written over the last factorisation's.
+bool Cholesky::eliminate(int index) {
+  const Front& front = tree_.fronts[index];
+  double* panel = panels_[index].data();
+  if (!factor_panel(panel, front.size(), front.num_pivots)) return false;
+  const Eigen::Index rest = front.size() - front.num_pivots;
+  updates_[index].resize(rest * rest);
   if (rest > 0)
-    subtract_outer_product(panel + front.num_pivots, front.size(), rest, front.num_pivots,
-                           updates_[index].data());
+    negative_outer_product(panel + front.num_pivots, front.size(), static_cast<int>(rest),
+                           front.num_pivots, updates_[index].data());
+  return true;
+}
+
+/// The children's columns from `next` on, which no pivot of this front has.
+void Cholesky::add_updates(int index, const std::vector<int>& next) {
+  const Front& front = tree_.fronts[index];
+  const std::ptrdiff_t rest = front.size() - front.num_pivots;
+  for (std::size_t c = 0; c < next.size(); ++c) {
+    const int child = front.children[c];
+    const auto& to_parent = tree_.fronts[child].to_parent;
+    for (int j = next[c]; j < static_cast<int>(to_parent.size()); ++j)
+      add_column(
+          updates_[child], to_parent, j,
+          updates_[index].data() + (to_parent[j] - front.num_pivots) * rest - front.num_pivots);
+    if (!keep_updates_) updates_[child].resize(0);
+  }
 }
 
 Eigen::VectorXd Cholesky::solve(const Eigen::VectorXd& b) const {

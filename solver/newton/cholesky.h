@@ -28,8 +28,9 @@ class Cholesky {
 
  private:
   void factor_subtree(int front, const std::vector<double>& values);
-  void assemble(int front, const std::vector<double>& values);
-  void eliminate(int front);
+  void fill_panel(int front, const std::vector<double>& values, std::vector<int>& next);
+  bool eliminate(int front);
+  void add_updates(int front, const std::vector<int>& next);
 
   FrontTree tree_;
   std::vector<double> subtree_flops_;

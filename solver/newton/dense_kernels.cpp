@@ -43,10 +43,11 @@ void divide_rows(const double* L, int stride, int pivots, double* A2, int rows) 
   });
 }
 
-/// C −= A Aᵀ for C of columns [0, columns) and all rows below the diagonal, in tiles; A has `rows`.
+/// C = kept C − A Aᵀ for C of columns [0, columns) and all rows below the diagonal, in tiles; A has
+/// `rows`.
 void subtract_tiles(const double* A, int stride, int rows, int columns, int depth, double* C,
-                    int c_stride) {
-  const double one = 1, minus_one = -1;
+                    int c_stride, double kept) {
+  const double minus_one = -1;
   std::vector<std::pair<int, int>> work;
   for (int j = 0; j < tiles(columns); ++j)
     for (int i = j; i < tiles(rows); ++i) work.push_back({i, j});
@@ -57,14 +58,14 @@ void subtract_tiles(const double* A, int stride, int rows, int columns, int dept
     const double *Ai = A + i * kTile, *Aj = A + j * kTile;
     double* Cij = C + i * kTile + static_cast<std::ptrdiff_t>(j) * kTile * c_stride;
     if (i != j) {
-      dgemm_("N", "T", &height, &width, &depth, &minus_one, Ai, &stride, Aj, &stride, &one, Cij,
+      dgemm_("N", "T", &height, &width, &depth, &minus_one, Ai, &stride, Aj, &stride, &kept, Cij,
              &c_stride);
       return;
     }
-    dsyrk_("L", "N", &width, &depth, &minus_one, Aj, &stride, &one, Cij, &c_stride);
+    dsyrk_("L", "N", &width, &depth, &minus_one, Aj, &stride, &kept, Cij, &c_stride);
     const int below = height - width;
     if (below > 0)
-      dgemm_("N", "T", &below, &width, &depth, &minus_one, Ai + width, &stride, Aj, &stride, &one,
+      dgemm_("N", "T", &below, &width, &depth, &minus_one, Ai + width, &stride, Aj, &stride, &kept,
              Cij + width, &c_stride);
   });
 }
@@ -84,13 +85,13 @@ bool factor_panel(double* panel, int rows, int pivots) {
     const int columns = pivots - first - width;
     if (columns > 0)
       subtract_tiles(block + width, rows, below, columns, width,
-                     block + width + static_cast<std::ptrdiff_t>(width) * rows, rows);
+                     block + width + static_cast<std::ptrdiff_t>(width) * rows, rows, 1);
   }
   return true;
 }
 
-void subtract_outer_product(const double* L2, int stride, int size, int pivots, double* update) {
-  subtract_tiles(L2, stride, size, size, pivots, update, size);
+void negative_outer_product(const double* L2, int stride, int size, int pivots, double* update) {
+  subtract_tiles(L2, stride, size, size, pivots, update, size, 0);
 }
 
 void solve_lower(const double* panel, int rows, int pivots, double* x) {

@@ -143,22 +143,24 @@ void link_front(const SparsePattern& pattern, const std::vector<std::vector<int>
     Front& c = tree.fronts[child];
     for (int k = c.num_pivots; k < c.size(); ++k) c.to_parent.push_back(place[c.equations[k]]);
   }
-  const auto add = [&](int source, int row, int column) {
+  const auto add = [&](int source, int row) {
     front.sources.push_back(source);
-    front.targets.push_back(place[row] + front.size() * place[column]);
+    front.rows.push_back(place[row]);
   };
   for (int p = 0; p < front.num_pivots; ++p) {
     const int pivot = front.equations[p];
+    front.starts.push_back(static_cast<int>(front.sources.size()));
     for (int k = pattern.starts[pivot]; k < pattern.starts[pivot + 1]; ++k)
-      if (position[pattern.rows[k]] >= position[pivot]) add(k, pattern.rows[k], pivot);
+      if (position[pattern.rows[k]] >= position[pivot]) add(k, pattern.rows[k]);
     for (int k : transposed[pivot]) {  // entries of the pivot's row
       const int column =
           static_cast<int>(std::upper_bound(pattern.starts.begin(), pattern.starts.end(), k) -
                            pattern.starts.begin()) -
           1;
-      if (position[column] > position[pivot]) add(k, column, pivot);
+      if (position[column] > position[pivot]) add(k, column);
     }
   }
+  front.starts.push_back(static_cast<int>(front.sources.size()));
 }
 
 /// Positions of the entries left of the diagonal, row by row; only rows that moved need them.

@@ -14,8 +14,9 @@ struct Front {
   std::vector<int> children;   ///< fronts whose update this one adds, in this order
   std::vector<int> to_parent;  ///< place in the parent's equations of each non-pivot
 
-  /// Entries of the matrix that start here: position in the values, offset in the panel.
-  std::vector<int> sources, targets;
+  /// Entries of the matrix that start here, pivot by pivot: position in the values, row in the
+  /// panel; those of pivot p are [starts[p], starts[p + 1]).
+  std::vector<int> starts, sources, rows;
 
   int size() const { return static_cast<int>(equations.size()); }
 };
