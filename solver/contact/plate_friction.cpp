@@ -10,6 +10,17 @@ namespace {
 
 using Eigen::Vector3d;
 
+/// h with its slope over s and its curvature (plate_friction.h), s >= 0.
+struct SlipEnergy {
+  double energy, slope_over_slip, curvature;
+};
+
+SlipEnergy slip_energy(double s, double limit) {
+  if (s >= limit) return {s - limit / 3, 1 / s, 0};
+  const double share = s / limit;
+  return {s * share * (1 - share / 3), (2 - share) / limit, 2 * (1 - share) / limit};
+}
+
 template <class Visit>
 void for_points(const Model& model, const State& state, int points1d,
                 const std::vector<std::pair<int, int>>& faces, Visit visit) {
@@ -82,7 +93,7 @@ Vector3d PlateFriction::traction(const Vector3d& x, const SurfacePoint& point, i
   const Contact& contact = at(point, plate);
   if (contact.pressure == 0) return Vector3d::Zero();
   const Vector3d s = slip(x, contact, contact_->plates[plate]);
-  return -coefficient_ * contact.pressure / std::max(s.norm(), slip_) * s;
+  return -coefficient_ * contact.pressure * slip_energy(s.norm(), slip_).slope_over_slip * s;
 }
 
 bool PlateFriction::respond(const Eigen::Matrix<double, 9, 1>& y, const SurfacePoint& point,
@@ -99,15 +110,16 @@ bool PlateFriction::respond(const Eigen::Matrix<double, 9, 1>& y, const SurfaceP
     touches = true;
     const double limit = coefficient_ * contact.pressure;
     const Vector3d s = slip(y.head<3>(), contact, contact_->plates[p]);
-    const double length = s.norm(), stiffness = limit / std::max(length, slip_);
-    const bool slides = length > slip_;
-    response.energy += slides ? limit * (length - slip_ / 2) : stiffness * length * length / 2;
-    response.gradient.head<3>() += stiffness * s;
+    const double length = s.norm();
+    const SlipEnergy h = slip_energy(length, slip_);
+    response.energy += limit * h.energy;
+    response.gradient.head<3>() += limit * h.slope_over_slip * s;
     if (order < 2) continue;
     auto hessian = response.hessian.topLeftCorner<3, 3>();
-    hessian +=
-        stiffness * (Eigen::Matrix3d::Identity() - contact.normal * contact.normal.transpose());
-    if (slides) hessian -= stiffness / (length * length) * s * s.transpose();
+    hessian += limit * h.slope_over_slip *
+               (Eigen::Matrix3d::Identity() - contact.normal * contact.normal.transpose());
+    if (length > 0)
+      hessian += limit * (h.curvature - h.slope_over_slip) / (length * length) * s * s.transpose();
   }
   return touches;
 }

@@ -14,8 +14,10 @@ namespace mammotwin {
 /// reference area:
 ///
 ///     energy = Σ_plates μ t h(|s|),   s = (I − n nᵀ)(x − anchor)
-///     h(s) = s²/(2δ) for s <= δ,  s − δ/2 beyond
+///     h(s) = s²/δ − s³/(3δ²) for s <= δ,  s − δ/3 beyond
 ///
+/// h is twice differentiable, and its slope, the share of μ t that acts, is 1 from δ on (Li et al.,
+/// Incremental Potential Contact, ACM Trans. Graph. 39 (2020), section 5.1).
 /// t, n: contact pressure and plate normal of the last solution (track), so that the potential is
 /// convex and its tangent symmetric and semidefinite. Solving and tracking alternate until t and n
 /// are the state's own (resettle); each round leaves about μ of the error.

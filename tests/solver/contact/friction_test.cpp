@@ -43,11 +43,11 @@ struct PressedBlock {
   }
 };
 
-// 1 kPa on 100 mm²: at most μ t A = 30 mN, in proportion below the slip δ.
+// 1 kPa on 100 mm²: at most μ t A = 30 mN, times 2 s/δ − (s/δ)² below the slip δ.
 TEST(PlateFriction, GrowsWithSlipUpToTheCoulombLimit) {
   PressedBlock block;
   block.slide(0.04, 0);
-  EXPECT_NEAR((block.force() - Eigen::Vector3d(-12, 0, 0)).norm(), 0, 1e-9);
+  EXPECT_NEAR((block.force() - Eigen::Vector3d(-19.2, 0, 0)).norm(), 0, 1e-9);
   block.slide(0.26, 0.4);
   EXPECT_NEAR((block.force() - Eigen::Vector3d(-18, -24, 0)).norm(), 0, 1e-9);
 }
@@ -58,13 +58,13 @@ TEST(PlateFriction, KeepsItsForceOverACommitAndTurnsBackFromThere) {
   block.friction->commit(block.model, block.state, block.faces);
   EXPECT_NEAR(block.force().x(), -30, 1e-9);
   block.slide(-0.15, 0);  // 0.1 mm unloads the elastic slip, 0.05 mm more goes the other way
-  EXPECT_NEAR(block.force().x(), 15, 1e-9);
+  EXPECT_NEAR(block.force().x(), 22.5, 1e-9);
 }
 
 TEST(PlateFriction, APlateThatMovesSidewaysTakesTheBlockAlong) {
   PressedBlock block;
   block.contact->plates[0].point += Eigen::Vector3d(0.05, 0, 0);
-  EXPECT_NEAR(block.force().x(), 15, 1e-9);
+  EXPECT_NEAR(block.force().x(), 22.5, 1e-9);
 }
 
 TEST(PlateFriction, HistoryBringsAStepBack) {
@@ -100,6 +100,22 @@ TEST(PlateFriction, GradientAndHessianAreDerivativesSymmetricAndSemidefinite) {
     const Eigen::Matrix3d H = response.hessian.topLeftCorner<3, 3>();
     EXPECT_GE(H.selfadjointView<Eigen::Lower>().eigenvalues().minCoeff(), -1e-12);
   }
+}
+
+// Newton's model of it is as good on one side of the limit as on the other.
+TEST(PlateFriction, StiffnessDoesNotJumpWhereSlidingBegins) {
+  PressedBlock block;
+  const SurfacePoint point = block.model.faces(0)[0].point(7);
+  const auto stiffness = [&](double slip) {
+    Eigen::Matrix<double, 9, 1> y = Eigen::Matrix<double, 9, 1>::Zero();
+    y.head<3>() = point.X + Eigen::Vector3d(slip, 0, 0);
+    SurfaceResponse response;
+    EXPECT_TRUE(block.friction->respond(y, point, 2, response));
+    return response.hessian.topLeftCorner<3, 3>().eval();
+  };
+  // Curvature 2 (1 − s/δ) μ t/δ: 1e-6 of the whole at 1e-6 of δ.
+  EXPECT_NEAR((stiffness(kSlip * (1 - 1e-6)) - stiffness(kSlip * (1 + 1e-6))).norm(), 0,
+              1e-5 * kCoefficient / kSlip);
 }
 
 TEST(PlateFriction, RefusesACoefficientOrASlipOutOfRange) {
