@@ -23,28 +23,20 @@ ElementSystem& workspace() {
   return system;
 }
 
-Eigen::MatrixXd inverse_factor(const Eigen::MatrixXd& M) {
-  const int n = static_cast<int>(M.rows());
-  return M.llt().matrixL().solve(Eigen::MatrixXd::Identity(n, n));
-}
-
-Balance part_of(const ElementSystem& system, double volume) {
-  Balance part;
-  part.energy = system.energy;
-  part.min_J = system.min_J;
-  part.max_J = system.max_J;
-  part.deformed_volume = system.deformed_volume;
-  part.flow = system.squared_flow;
-  part.constraint = system.pressure_residual.cwiseAbs().maxCoeff() / volume;
-  return part;
+Eigen::MatrixXd inverse_of_lower(const Eigen::MatrixXd& L) {
+  const auto n = L.rows();
+  return L.triangularView<Eigen::Lower>().solve(Eigen::MatrixXd::Identity(n, n));
 }
 
 }  // namespace
 
 Assembler::Assembler(const Model& model, const DofMap& dofs)
     : model_(model), pattern_(make_sparse_pattern(model.reference(), dofs)) {
-  for (int e = 0; e < model.num_elements(); ++e)
-    pressure_factors_.push_back(inverse_factor(model.element(e).pressure_compliance()));
+  for (int e = 0; e < model.num_elements(); ++e) {
+    const Eigen::MatrixXd L = model.element(e).pressure_compliance().llt().matrixL();
+    pressure_scales_.push_back(L.transpose());
+    pressure_factors_.push_back(inverse_of_lower(L));
+  }
   eliminations_.resize(model.num_elements());
   for (int e = 0; e < model.num_elements(); ++e)
     smallest_flow_ += std::pow(kSmallStrain * model.element(e).material(0).shear_modulus() *
@@ -54,20 +46,50 @@ Assembler::Assembler(const Model& model, const DofMap& dofs)
   values_.resize(pattern_.rows.size());
 }
 
+/// What an element adds to the balance. With r = ∫ψ (J − 1 − p/κ): s = L⁻¹ r + Lᵀp, and the
+/// pressures' terms of the energy are p·r + |Lᵀp|²/2.
+Balance Assembler::part_of(int e, const State& state, const ElementSystem& system) const {
+  Balance part;
+  part.energy = system.energy;
+  part.min_J = system.min_J;
+  part.max_J = system.max_J;
+  part.deformed_volume = system.deformed_volume;
+  part.flow = system.squared_flow;
+  part.constraint = system.pressure_residual.cwiseAbs().maxCoeff() / model_.element(e).volume();
+  if (!std::isfinite(system.energy)) return part;
+  const int n = model_.element(e).num_pressures();
+  const auto p = pressures_of(state, e);
+  const auto r = system.pressure_residual.head(n);
+  const Eigen::VectorXd scaled = pressure_scales_[e] * p;
+  part.swelling = Eigen::VectorXd::Zero(8);
+  part.swelling.topRows(n) = pressure_factors_[e] * r + scaled;
+  part.stored = system.energy - p.dot(r) - scaled.squaredNorm() / 2;
+  return part;
+}
+
 Balance Assembler::summarise(const std::vector<Balance>& parts) const {
   Balance sum;
   sum.min_J = std::numeric_limits<double>::infinity();
   sum.max_J = -sum.min_J;
-  for (const Balance& part : parts) {
+  sum.swelling = Eigen::MatrixXd::Zero(8, parts.size());
+  for (std::size_t e = 0; e < parts.size(); ++e) {
+    const Balance& part = parts[e];
     sum.energy += part.energy;
+    sum.stored += part.stored;
+    sum.magnitude += std::abs(part.stored) + part.swelling.squaredNorm() / 2;
     sum.deformed_volume += part.deformed_volume;
     sum.flow += part.flow;
     sum.min_J = std::min(sum.min_J, part.min_J);
     sum.max_J = std::max(sum.max_J, part.max_J);
     sum.constraint = std::max(sum.constraint, part.constraint);
+    if (part.swelling.size() > 0) sum.swelling.col(e) = part.swelling;
   }
   sum.flow = std::hypot(std::sqrt(sum.flow), smallest_flow_);
   return sum;
+}
+
+Eigen::Map<const Eigen::VectorXd> Assembler::pressures_of(const State& state, int e) const {
+  return {state.pressure.data() + 8 * e, model_.element(e).num_pressures()};
 }
 
 Balance Assembler::balance(const State& state) const {
@@ -77,24 +99,18 @@ Balance Assembler::balance(const State& state) const {
   tbb::parallel_for(0, count, [&](int e) {
     ElementSystem& system = workspace();
     model_.evaluate(e, state, false, system);
-    parts[e] = part_of(system, model_.element(e).volume());
+    parts[e] = part_of(e, state, system);
     residuals[e] = system.residual;
   });
   Balance sum = summarise(parts);
   sum.residual = Eigen::VectorXd::Zero(num_equations());
   if (!std::isfinite(sum.energy)) return sum;
-  for (int e = 0; e < count; ++e)
-    for (int k = 0; k < kUnknowns; ++k)
-      if (const int equation = pattern_.equations[e][k]; equation >= 0)
-        sum.residual[equation] += pattern_.factors[e][k] * residuals[e][k];
+  for (int e = 0; e < count; ++e) add_residual(e, residuals[e], 1, sum.residual);
   return sum;
 }
 
-Balance Assembler::linearise(const State& state, double shift,
-                             const std::vector<HermiteMesh::Node>& pending) {
+Balance Assembler::linearise(const State& state, const std::vector<HermiteMesh::Node>& pending) {
   const int count = model_.num_elements();
-  if (shift > 0 && laplacians_.empty())
-    for (int e = 0; e < count; ++e) laplacians_.push_back(model_.element(e).laplacian());
   std::fill(values_.begin(), values_.end(), 0.0);
   right_hand_side_ = Eigen::VectorXd::Zero(num_equations());
   std::vector<Balance> parts(count);
@@ -104,21 +120,29 @@ Balance Assembler::linearise(const State& state, double shift,
       const int e = colour[k];
       ElementSystem& system = workspace();
       model_.evaluate(e, state, true, system);
-      parts[e] = part_of(system, model_.element(e).volume());
+      parts[e] = part_of(e, state, system);
       if (!std::isfinite(system.energy)) return;
-      for (int r = 0; r < kUnknowns; ++r)
-        if (const int equation = pattern_.equations[e][r]; equation >= 0)
-          residual[equation] += pattern_.factors[e][r] * system.residual[r];
-      if (shift > 0)
-        for (int i = 0; i < 3; ++i)
-          system.tangent.block<kFunctions, kFunctions>(kFunctions * i, kFunctions * i) +=
-              shift * laplacians_[e];
+      add_residual(e, system.residual, 1, residual);
       condense(e, pending.empty() ? Residual::Zero() : gather(e, pending), system);
-      scatter(e, system);
+      add_residual(e, system.residual, -1, right_hand_side_);
+      scatter(e, system.tangent, values_);
     });
   Balance sum = summarise(parts);
   sum.residual = std::move(residual);
   return sum;
+}
+
+const std::vector<double>& Assembler::metric() {
+  if (!metric_.empty()) return metric_;
+  metric_.assign(values_.size(), 0.0);
+  Eigen::MatrixXd tangent = Eigen::MatrixXd::Zero(kUnknowns, kUnknowns);
+  for (int e = 0; e < model_.num_elements(); ++e) {
+    const auto laplacian = model_.element(e).laplacian();
+    for (int i = 0; i < 3; ++i)
+      tangent.block<kFunctions, kFunctions>(kFunctions * i, kFunctions * i) = laplacian;
+    scatter(e, tangent, metric_);
+  }
+  return metric_;
 }
 
 void Assembler::condense(int e, const Residual& pending, ElementSystem& system) {
@@ -133,15 +157,20 @@ void Assembler::condense(int e, const Residual& pending, ElementSystem& system) 
     system.residual += system.tangent.selfadjointView<Eigen::Lower>() * pending;
 }
 
-void Assembler::scatter(int e, const ElementSystem& system) {
-  const auto& equations = pattern_.equations[e];
+void Assembler::add_residual(int e, const Residual& residual, double sign,
+                             Eigen::VectorXd& sum) const {
+  for (int k = 0; k < kUnknowns; ++k)
+    if (const int equation = pattern_.equations[e][k]; equation >= 0)
+      sum[equation] += sign * pattern_.factors[e][k] * residual[k];
+}
+
+void Assembler::scatter(int e, const Eigen::MatrixXd& tangent, std::vector<double>& values) const {
   const auto& factors = pattern_.factors[e];
   const int* position = pattern_.positions[e].data();
   for (int c = 0; c < kUnknowns; ++c) {
-    if (equations[c] >= 0) right_hand_side_[equations[c]] -= factors[c] * system.residual[c];
-    const double* column = system.tangent.data() + kUnknowns * c;
+    const double* column = tangent.data() + kUnknowns * c;
     for (int r = c; r < kUnknowns; ++r, ++position)
-      if (*position >= 0) values_[*position] += factors[r] * factors[c] * column[r];
+      if (*position >= 0) values[*position] += factors[r] * factors[c] * column[r];
   }
 }
 
@@ -167,21 +196,33 @@ std::vector<HermiteMesh::Node> Assembler::nodal_step(
   return step;
 }
 
-std::vector<double> Assembler::pressures_after(const State& state,
-                                               const std::vector<HermiteMesh::Node>& step,
-                                               double& work) const {
-  std::vector<double> pressure = state.pressure;
-  work = 0;
-  for (int e = 0; e < model_.num_elements(); ++e) {
+PressureStep Assembler::pressures_after(const State& state,
+                                        const std::vector<HermiteMesh::Node>& step) const {
+  const int count = model_.num_elements();
+  PressureStep result{state.pressure, Eigen::MatrixXd::Zero(8, count),
+                      Eigen::MatrixXd::Zero(8, count), Eigen::MatrixXd::Zero(8, count)};
+  tbb::parallel_for(0, count, [&](int e) {
     const int n = model_.element(e).num_pressures();
     const auto& kept = eliminations_[e];
+    const Eigen::VectorXd now = pressure_scales_[e] * pressures_of(state, e);
     const Eigen::VectorXd rate = kept.coupling.leftCols(n).transpose() * gather(e, step);
-    const Eigen::VectorXd scaled = rate + pressure_factors_[e] * kept.residual.head(n);
-    const Eigen::VectorXd increment = pressure_factors_[e].transpose() * scaled;
-    work += rate.dot(scaled);
-    for (int m = 0; m < n; ++m) pressure[8 * e + m] += increment[m];
+    result.now.col(e).head(n) = now;
+    result.rate.col(e).head(n) = rate;
+    const Eigen::VectorXd change = rate + pressure_factors_[e] * kept.residual.head(n);
+    result.after.col(e).head(n) = now + change;
+    Eigen::Map<Eigen::VectorXd>(result.pressure.data() + 8 * e, n) +=
+        pressure_factors_[e].transpose() * change;
+  });
+  return result;
+}
+
+Eigen::VectorXd Assembler::against_swelling(const Eigen::MatrixXd& excess) const {
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(num_equations());
+  for (int e = 0; e < model_.num_elements(); ++e) {
+    const int n = model_.element(e).num_pressures();
+    add_residual(e, eliminations_[e].coupling.leftCols(n) * excess.col(e).head(n), -1, sum);
   }
-  return pressure;
+  return sum;
 }
 
 std::vector<HermiteMesh::Node> Assembler::nodal_residual(const State& state) const {

@@ -4,21 +4,15 @@
 #include <cmath>
 #include <utility>
 
-#include "solver/newton/line_search.h"
-
 namespace mammotwin {
 
 namespace {
 
 constexpr double kNearBalance =
     0.02;  // of the flow: from here on the step is trusted by its length
-
-State moved(const State& from, const std::vector<HermiteMesh::Node>& step,
-            const std::vector<double>& pressure, double fraction) {
-  State to{from.x, pressure};
-  for (std::size_t i = 0; i < to.x.size(); ++i) to.x[i] += fraction * step[i];
-  return to;
-}
+constexpr double kEquilibrium = 1e-4;  // of the flow: nearer, unstable states are left downhill
+constexpr int kMostFalls = 5;
+constexpr double kFirstDamping = 0.4;  // shift after a step that no part of lowered the merit
 
 bool balanced(const Balance& balance, const NewtonOptions& options) {
   return balance.residual.norm() <= options.tolerance * balance.flow &&
@@ -49,48 +43,101 @@ NewtonOptions loosened(NewtonOptions options, double tolerance) {
 }
 
 Newton::Newton(const Model& model, const DofMap& dofs)
-    : assembler_(model, dofs), cholesky_(assembler_.pattern(), dofs.node_of_equation()) {}
+    : assembler_(model, dofs),
+      cholesky_(assembler_.pattern(), dofs.node_of_equation()),
+      merit_(model.num_elements()) {}
 
-bool Newton::factor(const State& state, const std::vector<HermiteMesh::Node>& pending,
-                    Balance& balance, NewtonReport& report) {
-  balance = assembler_.linearise(state, shift_, pending);
-  if (!std::isfinite(balance.energy)) return false;
-  if (cholesky_.factor(assembler_.matrix())) return true;
-  ++report.indefinite;
-  return false;
+bool Newton::factor(double shift, NewtonReport& report) {
+  ++report.factorisations;
+  bool definite;
+  if (shift == 0) {
+    definite = cholesky_.factor(assembler_.matrix());
+  } else {
+    std::vector<double> values = assembler_.matrix();
+    const auto& metric = assembler_.metric();
+    for (std::size_t k = 0; k < values.size(); ++k) values[k] += shift * metric[k];
+    definite = cholesky_.factor(values);
+  }
+  if (!definite) ++report.indefinite;
+  return definite;
 }
 
-bool Newton::factor_exact(const State& state, const NewtonOptions& options,
-                          const std::vector<HermiteMesh::Node>& pending, Balance& balance,
-                          NewtonReport& report) {
-  const double shift = std::exchange(shift_, 0);
+void Newton::linearise(const State& state, const NewtonOptions& options,
+                       const std::vector<HermiteMesh::Node>& pending, bool stabilised) {
+  if (options.stabilise) options.stabilise(stabilised);
+  assembler_.linearise(state, pending);
   if (options.stabilise) options.stabilise(false);
-  if (factor(state, pending, balance, report)) return true;
-  if (options.stabilise) options.stabilise(true);
-  shift_ = shift;
-  return false;
 }
 
 bool Newton::factor_shifted(const State& state, const NewtonOptions& options,
-                            const std::vector<HermiteMesh::Node>& pending, Balance& balance,
-                            NewtonReport& report) {
-  constexpr double first_shift = 0.05, growth = 4, decay = 0.25;
-  constexpr double near_shift = 1e-3;
+                            const std::vector<HermiteMesh::Node>& pending, NewtonReport& report) {
+  constexpr double first_shift = 0.05, near_shift = 1e-3, growth = 4, decay = 0.25;
   const bool near = report.residual < kNearBalance;
   const bool hopeless = !near && (cut_while_indefinite_ || shift_ * decay >= first_shift / 2);
+  const bool tried = damping_ == 0 && !hopeless;
+  if (tried || near || !options.stabilise) linearise(state, options, pending, false);
   indefinite_ = true;
-  if (damping_ == 0 && !hopeless && factor_exact(state, options, pending, balance, report)) {
+  if (tried && factor(0, report)) {
+    shift_ = 0;
     indefinite_ = false;
     return true;
   }
-  if (options.stabilise) options.stabilise(!near);
+  if (!near && options.stabilise) linearise(state, options, pending, true);
   const double least = near ? near_shift : first_shift;
   shift_ = std::max(damping_, shift_ * decay < least / 2 ? 0 : shift_ * decay);
   if (shift_ == 0 && (near || !options.stabilise)) shift_ = least;
-  while (std::isfinite(balance.energy) && shift_ <= options.max_shift) {
-    if (factor(state, pending, balance, report)) return true;
+  while (shift_ <= options.max_shift) {
+    if (factor(shift_, report)) return true;
     shift_ = shift_ == 0 ? first_shift : shift_ * growth;
   }
+  return false;
+}
+
+bool Newton::is_stable(const State& state) {
+  assembler_.linearise(state, {});
+  return cholesky_.factor(assembler_.matrix());
+}
+
+/// Inverse iteration with the shifted factor, of unit length in the metric.
+Eigen::VectorXd Newton::softest_direction() {
+  constexpr int rounds = 8;
+  Eigen::VectorXd v = assembler_.right_hand_side();
+  const auto apply = [&](const Eigen::VectorXd& x) {
+    return multiply(assembler_.pattern(), assembler_.metric(), x);
+  };
+  if (v.norm() == 0) v.setOnes();
+  v = cholesky_.solve(v);
+  for (int round = 0; round < rounds; ++round) {
+    v = cholesky_.solve(apply(v));
+    v /= std::sqrt(v.dot(apply(v)));
+  }
+  return v;
+}
+
+/// From a balanced state that is no minimum down along its softest direction; false where that
+/// lowers nothing.
+bool Newton::fall(State& state, Balance& balance, const NewtonOptions& options,
+                  NewtonReport& report) {
+  constexpr double first_length = 1, shortest = 1e-3;  // [mm], of the node that moves most
+  linearise(state, options, {}, false);
+  for (shift_ = 1e-3; !factor(shift_, report); shift_ *= 4)
+    if (shift_ > options.max_shift) return false;
+  const auto nodes = assembler_.nodal_step(softest_direction(), {});
+  double most = 0;
+  for (const auto& node : nodes) most = std::max(most, node.col(0).norm());
+  const double start = merit_.value(balance), rounding = CondensedEnergy::rounding(balance);
+  for (double length = first_length; length > shortest; length /= 2)
+    for (double sign : {1.0, -1.0}) {
+      Step step{nodes, {}, 0};
+      for (auto& node : step.nodes) node *= sign * length / most;
+      step.pressures = assembler_.pressures_after(state, step.nodes);
+      const Trial trial = corrected(at(state, step, 1), step, balance, 1);
+      if (!(trial.merit < start - rounding)) continue;
+      if (options.watch) options.watch(start, trial.merit);
+      state = trial.state;
+      balance = trial.balance;
+      return true;
+    }
   return false;
 }
 
@@ -99,82 +146,119 @@ bool Newton::factor_shifted(const State& state, const NewtonOptions& options,
 void Newton::adapt_damping(double fraction) {
   constexpr double poor = 0.1, good = 0.5, first = 1e-3, growth = 4;
   if (fraction < poor)
-    damping_ = std::max(first, damping_ * growth);
+    damping_ = std::max(first, growth * std::max(damping_, shift_));
   else if (fraction > good)
     damping_ = damping_ / growth < first / 2 ? 0 : damping_ / growth;
 }
 
 Newton::Step Newton::solve_step(const State& state, const Balance& balance,
-                                const std::vector<HermiteMesh::Node>& pending) const {
+                                const std::vector<HermiteMesh::Node>& pending) {
   Step step;
-  step.solution = cholesky_.solve(assembler_.right_hand_side());
-  step.nodes = assembler_.nodal_step(step.solution, pending);
-  double work;
-  step.pressure = assembler_.pressures_after(state, step.nodes, work);
-  step.slope = balance.residual.dot(step.solution) + work;
+  const Eigen::VectorXd solution = cholesky_.solve(assembler_.right_hand_side());
+  step.nodes = assembler_.nodal_step(solution, pending);
+  step.pressures = assembler_.pressures_after(state, step.nodes);
+  merit_.admit(step.pressures);
+  if (pending.empty())
+    step.slope = merit_.slope(balance, step.pressures, balance.residual.dot(solution));
   return step;
 }
 
-double Newton::search(State& state, const Step& step, const Balance& before) const {
-  LineSearch line(step.slope);
-  State best;
-  double taken = 0;
-  while (!line.exhausted()) {
-    State trial = moved(state, step.nodes, step.pressure, line.fraction());
-    const Balance balance = assembler_.balance(trial);
-    if (!std::isfinite(balance.energy)) {
-      line.go_back();
-      continue;
+Newton::Trial Newton::at(const State& state, const Step& step, double fraction) const {
+  Trial trial{state, {}, 0};
+  for (std::size_t i = 0; i < state.x.size(); ++i) trial.state.x[i] += fraction * step.nodes[i];
+  for (std::size_t i = 0; i < state.pressure.size(); ++i)
+    trial.state.pressure[i] += fraction * (step.pressures.pressure[i] - state.pressure[i]);
+  trial.balance = assembler_.balance(trial.state);
+  trial.merit = merit_.value(trial.balance);
+  return trial;
+}
+
+/// The trial, moved to where the volume is what the step said it would be.
+Newton::Trial Newton::corrected(const Trial& trial, const Step& step, const Balance& before,
+                                double fraction) const {
+  const Eigen::MatrixXd excess =
+      trial.balance.swelling - before.swelling - fraction * step.pressures.rate;
+  const auto nodes =
+      assembler_.nodal_step(cholesky_.solve(assembler_.against_swelling(excess)), {});
+  Trial better{trial.state, {}, 0};
+  for (std::size_t i = 0; i < nodes.size(); ++i) better.state.x[i] += nodes[i];
+  better.balance = assembler_.balance(better.state);
+  better.merit = merit_.value(better.balance);
+  return better;
+}
+
+double Newton::search(State& state, const Step& step, Balance& balance,
+                      const NewtonOptions& options) {
+  constexpr double sufficient = 1e-4, shortest = 0.01;
+  constexpr double least_cut = 0.1, most_cut = 0.5;
+  const double start = merit_.value(balance), rounding = CondensedEnergy::rounding(balance);
+  const bool down = step.slope < 0;
+  const auto lowers = [&](const Trial& trial, double fraction) {
+    if (!std::isfinite(trial.merit)) return false;
+    if (!down) return true;
+    return trial.merit <= start + sufficient * fraction * step.slope + rounding;
+  };
+  for (double fraction = 1; fraction > shortest;) {
+    Trial trial = at(state, step, fraction);
+    if (!lowers(trial, fraction) && std::isfinite(trial.merit)) {
+      Trial better = corrected(trial, step, balance, fraction);
+      if (better.merit < trial.merit) trial = std::move(better);
     }
-    const double slope = balance.residual.dot(step.solution);
-    if (line.overshoots(slope) && balance.residual.norm() >= before.residual.norm()) {
-      line.go_back(slope);
-      continue;
+    if (lowers(trial, fraction)) {
+      if (options.watch && down) options.watch(start, trial.merit);
+      state = std::move(trial.state);
+      balance = std::move(trial.balance);
+      return fraction;
     }
-    best = std::move(trial);
-    taken = line.fraction();
-    if (line.good_enough(slope)) break;
-    line.go_farther();
+    const double rise = trial.merit - start - step.slope * fraction;  // above the tangent
+    const double least = std::isfinite(rise) ? -step.slope * fraction / (2 * rise) : 0;
+    fraction *= std::clamp(least, least_cut, most_cut);
   }
-  if (taken > 0) state = std::move(best);
-  return taken;
+  return 0;
 }
 
 NewtonReport Newton::solve(State& state, const NewtonOptions& options,
                            std::vector<HermiteMesh::Node> pending) {
   NewtonReport report;
-  Balance balance;
+  Balance balance = assembler_.balance(state);
   const auto stop = [&](const char* reason) {
     return stopped(report, balance, options, pending.empty(), reason);
   };
+  merit_ = CondensedEnergy(static_cast<int>(balance.swelling.cols()));  // no solve hangs on another
   shift_ = damping_ = 0;
   indefinite_ = cut_while_indefinite_ = false;
   if (is_zero(pending)) pending.clear();
-  for (; report.iterations <= options.max_iterations; ++report.iterations) {
-    const bool factored = factor_shifted(state, options, pending, balance, report);
+  int falls = 0;
+  for (;; ++report.iterations) {
     report.residual = balance.flow > 0 ? balance.residual.norm() / balance.flow : 0;
     if (!std::isfinite(balance.energy)) {
       report.reason = "an element is inverted";
       return report;
     }
     if (pending.empty() && balanced(balance, options)) {
-      report.converged = true;
+      const bool minimum = !indefinite_ || options.tolerance > kEquilibrium || is_stable(state);
+      if (!minimum && ++falls <= kMostFalls && fall(state, balance, options, report)) continue;
+      report.converged = minimum;
+      if (!minimum) report.reason = "the equilibrium found is unstable";
       return report;
     }
-    if (!factored) return stop("the tangent stays indefinite under the largest shift");
-    if (report.iterations == options.max_iterations) break;
+    if (report.iterations == options.max_iterations)
+      return stop("no equilibrium within the allowed iterations");
+    if (!factor_shifted(state, options, pending, report))
+      return stop("the tangent stays indefinite under the largest shift");
     const Step step = solve_step(state, balance, pending);
-    const double fraction = search(state, step, balance);
+    const double fraction = search(state, step, balance, options);
     cut_while_indefinite_ = indefinite_ && fraction < 1;
-    if (fraction == 0) return stop("the line search found no valid step");
-    if (report.residual < kNearBalance)
+    if (fraction == 0 && shift_ >= options.max_shift / 4) return stop("no step lowers the energy");
+    if (fraction == 0)
+      damping_ = std::max(kFirstDamping, 8 * std::max(damping_, shift_));
+    else if (report.residual < kNearBalance)
       adapt_damping(fraction);
     else
       damping_ = 0;
     for (auto& node : pending) node *= 1 - fraction;
     if (is_zero(pending)) pending.clear();
   }
-  return stop("no equilibrium within the allowed iterations");
 }
 
 }  // namespace mammotwin

@@ -6,6 +6,7 @@
 
 #include "solver/newton/assembler.h"
 #include "solver/newton/cholesky.h"
+#include "solver/newton/condensed_energy.h"
 
 namespace mammotwin {
 
@@ -20,6 +21,8 @@ struct NewtonOptions {
   /// may be empty. The residual stays exact, so only the speed of convergence changes.
   std::function<void(bool)> stabilise;
   double max_shift = 1000;  ///< Laplacian shifts tried on an indefinite matrix before giving up [-]
+  /// Called after each step with the merit before and after it (condensed_energy.h) [mN mm].
+  std::function<void(double before, double after)> watch;
 };
 
 /// The same, content with a residual and a volume error of `tolerance` where they asked for less.
@@ -27,16 +30,19 @@ NewtonOptions loosened(NewtonOptions options, double tolerance);
 
 struct NewtonReport {
   bool converged = false;
-  int iterations = 0;   ///< linear systems solved
+  int iterations = 0;  ///< linear systems solved
+  int factorisations = 0;
   int indefinite = 0;   ///< matrices met that were not positive definite
   double residual = 1;  ///< relative to flow, at the last matrix [-]
   std::string reason;   ///< why not, in a sentence
   bool usable() const { return converged; }
 };
 
-/// Newton's method on the mixed system with a line search along δx at the new pressures; a matrix
-/// that is not positive definite is stabilised, then shifted by the μ-weighted Laplacian until it
-/// is.
+/// Newton's method on the mixed system: pressures are unknowns of the linearisation. The step in
+/// the shape is then one down the condensed energy, which every accepted step lowers (Armijo), at
+/// full length or, where the volume errs, bent back to the volume that it was to have (second-order
+/// correction, Nocedal and Wright, section 18.3), else cut. A matrix that is not positive definite
+/// is stabilised, then shifted by the μ-weighted Laplacian until it is.
 class Newton {
  public:
   Newton(const Model& model, const DofMap& dofs);
@@ -46,6 +52,9 @@ class Newton {
   NewtonReport solve(State& state, const NewtonOptions& options,
                      std::vector<HermiteMesh::Node> pending = {});
 
+  /// Is the condensed tangent positive definite: is a balanced state a minimum of the energy?
+  bool is_stable(const State& state);
+
   Balance balance(const State& state) const { return assembler_.balance(state); }
   const Assembler& assembler() const { return assembler_; }
   const Cholesky& cholesky() const { return cholesky_; }
@@ -53,28 +62,35 @@ class Newton {
  private:
   struct Step {
     std::vector<HermiteMesh::Node> nodes;
-    std::vector<double> pressure;
-    double slope;  ///< δx · residual at the new pressures
-    Eigen::VectorXd solution;
+    PressureStep pressures;
+    double slope = 0;  ///< of the merit along the step; 0 while dofs are still moved
   };
-  bool factor(const State& state, const std::vector<HermiteMesh::Node>& pending, Balance& balance,
-              NewtonReport& report);
-  bool factor_exact(const State& state, const NewtonOptions& options,
-                    const std::vector<HermiteMesh::Node>& pending, Balance& balance,
-                    NewtonReport& report);
+  struct Trial {
+    State state;
+    Balance balance;
+    double merit = 0;
+  };
+  bool factor(double shift, NewtonReport& report);
+  void linearise(const State& state, const NewtonOptions& options,
+                 const std::vector<HermiteMesh::Node>& pending, bool stabilised);
   bool factor_shifted(const State& state, const NewtonOptions& options,
-                      const std::vector<HermiteMesh::Node>& pending, Balance& balance,
-                      NewtonReport& report);
+                      const std::vector<HermiteMesh::Node>& pending, NewtonReport& report);
+  bool fall(State& state, Balance& balance, const NewtonOptions& options, NewtonReport& report);
+  Eigen::VectorXd softest_direction();
   Step solve_step(const State& state, const Balance& balance,
-                  const std::vector<HermiteMesh::Node>& pending) const;
+                  const std::vector<HermiteMesh::Node>& pending);
   void adapt_damping(double fraction);
-  double search(State& state, const Step& step, const Balance& before) const;
+  Trial at(const State& state, const Step& step, double fraction) const;
+  Trial corrected(const Trial& trial, const Step& step, const Balance& before,
+                  double fraction) const;
+  double search(State& state, const Step& step, Balance& balance, const NewtonOptions& options);
 
   Assembler assembler_;
   Cholesky cholesky_;
+  CondensedEnergy merit_;
   double shift_ = 0;
   double damping_ = 0;                 ///< shift that short steps ask for
-  bool indefinite_ = false;            ///< the last matrix had to be stabilised
+  bool indefinite_ = false;            ///< the last matrix was not the exact one
   bool cut_while_indefinite_ = false;  ///< and its step was cut: the next will be no better
 };
 

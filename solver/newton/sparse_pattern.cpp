@@ -102,4 +102,16 @@ SparsePattern make_sparse_pattern(const HermiteMesh& mesh, const DofMap& dofs) {
   return pattern;
 }
 
+Eigen::VectorXd multiply(const SparsePattern& pattern, const std::vector<double>& values,
+                         const Eigen::VectorXd& x) {
+  Eigen::VectorXd product = Eigen::VectorXd::Zero(x.size());
+  for (int c = 0; c < pattern.num_columns(); ++c)
+    for (int k = pattern.starts[c]; k < pattern.starts[c + 1]; ++k) {
+      const int r = pattern.rows[k];
+      product[r] += values[k] * x[c];
+      if (r != c) product[c] += values[k] * x[r];
+    }
+  return product;
+}
+
 }  // namespace mammotwin

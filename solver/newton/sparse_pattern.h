@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <vector>
 
 #include "solver/newton/dof_map.h"
@@ -27,5 +28,9 @@ struct SparsePattern {
 };
 
 SparsePattern make_sparse_pattern(const HermiteMesh& mesh, const DofMap& dofs);
+
+/// Product of the symmetric matrix with these values.
+Eigen::VectorXd multiply(const SparsePattern& pattern, const std::vector<double>& values,
+                         const Eigen::VectorXd& x);
 
 }  // namespace mammotwin

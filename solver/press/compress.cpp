@@ -67,7 +67,7 @@ class Compression {
   NewtonReport equilibrate(double fraction, State& state);
   void record(const LoadSteppingReport& load, const State& state, const NewtonReport& newton);
   LoadSteppingReport close_plates(State& state);
-  void judge(const LoadSteppingReport& load);
+  void judge(const LoadSteppingReport& load, const State& state);
   void count(const NewtonReport& newton);
 
   const CompressionProblem& problem_;
@@ -162,7 +162,7 @@ void Compression::record(const LoadSteppingReport& load, const State& state,
     progress_(0.95 * load.reached, "compressed to " + in_mm(report_.history.back().thickness_mm));
 }
 
-void Compression::judge(const LoadSteppingReport& load) {
+void Compression::judge(const LoadSteppingReport& load, const State& state) {
   constexpr double most_error = 0.1, most_penetration = 0.1;  // [mm]: what "reached" means
   const double error = std::abs(report_.thickness_mm - problem_.plates.thickness);
   const double apart = press_.placed().paddle_height - press_.placed().support_height;
@@ -175,6 +175,8 @@ void Compression::judge(const LoadSteppingReport& load) {
     report_.reason = "the thickness stays " + in_mm(error) + " off";
   else if (report_.max_penetration_mm > std::max(most_penetration, options_.gap_tolerance))
     report_.reason = "a point stays " + in_mm(report_.max_penetration_mm) + " inside a plate";
+  else if (!press_.newton().is_stable(state))
+    report_.reason = "the equilibrium found is unstable: a breast would not stay in it";
   else
     report_.status = CompressionStatus::converged;
   if (!report_.usable())
@@ -251,7 +253,7 @@ CompressionResult Compression::run() {
   if (!begin(state)) return {state.x, state.pressure, press_.placed(), 0, {}, report_};
   const LoadSteppingReport load = close_plates(state);
   measure_compression(press_, state, report_);
-  judge(load);
+  judge(load, state);
   if (report_.usable()) report_.energy_force_N = force_from_energy(press_, state);
   report_.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (progress_) progress_(1, "compressed to " + in_mm(report_.thickness_mm));
@@ -280,7 +282,7 @@ CompressionResult Compression::run_from(const CompressionResult& near) {
   load.reason = newton.reason;
   if (load.complete()) count(finish_compression(press_, press_.penalty(), state));
   measure_compression(press_, state, report_);
-  judge(load);
+  judge(load, state);
   return {state.x, state.pressure, press_.placed(), press_.penalty(), {}, report_};
 }
 

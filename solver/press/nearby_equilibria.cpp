@@ -40,7 +40,7 @@ NearbyEquilibria::Posed NearbyEquilibria::posed(const CompressionProblem& proble
   posed.breast.contact->plates = {posed.plates.support, posed.plates.paddle};
   posed.breast.contact->penalty = near_.penalty;
   posed.assembler = std::make_unique<Assembler>(*posed.breast.model, *posed.breast.dofs);
-  posed.assembler->linearise(state_, 0, {});
+  posed.assembler->linearise(state_, {});
   return posed;
 }
 

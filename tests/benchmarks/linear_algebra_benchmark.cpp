@@ -38,7 +38,7 @@ constexpr auto kThreads = Limit::max_allowed_parallelism;
 void Assembly(benchmark::State& state) {
   CylinderProblem& p = problem(static_cast<int>(state.range(0)));
   const Limit threads(kThreads, state.range(1));
-  for (auto _ : state) p.assembler->linearise(p.state, 0, {});
+  for (auto _ : state) p.assembler->linearise(p.state, {});
   state.counters["unknowns"] = p.dofs.num_equations();
   state.counters["elements"] = p.model.num_elements();
 }
@@ -46,7 +46,7 @@ void Assembly(benchmark::State& state) {
 void Factorisation(benchmark::State& state) {
   CylinderProblem& p = problem(static_cast<int>(state.range(0)));
   const Limit threads(kThreads, state.range(1));
-  p.assembler->linearise(p.state, 0, {});
+  p.assembler->linearise(p.state, {});
   Cholesky cholesky(p.assembler->pattern(), p.dofs.node_of_equation());
   cholesky.factor(p.assembler->matrix());  // the panels' memory is found here
   double best = 1e300;
@@ -63,7 +63,7 @@ void Factorisation(benchmark::State& state) {
 void Rest(benchmark::State& state) {
   CylinderProblem& p = problem(static_cast<int>(state.range(0)));
   const Limit threads(kThreads, state.range(1));
-  p.assembler->linearise(p.state, 0, {});
+  p.assembler->linearise(p.state, {});
   Cholesky cholesky(p.assembler->pattern(), p.dofs.node_of_equation());
   cholesky.factor(p.assembler->matrix());
   for (auto _ : state) {

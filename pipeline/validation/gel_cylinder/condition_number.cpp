@@ -56,7 +56,7 @@ double largest_eigenvalue(int n, const std::function<VectorXd(const VectorXd&)>&
 double condition_number(const Model& model, const DofMap& dofs, const State& state) {
   Assembler assembler(model, dofs);
   Cholesky cholesky(assembler.pattern(), dofs.node_of_equation());
-  assembler.linearise(state, 0, {});
+  assembler.linearise(state, {});
   const auto& values = assembler.matrix();
   if (!cholesky.factor(values)) return std::numeric_limits<double>::infinity();
   const VectorXd root = diagonal(assembler.pattern(), values).cwiseSqrt();

@@ -120,6 +120,57 @@ TEST(Newton, AxialSqueezeByContactIsTheClosedForm) {
   }
 }
 
+/// Merits before and after every step of a solve.
+struct Descent {
+  std::vector<std::pair<double, double>> steps;
+  NewtonOptions options;
+  Descent() {
+    options.watch = [this](double before, double after) { steps.push_back({before, after}); };
+  }
+  /// To rounding of sums over some 1e4 points.
+  void expect_downhill() const {
+    EXPECT_GT(steps.size(), 2u);
+    for (const auto& [before, after] : steps)
+      EXPECT_LE(after - before, 1e-12 * std::max(1.0, std::abs(before)));
+  }
+};
+
+TEST(Newton, NoStepRaisesTheCondensedEnergyUnderAPlatesEdge) {
+  const HermiteMesh mesh = box_mesh({12, 12, 20}, {2, 2, 3});
+  Model model(mesh, uniform(std::make_shared<NeoHookean>(kC1)), {});
+  DofMap dofs(mesh);
+  for (int axis = 0; axis < 3; ++axis) hold_plane(mesh, axis, 0, dofs);
+  dofs.number(mesh);
+  auto contact = std::make_shared<PlateContact>();
+  for (const auto& [e, face] : faces_in_plane(mesh, 2, 20))
+    model.add_surface_potential(e, face, contact);
+  contact->plates = {Plate{{0, 5, 14}, {0, 0, -1}, {0, 1, 0}, 2}};
+  State state = model.rest();
+  Newton newton(model, dofs);
+  Descent descent;
+  for (double penalty : {1.0, 30.0, 1000.0}) {
+    contact->penalty = penalty;
+    const auto report = newton.solve(state, descent.options);
+    ASSERT_TRUE(report.usable()) << report.reason << " at " << penalty;
+  }
+  descent.expect_downhill();
+}
+
+TEST(Newton, NoStepRaisesTheCondensedEnergyUnderALoadTooLargeForItsFirstStep) {
+  const HermiteMesh mesh = distorted(box_mesh({10, 10, 30}, {2, 2, 3}), 0.4, 11);
+  Model model = gel(mesh, 1e6);
+  model.set_body_force(uniform_force({0.05, 0, 0.2}));
+  DofMap dofs(mesh);
+  for (int node = 0; node < 9; ++node)
+    for (int dof = 24 * node; dof < 24 * node + 24; ++dof) dofs.prescribe(dof);
+  dofs.number(mesh);
+  State state = model.rest();
+  Descent descent;
+  const auto report = Newton(model, dofs).solve(state, descent.options);
+  ASSERT_TRUE(report.usable()) << report.reason;
+  descent.expect_downhill();
+}
+
 TEST(Newton, IsBitwiseTheSameAtAnyNumberOfThreads) {
   std::vector<std::vector<HermiteMesh::Node>> shapes;
   for (int threads : {1, 2, 4}) {
