@@ -48,6 +48,7 @@ json row_of(const std::string& stiffness, const UnloadReport& r, double seconds)
           {"converged", r.usable()},
           {"reason", r.usable() ? json() : json(r.reason)},
           {"gravity_fraction", r.gravity_fraction},
+          {"stability_margin", r.stability_margin},
           {"newton_iterations", r.newton_iterations},
           {"round_trip_max_mm", r.usable() ? json(r.round_trip_max_mm) : json()},
           {"naive_reversal_error_mm",

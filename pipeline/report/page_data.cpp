@@ -145,9 +145,9 @@ std::string unload_summary(const PatientResults& results) {
   const json quality = sidecar ? sidecar->value("quality", json::object()) : json::object();
   if (quality.value("gravity", "") == "none")
     return "Gravity was not taken off: the imaged shape counts as free of stress.";
-  for (const char* key : {"sag_max_mm", "stretch_p95", "stiffness_factor", "gravity_fraction"})
+  for (const char* key : {"sag_max_mm", "stretch_p95", "stiffness_factor", "gravity_factor"})
     if (!quality.contains(key) || !quality[key].is_number()) return "";
-  if (quality["gravity_fraction"] < 1) return "";
+  if (quality["gravity_factor"] < 1) return "";
   return "Imaged " + quality.value("gravity", "") + ", the breast sags by up to " +
          word::number(quality["sag_max_mm"], 1) +
          " mm from its shape free of stress; 95 % of it is "

@@ -30,7 +30,8 @@ json fit_json(const StiffnessFit& fit) {
 json quality_of(const UnloadingRecord& record) {
   const UnloadReport& r = record.report;
   json quality = {{"gravity", name_of(record.imaged)},
-                  {"gravity_fraction", r.gravity_fraction},
+                  {"gravity_factor", r.gravity_fraction},
+                  {"stability_margin", r.stability_margin},
                   {"stiffness_factor", record.stiffness_factor},
                   {"sag_max_mm", r.sag_max_mm},
                   {"round_trip_max_mm", r.round_trip_max_mm},

@@ -10,6 +10,8 @@
 #include <memory>
 #include <utility>
 
+#include "solver/newton/stability.h"
+
 namespace mammotwin {
 
 namespace {
@@ -76,13 +78,31 @@ bool InverseEquilibrium::folded(const std::vector<HermiteMesh::Node>& X) const {
   return false;
 }
 
+BreastModel InverseEquilibrium::forward_model(const State& reference) const {
+  CompressionProblem problem = problem_;
+  problem.mesh.mesh = HermiteMesh(reference.x, problem_.mesh.mesh.elements());
+  return make_breast_model(problem, solid_);
+}
+
+double InverseEquilibrium::stability_margin(const State& reference) const {
+  const BreastModel breast = forward_model(reference);
+  Assembler assembler(*breast.model, *breast.dofs);
+  Cholesky factor(assembler.pattern(), breast.dofs->node_of_equation());
+  const auto softest = [&](const State& state) {
+    assembler.linearise(state, {});
+    return factor.factor(assembler.matrix())
+               ? smallest_stiffness(factor, assembler.pattern(), assembler.metric())
+               : 0;
+  };
+  const double free_of_load = softest(breast.model->rest());
+  return softest({problem_.prone, reference.pressure}) / free_of_load;
+}
+
 InverseEquilibrium::Evaluation InverseEquilibrium::evaluate(
     const State& reference, const Eigen::Vector3d& body_force) const {
   Evaluation now;
   if (folded(reference.x)) return now;
-  CompressionProblem problem = problem_;
-  problem.mesh.mesh = HermiteMesh(reference.x, problem_.mesh.mesh.elements());
-  now.breast = make_breast_model(problem, solid_);
+  now.breast = forward_model(reference);
   const Model& model = *now.breast.model;
   now.breast.model->set_body_force([&](const Eigen::Vector3d&) { return body_force; });
   const State state{problem_.prone, reference.pressure};

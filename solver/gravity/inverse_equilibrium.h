@@ -33,6 +33,12 @@ class InverseEquilibrium {
   NewtonReport solve(State& reference, const Eigen::Vector3d& body_force, double tolerance,
                      int max_iterations);
 
+  /// Of a solution: the smallest eigenvalue of the forward problem's tangent in the deformed shape
+  /// against that in the shape free of load (in the metric of the μ-weighted Laplacian; 1 without
+  /// load), or 0 where it is not positive definite: the deformed shape then is no minimum of the
+  /// energy, and the reference, loaded, falls elsewhere.
+  double stability_margin(const State& reference) const;
+
  private:
   struct Evaluation {
     bool valid = false;                 ///< neither X nor x is folded
@@ -49,6 +55,7 @@ class InverseEquilibrium {
     std::vector<HermiteMesh::Node> nodes;
     std::vector<double> pressure;
   };
+  BreastModel forward_model(const State& reference) const;
   Evaluation evaluate(const State& reference, const Eigen::Vector3d& body_force) const;
   bool folded(const std::vector<HermiteMesh::Node>& X) const;
   bool linearise(const State& reference, const Evaluation& here, const Eigen::Vector3d& body_force);

@@ -50,7 +50,12 @@ class Unloading {
   UnloadResult run();
 
  private:
-  LoadSteppingReport take_off(double share, Nodes& unloaded);
+  struct TakenOff {
+    Nodes unloaded;
+    LoadSteppingReport load;
+    double margin = 0;  ///< 0 where the load is not complete
+  };
+  TakenOff take_off(double share);
   HangOptions reload_options() const;
   struct Reload {
     std::optional<double> error_mm;  ///< empty where the breast does not come to rest
@@ -59,7 +64,7 @@ class Unloading {
   };
   Reload reload(const Nodes& unloaded, double share) const;
   std::optional<double> naive_error() const;
-  void find_largest_share(UnloadResult& result);
+  void find_largest_share(UnloadResult& result, bool reloaded);
   void check(UnloadResult& result);
   void say(double fraction, const std::string& what) const {
     if (progress_) progress_(fraction, what);
@@ -72,10 +77,11 @@ class Unloading {
 };
 
 /// Solves for a share of the gravity, from the prone shape on.
-LoadSteppingReport Unloading::take_off(double share, Nodes& unloaded) {
+Unloading::TakenOff Unloading::take_off(double share) {
   const Eigen::Vector3d weight = share * problem_.density * problem_.gravity;
   State reference = inverse_.start();
-  LoadSteppingReport load = step_load(
+  TakenOff result;
+  result.load = step_load(
       reference, options_.load,
       [&](double fraction, State& trial) {
         return inverse_.solve(trial, fraction * weight, options_.tolerance,
@@ -84,8 +90,9 @@ LoadSteppingReport Unloading::take_off(double share, Nodes& unloaded) {
       [&](const LoadSteppingReport& so_far, const State&, const NewtonReport&) {
         say(0.5 * so_far.reached, "gravity taken off");
       });
-  unloaded = std::move(reference.x);
-  return load;
+  if (result.load.complete()) result.margin = inverse_.stability_margin(reference);
+  result.unloaded = std::move(reference.x);
+  return result;
 }
 
 HangOptions Unloading::reload_options() const {
@@ -118,30 +125,33 @@ std::optional<double> Unloading::naive_error() const {
   return reload(naive.deformed, 1).error_mm;
 }
 
-/// An unloaded shape that balances may yet fall elsewhere when it is loaded. Bisection for the
-/// share of the gravity up to which it does not.
-void Unloading::find_largest_share(UnloadResult& result) {
-  constexpr int trials = 4;  // to a sixteenth
-  double low = 0, high = result.report.gravity_fraction;
-  Nodes best = problem_.mesh.mesh.nodes();
+/// Bisection for the share of the gravity up to which the imaged shape is stable and, if
+/// `reloaded`, the unloaded one hangs back to it.
+void Unloading::find_largest_share(UnloadResult& result, bool reloaded) {
+  constexpr int trials = 5;  // to a thirty-second
+  UnloadReport& report = result.report;
+  double low = 0, high = 1;
+  TakenOff best{problem_.mesh.mesh.nodes(), {}, 1};
   for (int trial = 0; trial < trials; ++trial) {
     const double share = (low + high) / 2;
-    say(0.5 + 0.1 * trial, "looking for the largest gravity that works");
-    Nodes unloaded;
-    const LoadSteppingReport load = take_off(share, unloaded);
-    result.report.newton_iterations += load.iterations;
+    say(0.5 + 0.08 * trial, "looking for the largest gravity that works");
+    TakenOff tried = take_off(share);
+    report.newton_iterations += tried.load.iterations;
     const bool works =
-        load.complete() && reload(unloaded, share).back_within(options_.round_trip_tolerance);
+        tried.margin > 0 &&
+        (!reloaded || reload(tried.unloaded, share).back_within(options_.round_trip_tolerance));
     (works ? low : high) = share;
-    if (works) best = std::move(unloaded);
+    if (works) best = std::move(tried);
   }
-  result.report.gravity_fraction = low;
-  result.unloaded = std::move(best);
+  report.gravity_fraction = low;
+  report.stability_margin = best.margin;
+  result.unloaded = std::move(best.unloaded);
 }
 
+/// Loads the result again. A stable shape that balances may yet be one of several.
 void Unloading::check(UnloadResult& result) {
   UnloadReport& report = result.report;
-  say(0.5, "loading again");
+  say(0.9, "loading again");
   const Reload again = reload(result.unloaded, report.gravity_fraction);
   if (again.back_within(options_.round_trip_tolerance)) {
     report.round_trip_max_mm = *again.error_mm;
@@ -151,21 +161,28 @@ void Unloading::check(UnloadResult& result) {
   report.converged = false;
   report.reason =
       "the unloaded shape, loaded again, does not come to rest in the imaged one; " + again.reason;
-  find_largest_share(result);
+  find_largest_share(result, true);
 }
 
 UnloadResult Unloading::run() {
   const auto begin = std::chrono::steady_clock::now();
   UnloadResult result;
   UnloadReport& report = result.report;
-  const LoadSteppingReport load = take_off(1, result.unloaded);
-  report.converged = load.complete();
-  report.reason = load.reason;
-  report.gravity_fraction = load.reached;
-  report.steps = load.steps;
-  report.cutbacks = load.cutbacks;
-  report.newton_iterations = load.iterations;
+  TakenOff all = take_off(1);
+  report.converged = all.margin > 0;
+  report.gravity_fraction = all.load.reached;
+  report.stability_margin = all.margin;
+  report.steps = all.load.steps;
+  report.cutbacks = all.load.cutbacks;
+  report.newton_iterations = all.load.iterations;
   report.dof = inverse_.num_equations();
+  result.unloaded = std::move(all.unloaded);
+  if (!report.converged) {
+    report.reason = all.load.complete() ? "the imaged shape is not stable under its weight: "
+                                          "unloaded and loaded again, it would fall elsewhere"
+                                        : all.load.reason;
+    find_largest_share(result, false);
+  }
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   const bool loaded = !problem_.gravity.isZero() && report.gravity_fraction > 0;
   if (options_.check && loaded) check(result);

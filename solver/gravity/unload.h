@@ -16,8 +16,12 @@ struct UnloadOptions {
 struct UnloadReport {
   bool converged = false;
   std::string reason;  ///< why not
-  /// Largest part of the gravity that could be taken off and, where checked, put on again.
+  /// Largest part of the gravity that could be taken off in a stable way and, where
+  /// checked, put on again.
   double gravity_fraction = 0;
+  /// Of the imaged shape under that part of the gravity: how much of its stiffness against the
+  /// softest deformation is left, 1 without load (InverseEquilibrium::stability_margin).
+  double stability_margin = 0;
   int steps = 0, cutbacks = 0, newton_iterations = 0;
   double sag_max_mm = 0;                    ///< largest way of a node from unloaded to prone
   double stretch_p95 = 1, stretch_max = 1;  ///< largest principal stretch at quadrature points

@@ -184,7 +184,7 @@ PatientResults fake_results(Side side) {
                                             {"skin_max_mm", 1.9},
                                             {"chest_wall_rms_mm", 0.4}})},
               {"unloaded.vtu", sidecar("unload", {{"gravity", "prone"},
-                                                  {"gravity_fraction", 1.0},
+                                                  {"gravity_factor", 1.0},
                                                   {"sag_max_mm", 7.15},
                                                   {"stretch_p95", 1.093},
                                                   {"stiffness_factor", 1.0}})},
