@@ -5,9 +5,9 @@
 namespace mammotwin {
 
 /// Value that OPENBLAS_CORETYPE should have on this processor, or an empty string where nothing
-/// is to be set: the user has set it, or OpenBLAS has no better kernels than its own choice. The
-/// same kernels on all processors with AVX2: with those for AVX-512, which round otherwise, two
-/// solves of the tests find no equilibrium (sliding friction, tissue almost too soft to stand).
+/// is to be set: the user has set it, or OpenBLAS has no better kernels than its own choice.
+/// Kernels round differently: results are bit for bit the same with the same kernels only, and
+/// agree within the solver's tolerances otherwise (tests/verification/rounding_test.cpp).
 ///
 /// Debian 12's OpenBLAS 0.3.21 does not know recent Intel cores and falls back to SSE3 kernels, 4
 /// to 5 times slower. It reads the variable when the library loads, so a program sets it and runs
