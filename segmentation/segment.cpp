@@ -5,12 +5,12 @@
 #include <stdexcept>
 
 #include "segmentation/body/breast_region.h"
-#include "segmentation/body/half_body.h"
 #include "segmentation/body/nipple.h"
+#include "segmentation/files/markups_point.h"
 #include "segmentation/files/read_image.h"
+#include "segmentation/image/crop.h"
 #include "segmentation/image/distance.h"
 #include "segmentation/label_maps/segment_labels.h"
-#include "segmentation/landmarks.h"
 #include "segmentation/segment_limits.h"
 #include "segmentation/segment_mri.h"
 
@@ -29,7 +29,7 @@ void settle_fractions(Segmentation& s) {
 
 void crop(SegmentResult& result) {
   Segmentation& s = result.segmentation;
-  const VoxelBox box = labelled_box(s.labels, 5);
+  const VoxelBox box = box_around(s.labels, 5);
   s.labels = cropped(s.labels, box.low, box.high);
   s.fractions = cropped(s.fractions, box.low, box.high);
   if (!result.image.values.empty()) result.image = cropped(result.image, box.low, box.high);

@@ -35,7 +35,7 @@ struct SegmentInput {
   std::optional<std::string> pre_series;
   std::optional<bool> fat_suppressed;  ///< decided from the image where not given
   std::optional<std::filesystem::path> label_map;
-  /// Empty: by the names of its segments where it is a .seg.nrrd, else those of tissue.h.
+  /// Empty: by the names of its segments where it is a .seg.nrrd, else those of segmentation.h.
   LabelValues label_values;
   std::optional<Side> side;  ///< the lesions' side where not given
   std::vector<LesionSeed> lesions;
@@ -44,14 +44,14 @@ struct SegmentInput {
 };
 
 enum class LesionMethod {
-  mix,            ///< half maximum, iterated; best on real lesions (the default)
+  half_maximum,   ///< iterated; best on real lesions (the default)
   random_walker,  ///< sharper where gland is mottled; too small on real lesions
 };
 
 struct SegmentOptions {
   /// Skin thickness [mm], 0.5 to 5, where it is known; measured otherwise.
   std::optional<double> skin_thickness_mm;
-  LesionMethod lesion_method = LesionMethod::mix;
+  LesionMethod lesion_method = LesionMethod::half_maximum;
   /// A lesion reaches at most this far from its point [mm], 5 to 60.
   double lesion_reach_mm = 50;
   /// Stiffness of the chest wall's search, 0.01 to 1: cost of a jump between rays [per mm^2].

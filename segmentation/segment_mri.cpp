@@ -5,15 +5,15 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "segmentation/body/half_body.h"
 #include "segmentation/body/half_breast.h"
+#include "segmentation/body/midline.h"
 #include "segmentation/chest_wall/judge_wall.h"
 #include "segmentation/contrast_agent/enhancement.h"
 #include "segmentation/files/read_image.h"
 #include "segmentation/image/denoise.h"
-#include "segmentation/landmarks.h"
 #include "segmentation/lesion/lesion_seed.h"
 #include "segmentation/lesion/lesion_stage.h"
+#include "segmentation/lesion/measure_lesions.h"
 #include "segmentation/segment_limits.h"
 #include "segmentation/tissue/tissue_stage.h"
 
@@ -171,7 +171,7 @@ SegmentResult segment_image(const Mri& mri, const SegmentInput& input,
       find_lesions(half, seeds, body.contrast.fat_suppressed, options, result.quality);
   judge_lesions_on_wall(half, lesions, result.quality);
   progress(0.88, "telling skin, fat and fibroglandular tissue apart");
-  label_tissue(half, tissue_scan(half), lesions, body.contrast.fat_suppressed, options, result);
+  label_tissue(half, tissue_image(half), lesions, body.contrast.fat_suppressed, options, result);
   result.segmentation.region.side = side;
   result.segmentation.lesions = named_lesions(result.segmentation.labels, seeds);
   return result;

@@ -13,7 +13,7 @@
 
 #include "fitting/scan/scan_surface.h"
 #include "segmentation/body/breast_region.h"
-#include "segmentation/landmarks.h"
+#include "segmentation/body/most_anterior_point.h"
 
 namespace mammotwin {
 

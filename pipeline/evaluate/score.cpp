@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "segmentation/body/half_body.h"
+#include "segmentation/image/crop.h"
 #include "segmentation/image/distance.h"
 
 namespace mammotwin {

@@ -110,7 +110,8 @@ void Patient::declare_segment(Settings& s) {
   s.number("segment.skin_thickness_mm", segment.skin_thickness_mm, {0.5, 5, "mm"},
            "skin thickness where it is known; measured otherwise");
   s.choice("segment.lesion_method", segment.lesion_method,
-           {{"mix", LesionMethod::mix}, {"random_walker", LesionMethod::random_walker}},
+           {{"half_maximum", LesionMethod::half_maximum},
+            {"random_walker", LesionMethod::random_walker}},
            "how a lesion's extent is found from its point");
   s.number("segment.lesion_reach_mm", segment.lesion_reach_mm, {5, 60, "mm"},
            "a lesion reaches at most this far from its point");

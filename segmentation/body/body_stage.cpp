@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "segmentation/body/body_mask.h"
-#include "segmentation/body/half_body.h"
+#include "segmentation/image/crop.h"
 #include "segmentation/image/denoise.h"
 #include "segmentation/image/noise.h"
 #include "segmentation/shading/contrast.h"

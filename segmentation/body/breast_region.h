@@ -7,8 +7,8 @@
 
 namespace mammotwin {
 
-/// The rectangle in the coronal plane that bounds one breast, from labels as in tissue.h, of both
-/// breasts or of one half of the body.
+/// The rectangle in the coronal plane that bounds one breast, from labels as in segmentation.h, of
+/// both breasts or of one half of the body.
 ///
 /// A column runs from front to back at one (x, z). Its tissue reaches from the skin to the first
 /// muscle, or to the last labelled voxel where there is no muscle. The rectangle is bounded

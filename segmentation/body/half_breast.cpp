@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "segmentation/body/body_mask.h"
-#include "segmentation/body/half_body.h"
+#include "segmentation/image/crop.h"
 #include "segmentation/image/distance.h"
 #include "segmentation/image/order_statistics.h"
 #include "segmentation/image/smoothing.h"

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "segmentation/chest_wall/wall_stage.h"
-#include "segmentation/skin/slab_fit.h"
+#include "segmentation/skin/skin_slab.h"
 
 namespace mammotwin {
 
@@ -21,7 +21,7 @@ struct HalfBreast {
   Volume<std::uint8_t> inside;  ///< body in front of the chest wall
   Volume<float> depth;          ///< below the skin [mm]
   Volume<float> skin_depth;     ///< the same between the voxels, right up to 5.5 mm
-  SlabFit skin;                 ///< its thickness
+  SkinSlab skin;                ///< its thickness
   Volume<float> above_wall;     ///< distance to what lies behind the chest wall [mm]
 };
 

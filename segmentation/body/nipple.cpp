@@ -4,11 +4,11 @@
 #include <cmath>
 #include <vector>
 
-#include "segmentation/body/half_body.h"
+#include "segmentation/body/most_anterior_point.h"
 #include "segmentation/image/components.h"
+#include "segmentation/image/crop.h"
 #include "segmentation/image/distance.h"
 #include "segmentation/label_maps/label_values.h"
-#include "segmentation/landmarks.h"
 
 namespace mammotwin {
 namespace {

@@ -5,7 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "segmentation/body/half_body.h"
+#include "segmentation/body/midline.h"
+#include "segmentation/image/crop.h"
 #include "segmentation/image/smoothing.h"
 #include "segmentation/shading/em_bias.h"
 
@@ -68,7 +69,7 @@ PreMatch match_breast(const BodyStage& body, const PectoralWall& wall, Side side
       }
   });
   constexpr int margin = 8;  // voxels: more than smoothing reaches
-  const auto [low, high] = labelled_box(breast, margin);
+  const auto [low, high] = box_around(breast, margin);
   const Volume<float> after = cropped(body.image, low, high);
   return match_pre(after, cropped(body.pre, low, high),
                    after.like<float>(static_cast<float>(body.noise)), cropped(breast, low, high));

@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "segmentation/files/scan_meta.h"
+#include "segmentation/files/check_meta_header.h"
 
 namespace mammotwin {
 namespace {

@@ -8,8 +8,8 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "segmentation/files/scan_meta.h"
-#include "segmentation/files/scan_nifti.h"
+#include "segmentation/files/check_meta_header.h"
+#include "segmentation/files/inspect_nifti.h"
 #include "segmentation/files/trial_read.h"
 
 namespace mammotwin {
@@ -83,7 +83,7 @@ void check_nifti(const fs::path& path, const itk::ImageIOBase& io) {
   const bool floating = io.GetComponentType() == itk::IOComponentEnum::FLOAT ||
                         io.GetComponentType() == itk::IOComponentEnum::DOUBLE;
   const NiftiVoxels found =
-      scan_nifti(path, static_cast<int>(io.GetComponentSize()), floating, expected);
+      inspect_nifti(path, static_cast<int>(io.GetComponentSize()), floating, expected);
   if (found.bytes < expected)
     throw std::runtime_error("is truncated: " + std::to_string(found.bytes) +
                              " bytes of voxels; expected " + std::to_string(expected) +

@@ -7,11 +7,12 @@
 #include <stdexcept>
 
 #include "segmentation/body/breast_region.h"
+#include "segmentation/body/most_anterior_point.h"
 #include "segmentation/files/grid_image.h"
 #include "segmentation/files/read_image.h"
 #include "segmentation/files/read_raw_image.h"
 #include "segmentation/files/write_image_file.h"
-#include "segmentation/landmarks.h"
+#include "segmentation/lesion/measure_lesions.h"
 
 namespace mammotwin {
 namespace {

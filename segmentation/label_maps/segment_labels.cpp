@@ -6,11 +6,12 @@
 #include <map>
 #include <stdexcept>
 
-#include "segmentation/body/half_body.h"
+#include "segmentation/body/midline.h"
 #include "segmentation/files/read_image.h"
+#include "segmentation/label_maps/fill_behind_muscle.h"
 #include "segmentation/label_maps/segment_names.h"
-#include "segmentation/landmarks.h"
 #include "segmentation/lesion/lesion_seed.h"
+#include "segmentation/lesion/measure_lesions.h"
 
 namespace mammotwin {
 namespace {

@@ -18,8 +18,8 @@ struct NamedSegments {
 
 /// Recognised, in any case: skin; fat, adipose; fibroglandular, gland; muscle, pectoral, chest
 /// wall; lesion, tumour, tumor, mass, cancer; SNOMED codes of the segment's terminology. A segment
-/// of none of these keeps its value's own meaning (tissue.h); std::runtime_error, naming it, where
-/// that has none, or where a segment lies in a second layer.
+/// of none of these keeps its value's own meaning (segmentation.h); std::runtime_error, naming it,
+/// where that has none, or where a segment lies in a second layer.
 NamedSegments read_segment_names(const std::filesystem::path& path);
 
 }  // namespace mammotwin

@@ -5,8 +5,8 @@
 #include <numbers>
 #include <optional>
 
-#include "segmentation/body/half_body.h"
 #include "segmentation/image/components.h"
+#include "segmentation/image/crop.h"
 #include "segmentation/image/distance.h"
 #include "segmentation/image/order_statistics.h"
 #include "segmentation/image/smoothing.h"
@@ -240,7 +240,7 @@ class HalfMaximum {
 /// The voxels on either side of the lesion's surface judged again in the sharp image.
 void sharpen_edge(const SharpImage& sharp, const Mask& may, bool brighter, FoundLesion& lesion) {
   const int margin = static_cast<int>(std::ceil(shell_to_mm / may.spacing.minCoeff())) + 1;
-  const auto [low, high] = labelled_box(lesion.mask, margin);
+  const auto [low, high] = box_around(lesion.mask, margin);
   Volume<float> image = sharp(lesion.low + low, lesion.low + high);
   if (!brighter)
     for (float& value : image.values) value = -value;

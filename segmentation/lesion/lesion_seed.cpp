@@ -2,8 +2,8 @@
 
 #include <stdexcept>
 
+#include "segmentation/files/markups_point.h"
 #include "segmentation/files/read_image.h"
-#include "segmentation/landmarks.h"
 
 namespace mammotwin {
 namespace {

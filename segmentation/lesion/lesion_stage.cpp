@@ -5,9 +5,9 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "segmentation/body/half_body.h"
+#include "segmentation/image/crop.h"
 #include "segmentation/image/distance.h"
-#include "segmentation/image/restored_scan.h"
+#include "segmentation/image/restored_image.h"
 #include "segmentation/lesion/lesion.h"
 
 namespace mammotwin {
@@ -67,7 +67,7 @@ Volume<float> subtraction(const HalfBreast& half) {
 SharpImage sharp_scan(const HalfBreast& half) {
   if (half.pre.values.empty())
     return [&half](const auto& low, const auto& high) {
-      return restored_scan(cropped(half.scan, low, high), cropped(half.noise, low, high));
+      return restored_image(cropped(half.scan, low, high), cropped(half.noise, low, high));
     };
   return [&half](const auto& low, const auto& high) {
     Volume<float> added = cropped(half.scan, low, high), noise = cropped(half.noise, low, high);
@@ -76,7 +76,7 @@ SharpImage sharp_scan(const HalfBreast& half) {
       added.values[v] -= before.values[v];
       noise.values[v] *= std::numbers::sqrt2_v<float>;
     }
-    return restored_scan(added, noise);
+    return restored_image(added, noise);
   };
 }
 

@@ -43,10 +43,10 @@ SkinProfile without_noise(SkinProfile profile) {
   return profile;
 }
 
-SlabFit measure_skin(const Volume<float>& image, const Volume<float>& depth,
-                     const Volume<std::uint8_t>& where) {
-  return fit_slab(without_noise(skin_profile(image, depth, where, innermost_mm)),
-                  std::cbrt(image.voxel_volume()));
+SkinSlab measure_skin(const Volume<float>& image, const Volume<float>& depth,
+                      const Volume<std::uint8_t>& where) {
+  return fit_skin_slab(without_noise(skin_profile(image, depth, where, innermost_mm)),
+                       std::cbrt(image.voxel_volume()));
 }
 
 }  // namespace mammotwin

@@ -3,7 +3,7 @@
 #include <cstdint>
 
 #include "segmentation/image/volume.h"
-#include "segmentation/skin/slab_fit.h"
+#include "segmentation/skin/skin_slab.h"
 
 namespace mammotwin {
 
@@ -19,7 +19,7 @@ SkinProfile without_noise(SkinProfile profile);
 /// The skin's thickness from that profile to 5.5 mm deep. `depth` as of `signed_depth`, its surface
 /// found between the voxels (`find_skin_surface`): the voxels of a mask blur and shift it. `where`:
 /// voxels near the breast's skin that may be used.
-SlabFit measure_skin(const Volume<float>& image, const Volume<float>& depth,
-                     const Volume<std::uint8_t>& where);
+SkinSlab measure_skin(const Volume<float>& image, const Volume<float>& depth,
+                      const Volume<std::uint8_t>& where);
 
 }  // namespace mammotwin

@@ -1,15 +1,15 @@
 #pragma once
 
 #include "segmentation/body/breast_frame.h"
+#include "segmentation/skin/skin_slab.h"
 #include "segmentation/skin/skin_surface.h"
-#include "segmentation/skin/slab_fit.h"
 
 namespace mammotwin {
 
 /// The skin of one half of the body.
 struct SkinStage {
   SkinSurface surface;
-  SlabFit slab;  ///< thickness 0: not measured
+  SkinSlab slab;  ///< thickness 0: not measured
 };
 
 /// Finds where the skin begins, and how thick it is where the breast hangs free. `image`: bias

@@ -128,7 +128,7 @@ SkinSurface find_skin_surface(const Volume<float>& image, const Volume<std::uint
   for (int round = 0; round < rounds; ++round) {
     const Volume<float> depth = signed_depth(share, alignment_reach_mm);
     const SkinProfile profile = skin_profile(image, depth, where, alignment_reach_mm);
-    const SlabFit slab = fit_slab(without_noise(profile), std::cbrt(image.voxel_volume()));
+    const SkinSlab slab = fit_skin_slab(without_noise(profile), std::cbrt(image.voxel_volume()));
     if (!(slab.thickness > 0)) break;
     share = shifted_share(depth, slab.surface, align_blocks(image, depth, Template(profile)));
   }

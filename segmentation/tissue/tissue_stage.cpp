@@ -4,9 +4,9 @@
 #include <cmath>
 #include <sstream>
 
-#include "segmentation/body/half_body.h"
+#include "segmentation/image/crop.h"
 #include "segmentation/image/distance.h"
-#include "segmentation/image/restored_scan.h"
+#include "segmentation/image/restored_image.h"
 #include "segmentation/image/smoothing.h"
 #include "segmentation/tissue/fibroglandular.h"
 
@@ -19,7 +19,7 @@ constexpr double skin_blur_mm = 1;       // beyond the skin, its blur would pass
 constexpr double wall_blur_mm = 1.5;     // in front of the wall, muscle's
 constexpr double usual_skin_mm = 1.5;
 
-double judge_skin(const SlabFit& skin, const SegmentOptions& options, SegmentQuality& quality) {
+double judge_skin(const SkinSlab& skin, const SegmentOptions& options, SegmentQuality& quality) {
   if (options.skin_thickness_mm) return quality.skin_thickness_mm = *options.skin_thickness_mm;
   constexpr double largest_misfit = 0.15, thick_mm = 4;
   if (!(skin.thickness > 0) || skin.misfit > largest_misfit) {
@@ -69,13 +69,14 @@ void judge_suppression(const Volume<float>& image, const Volume<std::uint8_t>& i
 }
 
 /// The image, and the scan of tissue restored within `interior`.
-Volume<float> restored(const HalfBreast& half, const TissueScan& scan,
+Volume<float> restored(const HalfBreast& half, const TissueImage& scan,
                        const Volume<std::uint8_t>& interior) {
   Volume<float> image = half.image;
-  const auto [low, high] = labelled_box(interior, 0);
-  if ((low.array() > high.array()).any()) return image;
+  const VoxelBox box = box_around(interior, 0);
+  const auto [low, high] = box;
+  if (box.is_empty()) return image;
   const Volume<float> clean =
-      restored_scan(cropped(scan.image, low, high), cropped(scan.noise, low, high));
+      restored_image(cropped(scan.image, low, high), cropped(scan.noise, low, high));
   for (int k = low.z(); k <= high.z(); ++k)
     for (int j = low.y(); j <= high.y(); ++j)
       for (int i = low.x(); i <= high.x(); ++i)
@@ -85,7 +86,7 @@ Volume<float> restored(const HalfBreast& half, const TissueScan& scan,
 
 }  // namespace
 
-void label_tissue(const HalfBreast& half, const TissueScan& scan,
+void label_tissue(const HalfBreast& half, const TissueImage& scan,
                   const Volume<std::uint8_t>& lesions, bool fat_suppressed,
                   const SegmentOptions& options, SegmentResult& result) {
   const double skin = judge_skin(half.skin, options, result.quality);

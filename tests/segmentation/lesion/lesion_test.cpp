@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-#include "segmentation/body/half_body.h"
+#include "segmentation/image/crop.h"
 #include "segmentation/image/smoothing.h"
 #include "segmentation/lesion/random_walker.h"
 

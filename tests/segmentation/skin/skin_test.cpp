@@ -59,7 +59,7 @@ TEST_P(Skin, ThicknessLiesInItsRangeAndTheSurfaceWhereSkinBegins) {
   for (const double thickness : {1.0, 1.5, 2.0, 3.0}) {
     const Pole pole(thickness, level, voxel, noise);
     const SkinSurface surface = find_skin_surface(pole.image, pole.body, pole.where);
-    const SlabFit skin = measure_skin(pole.image, surface.depth, pole.where);
+    const SkinSlab skin = measure_skin(pole.image, surface.depth, pole.where);
     EXPECT_LE(skin.low, thickness) << thickness;
     EXPECT_GE(skin.high, thickness) << thickness;
     if (thickness >= 2) {

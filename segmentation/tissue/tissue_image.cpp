@@ -1,11 +1,11 @@
-#include "segmentation/tissue/tissue_scan.h"
+#include "segmentation/tissue/tissue_image.h"
 
 #include <cmath>
 
 namespace mammotwin {
 
-TissueScan tissue_scan(const HalfBreast& half) {
-  TissueScan scan{half.scan, half.noise};
+TissueImage tissue_image(const HalfBreast& half) {
+  TissueImage scan{half.scan, half.noise};
   double noise = half.noise_spread;
   if (half.pre_match && !half.pre_match->moved()) {
     const double scale = half.pre_match->scale;

@@ -19,7 +19,7 @@ void check_nifti_placement(const std::filesystem::path& path);
 /// Reads the voxels of a .nii or .nii.gz file once, in pieces. `value_bytes`: 4 or 8 where
 /// `floating`. Stops once `enough_bytes` are seen, however much is packed behind. Throws
 /// std::runtime_error if the file cannot be opened or has no NIfTI header.
-NiftiVoxels scan_nifti(const std::filesystem::path& path, int value_bytes, bool floating,
-                       std::uintmax_t enough_bytes);
+NiftiVoxels inspect_nifti(const std::filesystem::path& path, int value_bytes, bool floating,
+                          std::uintmax_t enough_bytes);
 
 }  // namespace mammotwin

@@ -1,4 +1,4 @@
-#include "segmentation/skin/slab_fit.h"
+#include "segmentation/skin/skin_slab.h"
 
 #include <Eigen/Dense>
 #include <algorithm>
@@ -82,7 +82,7 @@ std::vector<Candidate> all_candidates(const SkinProfile& profile, double voxel_m
 
 }  // namespace
 
-SlabFit fit_slab(const SkinProfile& profile, double voxel_mm) {
+SkinSlab fit_skin_slab(const SkinProfile& profile, double voxel_mm) {
   constexpr std::size_t least_values = 12;
   if (profile.depth.size() < least_values) return {};
   const std::vector<Candidate> candidates = all_candidates(profile, voxel_mm);
@@ -92,7 +92,7 @@ SlabFit fit_slab(const SkinProfile& profile, double voxel_mm) {
       [](const Candidate& a, const Candidate& b) { return a.squared_misfit < b.squared_misfit; });
   const double variance =
       std::max(best.squared_misfit, least_misfit * least_misfit * best.fat * best.fat);
-  SlabFit fit;
+  SkinSlab fit;
   fit.low = fit.high = best.thickness;
   fit.misfit = std::sqrt(best.squared_misfit) / best.fat;
   double sum = 0;

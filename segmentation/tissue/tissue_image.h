@@ -5,11 +5,11 @@
 namespace mammotwin {
 
 /// The image that tissue is told apart in, with the standard deviation of its noise.
-struct TissueScan {
+struct TissueImage {
   Volume<float> image, noise;
 };
 
 /// The scan; or its mean with the image before contrast agent, unless the patient moved in between.
-TissueScan tissue_scan(const HalfBreast& half);
+TissueImage tissue_image(const HalfBreast& half);
 
 }  // namespace mammotwin

@@ -1,4 +1,4 @@
-#include "segmentation/files/scan_nifti.h"
+#include "segmentation/files/inspect_nifti.h"
 
 #include <zlib.h>
 
@@ -105,8 +105,8 @@ void check_nifti_placement(const std::filesystem::path& path) {
     check_numbers(header, layout, v2 ? 400 : 280, 12, "sform");
 }
 
-NiftiVoxels scan_nifti(const std::filesystem::path& path, int value_bytes, bool floating,
-                       std::uintmax_t enough_bytes) {
+NiftiVoxels inspect_nifti(const std::filesystem::path& path, int value_bytes, bool floating,
+                          std::uintmax_t enough_bytes) {
   const NiftiFile file = open_nifti(path);
   NiftiHeader header{};
   const Layout layout = read_layout(file.get(), header);

@@ -13,7 +13,7 @@ struct SkinProfile {
 /// distribution of the image's blur, o = N(d - surface) and i = N(d - surface - thickness),
 /// value(d) = skin (o - i) + i (fat + slope max(0, d - surface - thickness)).
 /// The slope (of shading, and of gland that comes with depth) is held near 0.
-struct SlabFit {
+struct SkinSlab {
   double thickness = 0;      ///< [mm]; 0: the profile is too short
   double low = 0, high = 0;  ///< range of the thickness [mm]
   double surface = 0;        ///< depth at which the skin begins [mm]
@@ -31,6 +31,6 @@ inline constexpr double thinnest_measured_skin_mm = 0.3;
 /// thickness is the mean, weighted by the fit and by what is usual, 1.5 mm within a factor of 1.65
 /// (standard deviation; Huang et al., Med. Phys. 35 (2008), 1199-1206, measured 1.45 mm, 0.8 to
 /// 2.4), which matters only where the image does not tell.
-SlabFit fit_slab(const SkinProfile& profile, double voxel_mm);
+SkinSlab fit_skin_slab(const SkinProfile& profile, double voxel_mm);
 
 }  // namespace mammotwin

@@ -1,4 +1,4 @@
-#include "segmentation/files/scan_meta.h"
+#include "segmentation/files/check_meta_header.h"
 
 #include <algorithm>
 #include <array>

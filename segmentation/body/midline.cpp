@@ -1,0 +1,38 @@
+#include "segmentation/body/midline.h"
+
+#include <algorithm>
+#include <limits>
+#include <vector>
+
+#include "segmentation/body/apices.h"
+
+namespace mammotwin {
+
+std::optional<double> find_midline(const Volume<std::uint8_t>& labels) {
+  std::vector<double> front(labels.size.x(), -std::numeric_limits<double>::infinity());
+  for (int k = 0; k < labels.size.z(); ++k)
+    for (int i = 0; i < labels.size.x(); ++i)
+      for (int j = 0; j < labels.size.y(); ++j) {
+        if (!label::is_breast(labels(i, j, k))) continue;
+        front[i] = std::max(front[i], -labels.position(i, j, k).y());
+        break;
+      }
+  // Columns beyond the body are no valley: only what lies between finite values counts.
+  const auto apices = find_apices(front, labels.spacing.x());
+  if (!apices) return std::nullopt;
+  return labels.position(apices->valley, 0, 0).x();
+}
+
+bool is_on_side(double x, double midline, Side side) {
+  return side == Side::left ? x >= midline : x <= midline;
+}
+
+void keep_side(Volume<std::uint8_t>& labels, double midline, Side side) {
+  for (int i = 0; i < labels.size.x(); ++i) {
+    if (is_on_side(labels.position(i, 0, 0).x(), midline, side)) continue;
+    for (int k = 0; k < labels.size.z(); ++k)
+      for (int j = 0; j < labels.size.y(); ++j) labels(i, j, k) = label::air;
+  }
+}
+
+}  // namespace mammotwin
