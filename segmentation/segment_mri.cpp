@@ -8,13 +8,19 @@
 #include "segmentation/body/half_breast.h"
 #include "segmentation/body/midline.h"
 #include "segmentation/chest_wall/judge_wall.h"
+#include "segmentation/contrast_agent/before_agent.h"
 #include "segmentation/contrast_agent/enhancement.h"
 #include "segmentation/files/read_image.h"
-#include "segmentation/image/denoise.h"
+#include "segmentation/image/crop.h"
 #include "segmentation/lesion/lesion_seed.h"
 #include "segmentation/lesion/lesion_stage.h"
 #include "segmentation/lesion/measure_lesions.h"
 #include "segmentation/segment_limits.h"
+#include "segmentation/shading/correct_shading.h"
+#include "segmentation/shading/half_images.h"
+#include "segmentation/skin/judge_skin.h"
+#include "segmentation/skin/skin_stage.h"
+#include "segmentation/tissue/judge_suppression.h"
 #include "segmentation/tissue/tissue_stage.h"
 
 namespace mammotwin {
@@ -114,26 +120,27 @@ void judge_movement(const std::optional<PreMatch>& match, SegmentQuality& qualit
   quality.doubt(SegmentStatus::look, reason.str());
 }
 
-/// Reads the image before contrast agent, if one is named, and compares the two.
-void add_enhancement(const SegmentInput& input, BodyStage& body, SegmentResult& result) {
-  if (!input.pre && !input.pre_series) return;
+/// The image before contrast agent, if one is named, laid on the one after it.
+BeforeAgent read_before_agent(const SegmentInput& input, const BodyStage& body,
+                              SegmentResult& result) {
+  if (!input.pre && !input.pre_series) return {};
   const Mri pre = read_mri(input.pre ? *input.pre : *input.mri, input.pre_series);
   result.files.insert(result.files.end(), pre.files.begin(), pre.files.end());
-  body.pre = on_grid_of(body.image, pre.image);
-  body.enhancement = relative_enhancement(body.clean, denoised(body.pre, body.noise), body.noise);
   result.quality.notes.push_back(
       "lesions were outlined in the enhancement over the image before contrast agent");
+  return lay_before_agent(pre.image, body);
 }
 
 /// Offers what takes up contrast agent in the breast, away from skin and wall.
-void offer_candidates(const HalfBreast& half, SegmentQuality& quality) {
+void offer_candidates(const HalfBreast& half, const Volume<float>& enhancement,
+                      SegmentQuality& quality) {
   constexpr double below_skin_mm = 5, above_wall_mm = 3;
-  if (half.enhancement.values.empty()) return;
+  if (enhancement.values.empty()) return;
   auto allowed = half.inside;
   for (std::size_t v = 0; v < allowed.values.size(); ++v)
     allowed.values[v] &=
         half.depth.values[v] > below_skin_mm && half.above_wall.values[v] > above_wall_mm;
-  quality.candidates = find_candidates(half.enhancement, allowed);
+  quality.candidates = find_candidates(enhancement, allowed);
 }
 
 SegmentResult segment_image(const Mri& mri, const SegmentInput& input,
@@ -146,15 +153,15 @@ SegmentResult segment_image(const Mri& mri, const SegmentInput& input,
   judge_position(mri.patient_position, result.quality);
 
   progress(0.10, "finding the outline");
-  BodyStage body = find_body(mri.image, input.fat_suppressed, result.quality);
-  add_enhancement(input, body, result);
+  const BodyStage body = find_body(mri.image, input.fat_suppressed, result.quality);
+  const BeforeAgent before = read_before_agent(input, body, result);
   if (!mri.geometry_known)
     throw std::runtime_error(
         "its header does not say where its frames stand; expected positions "
         "and pixel spacing (export it as single slices)");
   const Side side = choose_side(input, seeds, body.frame.midline_x);
   progress(0.35, "finding the chest wall");
-  const WallStage wall = find_wall(body, side, options.wall_stiffness);
+  const WallStage wall = find_wall(body, before, side, options.wall_stiffness);
   judge_movement(wall.pre_match, result.quality);
   judge_wall(body, wall, side, result.quality);
   judge_end_slices(body, side, result.quality);
@@ -162,17 +169,31 @@ SegmentResult segment_image(const Mri& mri, const SegmentInput& input,
   judge_symmetry(body, wall, result.quality);
 
   progress(0.60, "correcting the coil's shading");
-  HalfBreast half = cut_half(body, wall, side);
+  const VoxelBox box = side_box(body.image, body.frame, side);
+  const HalfImages coarse = cut_images(body, before, wall, box);
+  const SkinStage skin = find_skin(coarse.noisy, cropped(body.body, box), body.frame);
+  const HalfBreast half = half_breast(skin.surface.body, wall.wall, side);
   check_seeds(half, seeds);
-  offer_candidates(half, result.quality);
-  correct_shading(body.frame, half);
+  offer_candidates(half, coarse.enhancement, result.quality);
+  const HalfImages images = correct_shading(coarse, half, body.frame);
   progress(0.80, "finding the lesions");
+  const bool fat_suppressed = body.contrast.fat_suppressed;
   const Volume<std::uint8_t> lesions =
-      find_lesions(half, seeds, body.contrast.fat_suppressed, options, result.quality);
+      find_lesions(half, images, seeds, fat_suppressed, options, result.quality);
   judge_lesions_on_wall(half, lesions, result.quality);
   progress(0.88, "telling skin, fat and fibroglandular tissue apart");
-  label_tissue(half, tissue_image(half), lesions, body.contrast.fat_suppressed, options, result);
-  result.segmentation.region.side = side;
+  const double skin_mm = judge_skin(skin.slab, options, result.quality);
+  const TissueMasks masks = tissue_masks(half, images.enhancement, lesions, skin_mm);
+  if (fat_suppressed)
+    judge_suppression(
+        widely_corrected(cropped(body.image, box), wall.wide_log_bias, pure_interior(half)),
+        masks.statistics, result.quality);
+  const TissueImage tissue = tissue_image(images, wall.pre_match, body.noise_spread());
+  const Volume<float> restored = restored_within(masks.interior, images.denoised, tissue);
+  const TissueSplit split =
+      split_tissue(restored, masks.interior, masks.statistics, fat_suppressed);
+  result.segmentation = labelled(half, skin.surface.depth, skin_mm, lesions, split);
+  result.image = corrected_like(split, restored, images.denoised);
   result.segmentation.lesions = named_lesions(result.segmentation.labels, seeds);
   return result;
 }

@@ -15,13 +15,14 @@ struct BodyStage {
   Volume<float> image;  ///< cropped in front of the breasts and far behind the chest
   Volume<float> clean;  ///< the same, denoised
   Volume<std::uint8_t> body;
-  Volume<float> depth;        ///< below the skin [mm]
-  Volume<float> pre;          ///< before contrast agent, on the same grid; may be empty
-  Volume<float> enhancement;  ///< relative_enhancement; empty without `pre`
-  double noise = 0;           ///< standard deviation between voxels beside each other [image units]
+  Volume<float> depth;  ///< below the skin [mm]
+  double noise = 0;     ///< standard deviation between voxels beside each other [image units]
   double noise_at_distance = 0;  ///< between voxels whose noise is not correlated; no less
   BreastFrame frame;
   Contrast contrast;
+
+  /// By how much the noise of voxels apart exceeds that of neighbours; 1 or more.
+  double noise_spread() const { return noise > 0 ? noise_at_distance / noise : 1; }
 };
 
 /// Finds them. Throws std::runtime_error, without the file's name, if the image holds no breast or

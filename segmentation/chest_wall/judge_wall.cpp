@@ -25,7 +25,7 @@ void judge_lesions_on_wall(const HalfBreast& half, const Volume<std::uint8_t>& l
                            SegmentQuality& quality) {
   constexpr double most_cm2 = 3;  // a ball of 2 cm pressed flat
   constexpr double cm2 = 100;     // [mm^2]
-  const double voxel_mm = std::cbrt(half.image.voxel_volume());
+  const double voxel_mm = std::cbrt(half.body.voxel_volume());
   double area = 0;
   for (std::size_t v = 0; v < lesions.values.size(); ++v)
     if (lesions.values[v] && half.above_wall.values[v] < 1.5 * voxel_mm)

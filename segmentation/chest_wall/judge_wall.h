@@ -1,6 +1,7 @@
 #pragma once
 
 #include "segmentation/body/half_breast.h"
+#include "segmentation/chest_wall/wall_stage.h"
 #include "segmentation/segment_quality.h"
 
 namespace mammotwin {

@@ -58,7 +58,8 @@ Volume<float> corrected(Volume<float> image, const BiasEstimate& bias) {
 }
 
 /// Compares the images before and after contrast agent in front of the wall, on one side.
-PreMatch match_breast(const BodyStage& body, const PectoralWall& wall, Side side) {
+PreMatch match_breast(const BodyStage& body, const Volume<float>& pre, const PectoralWall& wall,
+                      Side side) {
   auto breast = body.body;
   tbb::parallel_for(0, breast.size.z(), [&](int k) {
     for (int j = 0; j < breast.size.y(); ++j)
@@ -71,13 +72,13 @@ PreMatch match_breast(const BodyStage& body, const PectoralWall& wall, Side side
   constexpr int margin = 8;  // voxels: more than smoothing reaches
   const auto [low, high] = box_around(breast, margin);
   const Volume<float> after = cropped(body.image, low, high);
-  return match_pre(after, cropped(body.pre, low, high),
+  return match_pre(after, cropped(pre, low, high),
                    after.like<float>(static_cast<float>(body.noise)), cropped(breast, low, high));
 }
 
 }  // namespace
 
-WallStage find_wall(const BodyStage& body, Side side, double stiffness) {
+WallStage find_wall(const BodyStage& body, const BeforeAgent& before, Side side, double stiffness) {
   const BiasEstimate bias = estimate_bias(body.image, body.body, num_classes);
   WallStage stage;
   stage.wide_log_bias = bias.wide_log_bias;
@@ -95,11 +96,11 @@ WallStage find_wall(const BodyStage& body, Side side, double stiffness) {
                               body.frame, stage.contrast, stiffness);
   };
   stage.wall = found_in(stage.corrected);
-  if (body.pre.values.empty()) return stage;
-  stage.pre_match = match_breast(body, stage.wall, side);
+  if (!before.is_given()) return stage;
+  stage.pre_match = match_breast(body, before.image, stage.wall, side);
   if (stage.pre_match->moved()) return stage;
-  const Volume<float> before = corrected(body.pre, bias);
-  stage.wall = found_in(mean_with_pre(stage.corrected, before, 1 / fat_of(before)));
+  const Volume<float> pre = corrected(before.image, bias);
+  stage.wall = found_in(mean_with_pre(stage.corrected, pre, 1 / fat_of(pre)));
   return stage;
 }
 

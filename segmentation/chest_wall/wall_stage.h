@@ -2,6 +2,7 @@
 
 #include "segmentation/body/body_stage.h"
 #include "segmentation/chest_wall/pectoral_wall.h"
+#include "segmentation/contrast_agent/before_agent.h"
 #include "segmentation/contrast_agent/pre_match.h"
 
 namespace mammotwin {
@@ -12,12 +13,12 @@ struct WallStage {
   Volume<float> wide_log_bias;  ///< the 60 mm part of the bias only: leaves local faults in
   WallContrast contrast;
   PectoralWall wall;
-  std::optional<PreMatch> pre_match;  ///< of `body.pre` in front of the wall
+  std::optional<PreMatch> pre_match;  ///< of the image before contrast agent, in front of the wall
 };
 
 /// Finds it in the image; then again in its mean with the image before contrast agent, if there is
 /// one and the patient did not move in between: there the heart is as dark as muscle when fat is
 /// not suppressed, and noise is less. `side`: whose breast is compared for movement.
-WallStage find_wall(const BodyStage& body, Side side, double stiffness);
+WallStage find_wall(const BodyStage& body, const BeforeAgent& before, Side side, double stiffness);
 
 }  // namespace mammotwin

@@ -30,4 +30,9 @@ Volume<T> cropped(const Volume<T>& volume, const Eigen::Vector3i& low,
   return out;
 }
 
+template <class T>
+Volume<T> cropped(const Volume<T>& volume, const VoxelBox& box) {
+  return cropped(volume, box.low, box.high);
+}
+
 }  // namespace mammotwin

@@ -56,22 +56,23 @@ std::size_t paint_given(const PlacedSeed& seed, std::uint8_t value, const HalfBr
 /// What contrast agent adds, bias corrected. A voxel's part of it is the lesion's part in the
 /// voxel, which is not so of the ratio to the image before: fat is twice as bright there as a
 /// lesion.
-Volume<float> subtraction(const HalfBreast& half) {
-  Volume<float> added = half.image;
+Volume<float> subtraction(const HalfImages& images) {
+  Volume<float> added = images.denoised;
   for (std::size_t v = 0; v < added.values.size(); ++v)
-    added.values[v] *= half.enhancement.values[v] / (1 + half.enhancement.values[v]);
+    added.values[v] *= images.enhancement.values[v] / (1 + images.enhancement.values[v]);
   return added;
 }
 
-/// What lesions stand out in, restored: the scan, or what contrast agent added to it.
-SharpImage sharp_scan(const HalfBreast& half) {
-  if (half.pre.values.empty())
-    return [&half](const auto& low, const auto& high) {
-      return restored_image(cropped(half.scan, low, high), cropped(half.noise, low, high));
+/// What lesions stand out in, restored: the image, or what contrast agent added to it.
+SharpImage sharp_image(const HalfImages& images) {
+  if (images.pre.values.empty())
+    return [&images](const auto& low, const auto& high) {
+      return restored_image(cropped(images.noisy, low, high), cropped(images.noise, low, high));
     };
-  return [&half](const auto& low, const auto& high) {
-    Volume<float> added = cropped(half.scan, low, high), noise = cropped(half.noise, low, high);
-    const Volume<float> before = cropped(half.pre, low, high);
+  return [&images](const auto& low, const auto& high) {
+    Volume<float> added = cropped(images.noisy, low, high),
+                  noise = cropped(images.noise, low, high);
+    const Volume<float> before = cropped(images.pre, low, high);
     for (std::size_t v = 0; v < added.values.size(); ++v) {
       added.values[v] -= before.values[v];
       noise.values[v] *= std::numbers::sqrt2_v<float>;
@@ -117,13 +118,13 @@ void check_seeds(const HalfBreast& half, const std::vector<PlacedSeed>& seeds) {
   for (const PlacedSeed& seed : seeds) check_inside(half, to_inside, seed);
 }
 
-Volume<std::uint8_t> find_lesions(const HalfBreast& half, const std::vector<PlacedSeed>& seeds,
-                                  bool fat_suppressed, const SegmentOptions& options,
-                                  SegmentQuality& quality) {
-  const bool by_enhancement = !half.enhancement.values.empty();
+Volume<std::uint8_t> find_lesions(const HalfBreast& half, const HalfImages& images,
+                                  const std::vector<PlacedSeed>& seeds, bool fat_suppressed,
+                                  const SegmentOptions& options, SegmentQuality& quality) {
+  const bool by_enhancement = !images.enhancement.values.empty();
   const bool brighter = fat_suppressed || by_enhancement;
-  const Volume<float> uptake = by_enhancement ? subtraction(half) : Volume<float>();
-  const SharpImage sharp = sharp_scan(half);
+  const Volume<float> uptake = by_enhancement ? subtraction(images) : Volume<float>();
+  const SharpImage sharp = sharp_image(images);
   auto lesions = half.body.like<std::uint8_t>(0);
   constexpr double below_skin_mm = 2.5;  // skin is as bright as a lesion
   auto allowed = half.inside;
@@ -144,7 +145,7 @@ Volume<std::uint8_t> find_lesions(const HalfBreast& half, const std::vector<Plac
     search.reach_mm = options.lesion_reach_mm;
     search.brighter = brighter;
     search.random_walker = options.lesion_method == LesionMethod::random_walker;
-    const FoundLesion found = find_lesion(by_enhancement ? uptake : half.image, sharp, allowed,
+    const FoundLesion found = find_lesion(by_enhancement ? uptake : images.denoised, sharp, allowed,
                                           seed.point_in_lps, search);
     judge(found, seed, brighter, quality);
     for (int k = 0; k < found.mask.size.z(); ++k)

@@ -5,6 +5,7 @@
 #include "segmentation/body/half_breast.h"
 #include "segmentation/lesion/lesion_seed.h"
 #include "segmentation/segment.h"
+#include "segmentation/shading/half_images.h"
 
 namespace mammotwin {
 
@@ -13,8 +14,8 @@ void check_seeds(const HalfBreast& half, const std::vector<PlacedSeed>& seeds);
 
 /// Label per voxel of one half: 0, or `label::lesion` + n for seed n. Throws std::runtime_error if
 /// a ball or a map holds no voxel of the breast. Doubts go to `quality`.
-Volume<std::uint8_t> find_lesions(const HalfBreast& half, const std::vector<PlacedSeed>& seeds,
-                                  bool fat_suppressed, const SegmentOptions& options,
-                                  SegmentQuality& quality);
+Volume<std::uint8_t> find_lesions(const HalfBreast& half, const HalfImages& images,
+                                  const std::vector<PlacedSeed>& seeds, bool fat_suppressed,
+                                  const SegmentOptions& options, SegmentQuality& quality);
 
 }  // namespace mammotwin

@@ -4,16 +4,16 @@
 
 namespace mammotwin {
 
-TissueImage tissue_image(const HalfBreast& half) {
-  TissueImage scan{half.scan, half.noise};
-  double noise = half.noise_spread;
-  if (half.pre_match && !half.pre_match->moved()) {
-    const double scale = half.pre_match->scale;
-    scan.image = mean_with_pre(std::move(scan.image), half.pre, scale);
-    noise *= std::sqrt(1 + scale * scale) / 2;
+TissueImage tissue_image(const HalfImages& images, const std::optional<PreMatch>& match,
+                         double noise_spread) {
+  TissueImage tissue{images.noisy, images.noise};
+  double factor = noise_spread;
+  if (match && !match->moved()) {
+    tissue.image = mean_with_pre(std::move(tissue.image), images.pre, match->scale);
+    factor *= std::sqrt(1 + match->scale * match->scale) / 2;
   }
-  for (float& value : scan.noise.values) value *= static_cast<float>(noise);
-  return scan;
+  for (float& value : tissue.noise.values) value *= static_cast<float>(factor);
+  return tissue;
 }
 
 }  // namespace mammotwin

@@ -1,6 +1,9 @@
 #pragma once
 
-#include "segmentation/body/half_breast.h"
+#include <optional>
+
+#include "segmentation/contrast_agent/pre_match.h"
+#include "segmentation/shading/half_images.h"
 
 namespace mammotwin {
 
@@ -9,7 +12,10 @@ struct TissueImage {
   Volume<float> image, noise;
 };
 
-/// The scan; or its mean with the image before contrast agent, unless the patient moved in between.
-TissueImage tissue_image(const HalfBreast& half);
+/// The noisy image; or its mean with the one before contrast agent, unless the patient moved in
+/// between (`match`). `noise_spread`: by how much the noise of far voxels exceeds that of
+/// neighbours.
+TissueImage tissue_image(const HalfImages& images, const std::optional<PreMatch>& match,
+                         double noise_spread);
 
 }  // namespace mammotwin

@@ -51,20 +51,18 @@ double wall_error(const BodyStage& body, const PectoralWall& wall) {
 }
 
 TEST(WallStage, IsFoundInBothImagesIfThePatientLayStill) {
-  BodyStage body = body_with(0.3);
-  const WallStage alone = find_wall(body, Side::left, stiffness);
+  const BodyStage body = body_with(0.3);
+  const WallStage alone = find_wall(body, {}, Side::left, stiffness);
   EXPECT_FALSE(alone.pre_match);
-  body.pre = image_before(body, 0);
-  const WallStage both = find_wall(body, Side::left, stiffness);
+  const WallStage both = find_wall(body, {image_before(body, 0), {}}, Side::left, stiffness);
   ASSERT_TRUE(both.pre_match && !both.pre_match->moved());
   EXPECT_LT(wall_error(body, both.wall), 0.75 * wall_error(body, alone.wall));
 }
 
 TEST(WallStage, IsThatOfTheLaterImageIfThePatientMoved) {
-  BodyStage body = body_with(0.05);
-  const WallStage alone = find_wall(body, Side::left, stiffness);
-  body.pre = image_before(body, 1);
-  const WallStage moved = find_wall(body, Side::left, stiffness);
+  const BodyStage body = body_with(0.05);
+  const WallStage alone = find_wall(body, {}, Side::left, stiffness);
+  const WallStage moved = find_wall(body, {image_before(body, 1), {}}, Side::left, stiffness);
   ASSERT_TRUE(moved.pre_match && moved.pre_match->moved());
   EXPECT_EQ(moved.wall.radius, alone.wall.radius);
 }
