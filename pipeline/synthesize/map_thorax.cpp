@@ -8,6 +8,7 @@
 #include "pipeline/synthesize/counter_random.h"
 #include "pipeline/synthesize/lattice_noise.h"
 #include "pipeline/synthesize/tissue_map.h"
+#include "segmentation/body/breast_region.h"
 #include "segmentation/image/components.h"
 #include "segmentation/image/distance.h"
 
@@ -17,7 +18,6 @@ namespace {
 using Eigen::Vector3d;
 using Mask = Volume<std::uint8_t>;
 
-constexpr std::size_t least_muscle = 2000;  // voxels: smaller pieces are vessels or mistakes
 constexpr double widest_gap_mm = 25;
 constexpr double rib_mm = 8, rib_pitch_mm = 27, sternum_half_mm = 17;
 
@@ -92,7 +92,7 @@ WallFront front_of_muscle(const Mask& substance) {
   auto muscle = substance.like<std::uint8_t>(0);
   for (std::size_t v = 0; v < muscle.values.size(); ++v)
     muscle.values[v] = substance.values[v] == static_cast<std::uint8_t>(Substance::muscle);
-  muscle = without_small_components(muscle, least_muscle);
+  muscle = without_small_components(muscle, least_muscle_ml);
   WallFront front{substance.size.x(), {}};
   for (int k = 0; k < substance.size.z(); ++k)
     for (int i = 0; i < substance.size.x(); ++i) {

@@ -17,8 +17,7 @@ constexpr double thick_share = 0.35;  // of the column through the apex
 constexpr double beyond_thick_mm = 15;
 constexpr double least_tissue_mm = 5;
 constexpr double least_tissue_lateral_mm = 8;
-constexpr double least_apex_mm = 15;        // a breast thinner than this is none
-constexpr std::size_t least_muscle = 2000;  // voxels: smaller pieces are vessels or noise
+constexpr double least_apex_mm = 15;  // a breast thinner than this is none
 
 /// Tissue in front of the muscle, one value a column (i, k), i fastest.
 struct Columns {
@@ -33,7 +32,7 @@ Columns measure_columns(const Volume<std::uint8_t>& labels) {
   auto muscle = labels.like<std::uint8_t>(0);
   for (std::size_t v = 0; v < labels.values.size(); ++v)
     muscle.values[v] = labels.values[v] == label::muscle;
-  muscle = without_small_components(muscle, least_muscle);
+  muscle = without_small_components(muscle, least_muscle_ml);
 
   Columns columns;
   columns.nx = labels.size.x();

@@ -7,6 +7,9 @@
 
 namespace mammotwin {
 
+/// A piece of muscle smaller than this [ml] is a vessel or noise.
+inline constexpr double least_muscle_ml = 2;
+
 /// The rectangle in the coronal plane that bounds one breast, from labels as in segmentation.h, of
 /// both breasts or of one half of the body.
 ///

@@ -22,7 +22,7 @@ Components connected_components(const Volume<std::uint8_t>& mask);
 /// The mask with its largest part only.
 Volume<std::uint8_t> largest_component(const Volume<std::uint8_t>& mask);
 
-/// The mask without parts of fewer than `least` voxels.
-Volume<std::uint8_t> without_small_components(const Volume<std::uint8_t>& mask, std::size_t least);
+/// The mask without parts of less than `least_ml`.
+Volume<std::uint8_t> without_small_components(const Volume<std::uint8_t>& mask, double least_ml);
 
 }  // namespace mammotwin

@@ -7,7 +7,10 @@
 
 namespace mammotwin {
 
-/// Convolved with a Gaussian of standard deviation `sigma` mm, cut at 3 sigma; zero outside.
+/// Convolved with a Gaussian of standard deviation `sigma` mm, cut at 3 sigma; zero outside. Our
+/// own: at 0.4 to 8 mm on 1.2 mm voxels ITK's DiscreteGaussianImageFilter takes 1.7 to 13 times the
+/// processor time, and its kernel (of Bessel functions) differs by 1.7 % at half a voxel's width;
+/// its recursive filter has no zero outside.
 Volume<float> gaussian_smoothed(Volume<float> image, double sigma);
 
 /// Weighted local mean: smoothed(weight * image) / smoothed(weight); 0 where there is no weight

@@ -7,7 +7,7 @@
 namespace mammotwin {
 
 /// Labels everything behind the front of the muscle as muscle, column by column; lesions stay.
-/// Pieces of muscle of fewer than 2000 voxels have no front; they become fat.
+/// Pieces of muscle of less than `least_muscle_ml` have no front; they become fat.
 void fill_behind_muscle(Volume<std::uint8_t>& labels);
 
 }  // namespace mammotwin

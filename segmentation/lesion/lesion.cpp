@@ -8,7 +8,7 @@
 #include "segmentation/image/components.h"
 #include "segmentation/image/crop.h"
 #include "segmentation/image/distance.h"
-#include "segmentation/image/order_statistics.h"
+#include "segmentation/image/masked.h"
 #include "segmentation/image/smoothing.h"
 #include "segmentation/lesion/random_walker.h"
 
@@ -30,14 +30,6 @@ constexpr double least_ml = 0.03;
 constexpr double fallback_mm = 5;
 constexpr double least_compact = 0.3;    // dark parts below are gland, not a lesion
 constexpr double least_contrast = 0.15;  // over the surroundings, else nothing stands out
-
-double median_where(const Volume<float>& image, const Mask& mask) {
-  std::vector<float> values;
-  for (std::size_t v = 0; v < mask.values.size(); ++v)
-    if (mask.values[v]) values.push_back(image.values[v]);
-  if (values.empty()) return 0;
-  return median(values);
-}
 
 std::size_t count(const Mask& mask) {
   return static_cast<std::size_t>(std::count(mask.values.begin(), mask.values.end(), 1));
@@ -94,9 +86,9 @@ struct Region {
       : mask(lesion), allowed(may), depth(inner_distance(lesion)), away(distance_to(lesion)) {}
 
   double brightness(const Volume<float>& image, double opening_mm) const {
-    return median_where(image, where(mask, [&](const auto&, std::size_t v) {
-                          return depth.values[v] > opening_mm;
-                        }));
+    return median_in(image, where(mask, [&](const auto&, std::size_t v) {
+                       return depth.values[v] > opening_mm;
+                     }));
   }
   /// Of the shell around it; empty if none of it is allowed.
   std::optional<double> background(const Volume<float>& image) const {
@@ -104,7 +96,7 @@ struct Region {
       return allowed.values[v] && away.values[v] > shell_from_mm && away.values[v] < shell_to_mm;
     });
     if (count(shell) == 0) return std::nullopt;
-    return median_where(image, shell);
+    return median_in(image, shell);
   }
 };
 
@@ -122,10 +114,10 @@ class HalfMaximum {
     });
     core_ = argmax(wide, near);
     lesion.brightness = wide.values[core_];
-    lesion.background = median_where(image_, where(allowed_, [&](const auto& x, std::size_t v) {
-                                       const double d = (x - point_).norm();
-                                       return allowed_.values[v] && d > 10 && d < 25;
-                                     }));
+    lesion.background = median_in(image_, where(allowed_, [&](const auto& x, std::size_t v) {
+                                    const double d = (x - point_).norm();
+                                    return allowed_.values[v] && d > 10 && d < 25;
+                                  }));
     Mask region = allowed_.like<std::uint8_t>(0);
     for (int round = 0; round < most_rounds; ++round) {
       const Mask next = grow(lesion, false);

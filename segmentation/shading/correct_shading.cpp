@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "segmentation/image/order_statistics.h"
+#include "segmentation/image/masked.h"
 #include "segmentation/image/smoothing.h"
 #include "segmentation/shading/flank_shading.h"
 #include "segmentation/shading/n4.h"
@@ -96,13 +96,11 @@ HalfImages correct_shading(const HalfImages& images, const HalfBreast& half,
 
 Volume<float> widely_corrected(Volume<float> image, const Volume<float>& wide_log_bias,
                                const Volume<std::uint8_t>& where) {
-  std::vector<float> values;
   for (int k = 0; k < image.size.z(); ++k)
     for (int j = 0; j < image.size.y(); ++j)
-      for (int i = 0; i < image.size.x(); ++i) {
+      for (int i = 0; i < image.size.x(); ++i)
         image(i, j, k) *= std::exp(-interpolated(wide_log_bias, image.position(i, j, k)));
-        if (where(i, j, k)) values.push_back(image(i, j, k));
-      }
+  std::vector<float> values = values_in(image, where);
   if (values.empty()) return image;
   const float one = std::max(median(values), 1e-6F);
   for (float& value : image.values) value /= one;

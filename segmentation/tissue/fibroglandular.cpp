@@ -1,12 +1,12 @@
 #include "segmentation/tissue/fibroglandular.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <vector>
 
 #include "segmentation/image/distance.h"
-#include "segmentation/image/order_statistics.h"
+#include "segmentation/image/masked.h"
+#include "segmentation/image/otsu.h"
 #include "segmentation/image/smoothing.h"
 
 namespace mammotwin {
@@ -19,38 +19,16 @@ constexpr std::size_t least_voxels = 200;  // fewer give no median worth the nam
 constexpr float brightest_gland = 2.5;     // of fat; vessels and lesions are brighter
 
 double median_where(const Volume<float>& image, const Mask& mask) {
-  std::vector<float> values;
-  for (std::size_t v = 0; v < mask.values.size(); ++v)
-    if (mask.values[v]) values.push_back(image.values[v]);
-  if (values.size() < least_voxels) return 0;
-  return median(values);
+  return median_in(image, mask, least_voxels);
 }
 
-/// Otsu's threshold over the mask, in 256 bins up to the 99.5th percentile.
+/// Otsu's threshold over the mask, up to the 99.5th percentile.
 double otsu(const Volume<float>& image, const Mask& mask) {
-  std::vector<float> values;
-  for (std::size_t v = 0; v < mask.values.size(); ++v)
-    if (mask.values[v]) values.push_back(image.values[v]);
+  std::vector<float> values = values_in(image, mask);
   if (values.empty()) return 0;
-  const std::size_t top = values.size() * 995 / 1000;
-  std::nth_element(values.begin(), values.begin() + top, values.end());
-  const double high = std::max(values[top], 1e-6F);
-  constexpr int bins = 256;
-  std::array<double, bins> histogram{};
-  for (const float value : values)
-    ++histogram[static_cast<int>(std::clamp(value / high, 0.0, 1.0) * (bins - 1))];
-  double total = 0, moment = 0;
-  for (int b = 0; b < bins; ++b) total += histogram[b], moment += b * histogram[b];
-  double below = 0, moment_below = 0, best = -1;
-  int threshold = 0;
-  for (int b = 0; b < bins - 1; ++b) {
-    below += histogram[b], moment_below += b * histogram[b];
-    if (below == 0 || below == total) continue;
-    const double gap = moment_below / below - (moment - moment_below) / (total - below);
-    const double between = below * (total - below) * gap * gap;
-    if (between > best) best = between, threshold = b;
-  }
-  return (threshold + 1) * high / (bins - 1);
+  constexpr double top = 0.995;
+  const double high = std::max(quantile(values, top), 1e-6F);
+  return otsu_threshold(values, high);
 }
 
 /// Interior voxels on one side of a threshold, without the outermost voxel of each part.
