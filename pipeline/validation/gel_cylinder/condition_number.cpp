@@ -13,18 +13,6 @@ namespace {
 
 using Eigen::VectorXd;
 
-VectorXd multiply(const SparsePattern& pattern, const std::vector<double>& values,
-                  const VectorXd& x) {
-  VectorXd y = VectorXd::Zero(x.size());
-  for (int c = 0; c < pattern.num_columns(); ++c)
-    for (int k = pattern.starts[c]; k < pattern.starts[c + 1]; ++k) {
-      const int r = pattern.rows[k];
-      y[r] += values[k] * x[c];
-      if (r != c) y[c] += values[k] * x[r];
-    }
-  return y;
-}
-
 VectorXd diagonal(const SparsePattern& pattern, const std::vector<double>& values) {
   VectorXd d = VectorXd::Zero(pattern.num_columns());
   for (int c = 0; c < pattern.num_columns(); ++c)
