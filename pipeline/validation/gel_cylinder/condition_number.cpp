@@ -6,6 +6,7 @@
 
 #include "solver/newton/assembler.h"
 #include "solver/newton/cholesky.h"
+#include "solver/newton/sparse_pattern.h"
 
 namespace mammotwin {
 
