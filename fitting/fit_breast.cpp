@@ -23,6 +23,7 @@ constexpr int smallest_breast_voxels = 20000;  // 20 ml at 1 mm
 constexpr std::array<int, 7> column_counts = {4, 5, 6, 7, 8, 10, 12};
 // 20 breasts of up to 12.7 cm² a column are within 0.7 mm (95 %) with 7 x 7; one of 14.5 was not.
 constexpr double largest_column_mm2 = 1400;
+constexpr double worth_pulling_in_mm = 1;  // RMS of the skin, beyond which an edge is given up
 constexpr int fewest_columns = 7, most_columns = 12, layers = 2;
 // A scan is smoother than labels of 1 mm, and pressed to half its thickness such a breast strays by
 // 0.35 mm from a refined mesh with 7 x 7.
@@ -72,7 +73,7 @@ void judge(FitReport& r) {
     if (bad) r.reasons.push_back(reason);
   };
   look(std::max(r.skin_rms_mesh_to_data_mm, r.skin_rms_data_to_mesh_mm) > limits::skin_rms_mm,
-       "The mesh's skin is more than 1 mm (RMS) off the labels'.");
+       "The mesh's skin is more than 0.5 mm (RMS) off the labels'.");
   look(r.covered_fraction < limits::covered_breast,
        "Less than 97 % of the breast's voxels lie in the mesh.");
   look(r.covered_lesions < limits::covered_lesions, "Part of a lesion lies outside the mesh.");
@@ -158,7 +159,7 @@ class BreastFit {
     if (!r.usable()) return std::numeric_limits<double>::infinity();
     return std::max(r.skin_rms_mesh_to_data_mm, r.skin_rms_data_to_mesh_mm);
   }
-  static bool good(const FitReport& r) { return error(r) < limits::skin_rms_mm; }
+  static bool good(const FitReport& r) { return error(r) < worth_pulling_in_mm; }
 
   FitResult once(const Eigen::Vector3i& elements, const SkinToFit& skin) const {
     tell(0.1, "flattening the skin");

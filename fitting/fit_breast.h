@@ -67,7 +67,7 @@ struct FitReport {
   double min_jacobian_bound = 0;  ///< det(∂x/∂ξ) is at least this fraction of its mean, proved
   double min_scaled_jacobian = 0;           ///< smallest over 7³ points an element
   double covered_fraction = 0;              ///< of the breast's voxels in the region
-  double covered_lesions = 1;               ///< of the lesions' voxels in the region
+  double covered_lesions = 1;               ///< of the lesions' voxels, in the region or not
   int iterations = 0;                       ///< of Ceres, refused steps included
   std::vector<FitIteration> course;         ///< of the mesh that is given; each stage's start, too
   std::vector<std::string> solver_reports;  ///< Ceres' own, one a call

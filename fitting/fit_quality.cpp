@@ -112,7 +112,7 @@ Coverage coverage(const HermiteMesh& mesh, const Volume<std::uint8_t>& labels,
   tbb::parallel_for(0, labels.size.z(), [&](int k) {
     Count& count = counts[k];
     for (int i = 0; i < labels.size.x(); ++i) {
-      if (!region.contains(labels.position(i, 0, k))) continue;
+      const bool in_region = region.contains(labels.position(i, 0, k));
       MeshPoint guess{0, Eigen::Vector3d::Constant(0.5)}, last{-1, guess.xi};
       for (int j = 0; j < labels.size.y(); ++j) {
         const std::uint8_t value = labels(i, j, k);
@@ -120,6 +120,7 @@ Coverage coverage(const HermiteMesh& mesh, const Volume<std::uint8_t>& labels,
           if (value == label::muscle) break;
           continue;
         }
+        if (!in_region && !label::is_lesion(value)) continue;
         const auto found = map.locate(labels.position(i, j, k), guess);
         if (found) {
           // Two in a row show where the next one is.
@@ -127,8 +128,8 @@ Coverage coverage(const HermiteMesh& mesh, const Volume<std::uint8_t>& labels,
                    found->element == last.element ? 2 * found->xi - last.xi : found->xi};
           last = *found;
         }
-        ++count.breast;
-        count.breast_inside += found.has_value();
+        count.breast += in_region;
+        count.breast_inside += in_region && found.has_value();
         if (label::is_lesion(value)) {
           ++count.lesion;
           count.lesion_inside += found.has_value();

@@ -32,7 +32,7 @@ double rms_to_faces(const HermiteMesh& mesh, const std::vector<FaceLabels>& face
 /// Which voxels' centres lie in the mesh.
 struct Coverage {
   double breast = 0;   ///< fraction of the region's breast voxels in front of the wall
-  double lesions = 1;  ///< fraction of the lesion voxels of the label volume
+  double lesions = 1;  ///< fraction of the lesion voxels, in the region or not
 };
 Coverage coverage(const HermiteMesh& mesh, const Volume<std::uint8_t>& labels,
                   const BreastRegion& region);
