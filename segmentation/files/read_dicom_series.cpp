@@ -1,8 +1,11 @@
 #include "segmentation/files/read_dicom_series.h"
 
 #include <algorithm>
+#include <cmath>
+#include <iterator>
 #include <map>
 #include <set>
+#include <sstream>
 #include <stdexcept>
 
 #include "segmentation/files/dicom_slice.h"
@@ -87,8 +90,15 @@ std::string list(const std::vector<Series>& all) {
   return text;
 }
 
+/// Computed from other images: told by the first value of ImageType, or by a later one, as scanners
+/// call what they compute "original", too.
 bool is_derived(const Series& series) {
-  return series.slices.front().image_type.rfind("DERIVED", 0) == 0;
+  static const std::set<std::string> computed{
+      "DERIVED", "SUB", "WI", "WO", "PEI", "MIP", "MPR", "ADC", "TRACEW", "PROJECTION IMAGE"};
+  std::istringstream values(series.slices.front().image_type);
+  for (std::string value; std::getline(values, value, '\\');)
+    if (computed.count(value) || value.rfind("MIP_", 0) == 0) return true;
+  return false;
 }
 
 /// Area of a pixel times the distance between slices [mm^3]; large where it cannot be told.
@@ -114,12 +124,37 @@ std::vector<Series> finest(std::vector<Series> all) {
   return all;
 }
 
+/// The same place imaged in the same way.
+bool same_geometry(const Series& a, const Series& b) {
+  const SlicePlacement &p = a.slices.front().placement, &q = b.slices.front().placement;
+  return a.slices.size() == b.slices.size() && p.columns == q.columns && p.rows == q.rows &&
+         std::abs(p.row_spacing - q.row_spacing) < same_place_mm;
+}
+
+/// The series that repeat one geometry three times or more, the longest such run: a dynamic study.
+/// Empty without one.
+std::vector<Series> dynamic_study(const std::vector<Series>& all) {
+  constexpr std::size_t least_phases = 3;
+  std::vector<Series> longest;
+  for (const Series& first : all) {
+    std::vector<Series> run;
+    std::copy_if(all.begin(), all.end(), std::back_inserter(run),
+                 [&](const Series& other) { return same_geometry(first, other); });
+    if (run.size() >= least_phases && run.size() > longest.size()) longest = std::move(run);
+  }
+  return longest;
+}
+
 /// The stated rule where several series could serve: derived ones (subtractions, projections) are
-/// left aside, then those with coarser voxels, then those with fewer slices; of what is left the
-/// second in order of time is taken, the first after the contrast agent.
+/// left aside; where the rest holds a dynamic study, all others: a later, finer series is noisier
+/// and its lesions have washed out. Then those with coarser voxels and with fewer slices; of what
+/// is left the second in order of time is taken, the first after the contrast agent.
 Series choose_by_rule(std::vector<Series> all, std::vector<std::string>& notes) {
   const std::size_t serving = all.size();
   if (!std::all_of(all.begin(), all.end(), is_derived)) std::erase_if(all, is_derived);
+  const std::vector<Series> dynamic = dynamic_study(all);
+  const std::size_t set_aside = dynamic.empty() ? 0 : all.size() - dynamic.size();
+  if (!dynamic.empty()) all = dynamic;
   all = finest(std::move(all));
   std::size_t most = 0;
   for (const Series& series : all) most = std::max(most, series.slices.size());
@@ -135,6 +170,10 @@ Series choose_by_rule(std::vector<Series> all, std::vector<std::string>& notes) 
                  " that are not derived and have the finest voxels and most slices (in a dynamic "
                  "study the first after the contrast agent)"
            : ", the one that is not derived and has the finest voxels and most slices") +
+      (set_aside > 0
+           ? "; " + std::to_string(set_aside) +
+                 " of another geometry than the dynamic study's were left aside, finer or not"
+           : "") +
       "; mri.series names another");
   return chosen;
 }

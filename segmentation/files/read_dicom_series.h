@@ -21,8 +21,9 @@ struct DicomVolume {
 ///
 /// `series` names it by series number or SeriesInstanceUID, `NUMBER:PHASE` also the phase where
 /// the series holds several. Without it the only MR series of at least 16 slices is taken; of
-/// several, one that is not derived, has the finest voxels (within a tenth) and the most slices,
-/// and of those the second in time; a note says which and why. Of several phases the second is
+/// several, those that are not derived; of these a dynamic study (one geometry three times or more)
+/// where there is one; of these the finest voxels (within a tenth) and the most slices, and of what
+/// is left the second in time; a note says which and why. Of several phases the second is
 /// taken (in a dynamic series the first after the contrast agent), and a note says so. Throws
 /// std::runtime_error with the path in front; patient identifiers and UIDs are never shown.
 DicomVolume read_dicom_series(const std::filesystem::path& path,

@@ -39,6 +39,23 @@ TEST(DicomSeries, OfADynamicStudyTheSecondInTimeIsReadAndSaid) {
                   {"of 5 series", "series 4", "second in time of 3", "not derived"});
 }
 
+TEST(DicomSeries, ALateFinerSeriesIsNotTheDynamicStudy) {
+  const ScratchFolder folder("late");
+  write_study(folder.path);
+  DicomHeader h;
+  h.series_number = "24", h.series_uid = "1.2.24", h.acquisition_time = "121500";
+  write_dicom_series(folder.path, "24", h, stack(240, 20, 1));
+  // What is computed calls itself original, too.
+  h.series_number = "7", h.series_uid = "1.2.7", h.acquisition_time = "120100";
+  h.image_type = "ORIGINAL\\SECONDARY\\M\\SUB";
+  write_dicom_series(folder.path, "7", h, stack(70));
+  const Mri mri = read_mri(folder.path);
+  EXPECT_EQ(mri.image(0, 0, 0), 40);
+  // The coarse one and the late one; the two derived ones do not count.
+  expect_mentions(mri.notes.front(),
+                  {"of 7 series", "series 4", "second in time of 3", "2 of another geometry"});
+}
+
 TEST(DicomSeries, TheTomlNamesAnother) {
   const ScratchFolder folder("named");
   write_study(folder.path);
