@@ -110,6 +110,25 @@ void judge(const FoundLesion& found, const PlacedSeed& seed, bool brighter,
                   "two methods disagree on the extent of lesion " + seed.id + " (Dice under 0.5)");
 }
 
+/// Labels lesion n; a voxel that an earlier one has, too, stays with the nearer point: lesions
+/// close to each other are both kept, and meet half-way.
+void paint_found(const FoundLesion& found, const std::vector<PlacedSeed>& seeds, std::size_t n,
+                 Volume<std::uint8_t>& lesions) {
+  const auto away = [&](std::size_t seed, const Eigen::Vector3d& x) {
+    return (x - seeds[seed].point_in_lps).squaredNorm();
+  };
+  for (int k = 0; k < found.mask.size.z(); ++k)
+    for (int j = 0; j < found.mask.size.y(); ++j)
+      for (int i = 0; i < found.mask.size.x(); ++i) {
+        if (!found.mask(i, j, k)) continue;
+        const Eigen::Vector3i v = found.low + Eigen::Vector3i(i, j, k);
+        std::uint8_t& value = lesions(v.x(), v.y(), v.z());
+        const Eigen::Vector3d x = lesions.position(v.x(), v.y(), v.z());
+        if (value == 0 || away(n, x) < away(value - label::lesion, x))
+          value = static_cast<std::uint8_t>(label::lesion + n);
+      }
+}
+
 }  // namespace
 
 void check_seeds(const HalfBreast& half, const std::vector<PlacedSeed>& seeds) {
@@ -148,11 +167,7 @@ Volume<std::uint8_t> find_lesions(const HalfBreast& half, const HalfImages& imag
     const FoundLesion found = find_lesion(by_enhancement ? uptake : images.denoised, sharp, allowed,
                                           seed.point_in_lps, search);
     judge(found, seed, brighter, quality);
-    for (int k = 0; k < found.mask.size.z(); ++k)
-      for (int j = 0; j < found.mask.size.y(); ++j)
-        for (int i = 0; i < found.mask.size.x(); ++i)
-          if (found.mask(i, j, k))
-            lesions(found.low.x() + i, found.low.y() + j, found.low.z() + k) = value;
+    paint_found(found, seeds, n, lesions);
   }
   return lesions;
 }

@@ -88,6 +88,21 @@ TEST(SegmentOfAnMri, RefusesALesionOutsideTheBreast) {
   }
 }
 
+TEST(SegmentOfAnMri, KeepsTwoLesionsThatAreOneBrightPatch) {
+  const ScratchFolder folder("close");
+  const Phantom phantom;
+  SegmentInput input = input_for(write_phantom(folder.path, phantom), phantom, {-3.4, 0, 0});
+  input.lesions.push_back({"L2", phantom.lesion + Eigen::Vector3d(3.4, 0, 0), {}, {}, {}, {}});
+  const SegmentResult result = segment(input, {});
+  const std::vector<Lesion>& lesions = result.segmentation.lesions;
+  ASSERT_EQ(lesions.size(), 2u);
+  // Halves of a ball: each holds half of it, its centroid 3/8 of the radius off the middle.
+  EXPECT_NEAR(lesions[0].volume_ml / lesions[1].volume_ml, 1, 0.15);
+  for (int n = 0; n < 2; ++n)
+    EXPECT_NEAR(lesions[n].centroid_in_lps.x() - phantom.lesion.x(),
+                (n ? 3 : -3) * phantom.lesion_radius / 8, 1);
+}
+
 TEST(SegmentOfAnMri, RefusesAnUnclearSide) {
   const ScratchFolder folder("noside");
   const Phantom phantom{.voxel_mm = 3};
