@@ -68,6 +68,7 @@ json to_json(const SegmentQuality& q) {
       {"nipple_lps_mm", point(q.nipple_in_lps)},
       {"chest_wall_doubt", optional_number(q.chest_wall_doubt)},
       {"chest_wall_fat_behind", optional_number(q.chest_wall_fat_behind)},
+      {"chest_wall_disputed", optional_number(q.chest_wall_disputed)},
       {"failed_suppression_ml", optional_number(q.failed_suppression_ml)},
       {"pre_shift_mm", optional_number(q.pre_shift_mm)},
       {"signal_to_noise", optional_number(q.signal_to_noise)},

@@ -1,10 +1,35 @@
 #include "segmentation/chest_wall/judge_wall.h"
 
 #include <cmath>
+#include <sstream>
 
 #include "segmentation/segment_limits.h"
 
 namespace mammotwin {
+
+namespace {
+
+/// A second wall that image and prior allow is said, whichever was taken.
+void judge_dispute(const WallDispute& dispute, SegmentQuality& quality) {
+  quality.chest_wall_disputed = dispute.share;
+  if (dispute.share <=
+      (dispute.prior_chosen ? limits::chest_wall_disputed : limits::chest_wall_unlike_others))
+    return;
+  const Eigen::Vector3d& x = dispute.middle_in_lps;
+  std::ostringstream reason;
+  reason << "over " << std::lround(100 * dispute.share)
+         << " % of its front the chest wall may as well lie "
+         << std::lround(std::abs(dispute.median_mm)) << " mm "
+         << (dispute.median_mm > 0 ? "further forward" : "deeper")
+         << " than found, in the middle at (" << std::lround(x.x()) << ", " << std::lround(x.y())
+         << ", " << std::lround(x.z()) << ") mm LPS: "
+         << (dispute.prior_chosen ? "taken was where other women's lies, not the other edge there"
+                                  : "taken was the image's edge, which is not where other women's "
+                                    "lies");
+  quality.doubt(SegmentStatus::look, reason.str());
+}
+
+}  // namespace
 
 void judge_wall(const BodyStage& body, const WallStage& wall, Side side, SegmentQuality& quality) {
   quality.chest_wall_doubt = wall.wall.doubt(side, body.frame.z_low, body.frame.z_high);
@@ -19,6 +44,7 @@ void judge_wall(const BodyStage& body, const WallStage& wall, Side side, Segment
                   "behind " + std::to_string(std::lround(100 * *quality.chest_wall_fat_behind)) +
                       " % of the chest wall found there is fat rather than muscle; expected at "
                       "most 8 %: it may stand on gland or a lesion in front of the muscle");
+  judge_dispute(wall.dispute, quality);
 }
 
 void judge_lesions_on_wall(const HalfBreast& half, const Volume<std::uint8_t>& lesions,

@@ -8,6 +8,7 @@
 #include "segmentation/chest_wall/semi_global_search.h"
 #include "segmentation/chest_wall/wall_contrast.h"
 #include "segmentation/chest_wall/wall_cost.h"
+#include "segmentation/chest_wall/wall_prior.h"
 #include "segmentation/chest_wall/wall_refinement.h"
 #include "segmentation/image/order_statistics.h"
 #include "segmentation/image/smoothing.h"
@@ -69,12 +70,15 @@ struct FoundDepths {
   std::vector<float> cost;    ///< there
 };
 
+/// The prior decides where the wall is; support is what the image alone says of it.
 FoundDepths search(const PolarRays& rays, const std::vector<WallContrast>& contrasts,
-                   double stiffness) {
+                   const std::vector<UsualRadius>& usual, double stiffness) {
   const std::vector<float> cost = wall_costs(rays, contrasts);
+  std::vector<float> with_prior = cost;
+  add_prior(usual, with_prior);
   FoundDepths found;
-  found.depth =
-      semi_global_search(cost, rays.rows, rays.angles, PolarRays::depths, stiffness, max_jump_mm);
+  found.depth = semi_global_search(with_prior, rays.rows, rays.angles, PolarRays::depths, stiffness,
+                                   max_jump_mm);
   found.depth = median_filtered(found.depth, rays.rows, rays.angles);
   for (std::size_t n = 0; n < found.depth.size(); ++n) {
     const auto at = static_cast<std::size_t>(std::lround(found.depth[n]));
@@ -88,15 +92,17 @@ FoundDepths search(const PolarRays& rays, const std::vector<WallContrast>& contr
 
 PectoralWall find_pectoral_wall(const Volume<float>& corrected, const Volume<std::uint8_t>& body,
                                 const BreastFrame& frame, const WallContrast& contrast,
-                                double stiffness) {
+                                double stiffness, WallEvidence evidence) {
   PectoralWall wall = laid_out(corrected, frame);
   const PolarRays rays = cast_rays(corrected, body, wall);
   std::vector<WallContrast> contrasts(rays.exit.size(), contrast);
-  FoundDepths found = search(rays, contrasts, stiffness);
+  const std::vector<UsualRadius> usual =
+      evidence == WallEvidence::image ? std::vector<UsualRadius>() : usual_radii(wall, frame);
+  FoundDepths found = search(rays, contrasts, usual, stiffness);
   constexpr int rounds = 2;  // a wall that stood on gland is on muscle in the first
   for (int round = 0; round < rounds; ++round) {
     contrasts = local_contrasts(rays, found.depth, found.cost, contrast);
-    found = search(rays, contrasts, stiffness);
+    found = search(rays, contrasts, usual, stiffness);
   }
   wall.cost = found.cost;
   wall.contrast = contrasts;

@@ -45,11 +45,13 @@ struct PectoralWall {
   /// breastbone (12 degrees) there are but 4 mm of muscle, and bone is as bright as fat.
   double fat_behind(Side side, double z_low, double z_high) const;
 
- private:
   /// Rays in front of one side, as indices into `radius`, from some angle off the midline on.
   std::vector<std::size_t> rays_before(Side side, double z_low, double z_high,
                                        double from_degrees = 0) const;
 };
+
+/// What decides where the wall is: the image alone, or with it where it usually is.
+enum class WallEvidence { image, image_and_prior };
 
 /// Finds the front of the pectoral muscle in a bias-corrected image with fat at 1.
 ///
@@ -58,6 +60,6 @@ struct PectoralWall {
 /// wall_refinement.h then moves it to the middle of the step that the image shows there.
 PectoralWall find_pectoral_wall(const Volume<float>& corrected, const Volume<std::uint8_t>& body,
                                 const BreastFrame& frame, const WallContrast& contrast,
-                                double stiffness);
+                                double stiffness, WallEvidence evidence);
 
 }  // namespace mammotwin

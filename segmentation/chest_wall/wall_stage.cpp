@@ -92,15 +92,23 @@ WallStage find_wall(const BodyStage& body, const BeforeAgent& before, Side side,
   const Volume<std::uint8_t> closed = with_closed_thorax(body);
   const auto found_in = [&](Volume<float> image) {
     constexpr double ray_smoothing_mm = 0.8;  // about a voxel: noise falls, the edge stays
-    return find_pectoral_wall(gaussian_smoothed(std::move(image), ray_smoothing_mm), closed,
-                              body.frame, stage.contrast, stiffness);
+    const Volume<float> smooth = gaussian_smoothed(std::move(image), ray_smoothing_mm);
+    const auto by = [&](WallEvidence evidence) {
+      return find_pectoral_wall(smooth, closed, body.frame, stage.contrast, stiffness, evidence);
+    };
+    return settled_wall(by(WallEvidence::image), by(WallEvidence::image_and_prior),
+                        body.frame.z_low, body.frame.z_high);
   };
-  stage.wall = found_in(stage.corrected);
+  const auto take = [&](SettledWall settled) {
+    stage.dispute = side == Side::left ? settled.left : settled.right;
+    stage.wall = std::move(settled.wall);
+  };
+  take(found_in(stage.corrected));
   if (!before.is_given()) return stage;
   stage.pre_match = match_breast(body, before.image, stage.wall, side);
   if (stage.pre_match->moved()) return stage;
   const Volume<float> pre = corrected(before.image, bias);
-  stage.wall = found_in(mean_with_pre(stage.corrected, pre, 1 / fat_of(pre)));
+  take(found_in(mean_with_pre(stage.corrected, pre, 1 / fat_of(pre))));
   return stage;
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "segmentation/body/body_stage.h"
-#include "segmentation/chest_wall/pectoral_wall.h"
+#include "segmentation/chest_wall/settle_wall.h"
 #include "segmentation/contrast_agent/before_agent.h"
 #include "segmentation/contrast_agent/pre_match.h"
 
@@ -13,6 +13,7 @@ struct WallStage {
   Volume<float> wide_log_bias;  ///< the 60 mm part of the bias only: leaves local faults in
   WallContrast contrast;
   PectoralWall wall;
+  WallDispute dispute;                ///< of the side asked for
   std::optional<PreMatch> pre_match;  ///< of the image before contrast agent, in front of the wall
 };
 
