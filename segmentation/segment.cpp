@@ -1,10 +1,10 @@
 #include "segmentation/segment.h"
 
 #include <cmath>
-#include <sstream>
 #include <stdexcept>
 
 #include "segmentation/body/breast_region.h"
+#include "segmentation/body/judge_region.h"
 #include "segmentation/body/nipple.h"
 #include "segmentation/files/markups_point.h"
 #include "segmentation/files/read_image.h"
@@ -35,17 +35,6 @@ void crop(SegmentResult& result) {
   if (!result.image.values.empty()) result.image = cropped(result.image, box.low, box.high);
 }
 
-void note_nipple(const Nipple& nipple, SegmentQuality& quality) {
-  if (!(nipple.stands_out_mm > 0))
-    return quality.notes.push_back(
-        "no nipple stands out of the skin: it was taken as the most anterior point");
-  std::ostringstream note;
-  note.precision(2);
-  note << "the nipple was found as what stands out of the skin by " << nipple.stands_out_mm
-       << " mm";
-  quality.notes.push_back(note.str());
-}
-
 void place_nipple(const SegmentInput& input, Segmentation& s, SegmentQuality& quality) {
   if (input.nipple_in_lps) {
     s.nipple_in_lps = *input.nipple_in_lps;
@@ -55,7 +44,7 @@ void place_nipple(const SegmentInput& input, Segmentation& s, SegmentQuality& qu
     const Nipple nipple = find_nipple(s.labels, s.region);
     s.nipple_in_lps = nipple.tip_in_lps;
     if (!input.label_map) label_papilla(nipple, s);
-    note_nipple(nipple, quality);
+    judge_nipple(nipple, quality);
     return;
   }
   auto breast = s.labels.like<std::uint8_t>(0);
@@ -150,8 +139,10 @@ SegmentResult segment(const SegmentInput& input, const SegmentOptions& options,
   tell(0.9, "finding the breast's region");
   settle_fractions(s);
   crop(result);
-  s.region = find_breast_region(s.labels, s.region.side);
+  const FoundRegion found = find_region(s.labels, s.region.side, LabelsHold::one_side);
+  s.region = found.region;
   place_nipple(input, s, q);
+  judge_region(found, s, q);
   if (input.label_map) hand_on_mri(input, result);
   tell(0.95, "measuring");
   q.side = s.region.side;

@@ -20,6 +20,9 @@ inline constexpr double chest_wall_disputed = 0.10, chest_wall_unlike_others = 0
 /// mm.
 inline constexpr double pre_shift_mm = 1;
 inline constexpr double signal_to_noise = 8;  ///< noise of an eighth of fat: classes overlap
-inline constexpr double volume_ratio = 0.4;   ///< smaller over larger breast, at least
+/// Of the tissue in front of the breastbone's skin, outside the breast's region: what a rounded
+/// corner costs; beyond the second the result is of another breast.
+inline constexpr double pendant_outside = 0.03, pendant_outside_refused = 0.15;
+inline constexpr double volume_ratio = 0.4;  ///< smaller over larger breast, at least
 
 }  // namespace mammotwin::limits

@@ -73,6 +73,7 @@ json to_json(const SegmentQuality& q) {
       {"pre_shift_mm", optional_number(q.pre_shift_mm)},
       {"signal_to_noise", optional_number(q.signal_to_noise)},
       {"clipped_share", optional_number(q.clipped_share)},
+      {"pendant_outside", optional_number(q.pendant_outside)},
       {"volume_ratio", optional_number(q.volume_ratio)},
       {"lesion_candidates", candidates_json(q.candidates)},
       {"lesion_agreement", q.lesion_agreement},

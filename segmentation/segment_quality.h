@@ -35,6 +35,7 @@ struct SegmentQuality {
   std::optional<double> pre_shift_mm;           ///< PreMatch, of an image before contrast agent
   std::optional<double> signal_to_noise;        ///< fat over the noise between neighbours
   std::optional<double> clipped_share;          ///< of the skin's outline at the image's border
+  std::optional<double> pendant_outside;        ///< share of the pendant tissue outside the region
   std::optional<double> volume_ratio;           ///< of the two breasts, smaller over larger
   /// What takes up contrast agent, where an image before it is given; offered, not segmented.
   std::vector<LesionCandidate> candidates;

@@ -2,27 +2,42 @@
 
 #include <cstdint>
 
+#include "segmentation/body/pendant_tissue.h"
 #include "segmentation/image/volume.h"
 #include "segmentation/segmentation.h"
 
 namespace mammotwin {
 
-/// A piece of muscle smaller than this [ml] is a vessel or noise.
-inline constexpr double least_muscle_ml = 2;
+/// What labels hold. Where it is not known, two breasts with a valley in the middle third of the
+/// width between them are both sides.
+enum class LabelsHold { perhaps_both_sides, one_side };
 
-/// The rectangle in the coronal plane that bounds one breast, from labels as in segmentation.h, of
-/// both breasts or of one half of the body.
+/// A breast's region, and what of the breast it leaves out.
+struct FoundRegion {
+  BreastRegion region;
+  PendantTissue pendant;
+  OutsideRegion outside;
+};
+
+/// The rectangle in the coronal plane that bounds one breast, from labels as in tissue.h, of both
+/// breasts or of one half of the body.
 ///
-/// A column runs from front to back at one (x, z). Its tissue reaches from the skin to the first
-/// muscle, or to the last labelled voxel where there is no muscle. The rectangle is bounded
-///   medially   by the valley of the skin between the two apices; with one breast in the labels,
+/// It is bounded
+///   medially   by the valley of the skin between the two apices; with one side in the labels,
 ///              by the end of the labels;
 ///   elsewhere  15 mm beyond the part around the apex where tissue is thicker than 0.35 of the
-///              apex column;
-/// then pulled in until every column has 5 mm of tissue (8 mm in the lateral edge's), in the order
-/// that takes less tissue away, then pushed out to hold every lesion of that side.
+///              apex column; where more than 3 % of the pendant tissue would be left out so, by
+///              the slices of that tissue and the end of the labels;
+/// and is, of all rectangles within these bounds of whose columns every one has 5 mm of tissue (8
+/// mm in the lateral edge's), the one with most tissue, that behind the breastbone's skin counting
+/// a tenth; then pushed out to hold every lesion of that side.
 ///
 /// Throws std::runtime_error if that side holds no breast that stands out from the chest.
-BreastRegion find_breast_region(const Volume<std::uint8_t>& labels, Side side);
+FoundRegion find_region(const Volume<std::uint8_t>& labels, Side side,
+                        LabelsHold hold = LabelsHold::perhaps_both_sides);
+
+/// The same, the region only.
+BreastRegion find_breast_region(const Volume<std::uint8_t>& labels, Side side,
+                                LabelsHold hold = LabelsHold::perhaps_both_sides);
 
 }  // namespace mammotwin

@@ -76,8 +76,9 @@ Nipple find_nipple(const Mask& labels, const BreastRegion& region) {
   auto standing = body;
   for (std::size_t v = 0; v < standing.values.size(); ++v)
     standing.values[v] = body.values[v] && !smooth.values[v];
-  Nipple best{front, 0, {}};
-  double best_score = 0;
+  Nipple best;
+  best.tip_in_lps = front;
+  double best_score = 0, rival_score = 0;
   int best_id = 0;
   const Components parts = connected_components(standing);
   const std::vector<Bump> bumps = measure(parts, distance_to(smooth));
@@ -88,13 +89,19 @@ Nipple find_nipple(const Mask& labels, const BreastRegion& region) {
     if (bump.height < least_mm || ml < least_ml || ml > most_ml || away > reach_mm) continue;
     const double near = away / nearness_mm;
     const double score = bump.height * std::exp(-0.5 * near * near);
-    if (score <= best_score) continue;
+    if (score <= best_score) {
+      if (score > rival_score) rival_score = score, best.rival_in_lps = bump.tip;
+      continue;
+    }
+    rival_score = best_score;
+    best.rival_in_lps = best.tip_in_lps;
     best_score = score;
     best_id = id;
     best.tip_in_lps = bump.tip;
     best.stands_out_mm = bump.height;
   }
   if (best_id == 0) return best;
+  best.rival_share = rival_score / best_score;
   best.papilla = body.like<std::uint8_t>(0);
   for (std::size_t v = 0; v < body.values.size(); ++v)
     best.papilla.values[v] = parts.ids.values[v] == best_id;

@@ -11,6 +11,9 @@ struct Nipple {
   Eigen::Vector3d tip_in_lps = Eigen::Vector3d::Zero();  ///< [mm]
   /// Of the skin round it; 0: none does, and the tip is the most anterior point.
   double stands_out_mm = 0;
+  /// Of the others that stand out, the best one's score over this one's (0 to 1), and its tip.
+  double rival_share = 0;
+  Eigen::Vector3d rival_in_lps = Eigen::Vector3d::Zero();  ///< [mm]
   Volume<std::uint8_t> papilla;  ///< what stands out, on a part of the labels' grid; or empty
 };
 

@@ -58,6 +58,44 @@ TEST(RealMri, SecondPatient) {
   expect_lesions_near(r, result);
 }
 
+SegmentResult segmented(const fs::path& file, Side side,
+                        const std::optional<Eigen::Vector3d>& lesion = std::nullopt) {
+  SegmentInput input;
+  input.mri = file;
+  input.side = side;
+  if (lesion) input.lesions.emplace_back().id = "L1", input.lesions[0].point_in_lps = lesion;
+  return segment(input, {});
+}
+
+TEST(RealMri, GhostsBesideTheBodyTakeNoBreastAway) {
+  MAMMOTWIN_NEED_CASE(folder, "mimbcd_6668654d");
+  const SegmentResult result =
+      segmented(folder / "series_9.nrrd", Side::left, Eigen::Vector3d(39.9, 35.5, 27.2));
+  EXPECT_NE(result.quality.status, SegmentStatus::refused);
+  EXPECT_LT(*result.quality.pendant_outside, 0.05);
+  // By eye the breast hangs between x = 15 and 70 mm, from z = -70 to 75 mm.
+  const BreastRegion& region = result.segmentation.region;
+  EXPECT_LT(region.x_min, 18);
+  EXPECT_GT(region.x_max, 70);
+  EXPECT_GT(region.z_max, 75);
+}
+
+TEST(RealMri, LiverAndHeartAreNoChestWall) {
+  MAMMOTWIN_NEED_CASE(folder, "mimbcd_d1f3d33d");
+  const Segmentation late = segmented(folder / "series_24.nrrd", Side::left).segmentation;
+  // By eye the pectoral's front in axial slices at x = 60 mm, over heart and liver.
+  for (const Eigen::Vector3d& front :
+       {Eigen::Vector3d(60, 72, -64), Eigen::Vector3d(60, 68, -39), Eigen::Vector3d(60, 71, -14)}) {
+    const Eigen::Vector3d off(0, 7, 0);  // 3 mm at most are asked for; and a voxel
+    const auto at = [&](const Eigen::Vector3d& x) {
+      const Eigen::Vector3i v = late.labels.index(x).array().round().cast<int>();
+      return late.labels(v.x(), v.y(), v.z());
+    };
+    EXPECT_EQ(at(front + off), label::muscle) << front.transpose();
+    EXPECT_NE(at(front - off), label::muscle) << front.transpose();
+  }
+}
+
 TEST(RealMri, NamesTheHeaderNowhere) {
   MAMMOTWIN_NEED_CASE(folder, "odd_inputs");
   SegmentInput input;

@@ -101,6 +101,69 @@ TEST(BreastRegion, HoldsEveryLesionOfItsSide) {
   EXPECT_NEAR(find_breast_region(labels, Side::right).z_max, thick_radius(60) + 15, 3);
 }
 
+/// The left half of the breasts, with a ghost of 40 mm beside the body that reaches less far
+/// forward than the breast and more than the chest.
+Volume<std::uint8_t> half_with_an_island() {
+  Volume<std::uint8_t> labels({140, 70, 100}, Eigen::Vector3d::Constant(2), {6, -51, -99},
+                              label::air);
+  const Volume<std::uint8_t> both = two_breasts();
+  for (int k = 0; k < labels.size.z(); ++k)
+    for (int j = 0; j < labels.size.y(); ++j)
+      for (int i = 0; i < labels.size.x(); ++i) {
+        const Eigen::Vector3d x = labels.position(i, j, k);
+        const Eigen::Vector3i v = both.index(x).array().round().cast<int>();
+        if (x.x() < 159)
+          labels(i, j, k) = both(v.x(), v.y(), v.z());
+        else if ((x - Eigen::Vector3d(220, 40, 40)).norm() < 40)
+          labels(i, j, k) = label::fat;
+      }
+  return labels;
+}
+
+TEST(BreastRegion, AnIslandBesideTheBodyMakesNoValley) {
+  const FoundRegion found = find_region(half_with_an_island(), Side::left, LabelsHold::one_side);
+  EXPECT_NEAR(found.region.x_min, 5, 3);
+  EXPECT_NEAR(found.region.x_max, 85 + thick_radius(50) + 15, 3);
+  EXPECT_LT(found.outside.share, 0.03);
+}
+
+TEST(BreastRegion, TellsHowMuchOfTheBreastItLeavesOut) {
+  auto labels = two_breasts();
+  // A slit above the apex, open to the medial side: no rectangle that holds the apex and no empty
+  // column reaches beyond it.
+  for (int k = 0; k < labels.size.z(); ++k)
+    for (int j = 0; j < labels.size.y(); ++j)
+      for (int i = 0; i < labels.size.x(); ++i) {
+        const Eigen::Vector3d x = labels.position(i, j, k);
+        if (std::abs(x.z() - 13) < 2.1 && x.x() < 100) labels(i, j, k) = label::air;
+      }
+  const FoundRegion found = find_region(labels, Side::left);
+  EXPECT_LT(found.region.z_max, 13);
+  // Slices of a paraboloid hold as (1 - z^2 / 60^2)^1.5: 0.36 of it lies above z = 10, of which the
+  // slit takes about 0.05.
+  EXPECT_NEAR(found.outside.share, 0.32, 0.04);
+  EXPECT_GT(found.outside.middle_in_lps.z(), 15);
+}
+
+TEST(BreastRegion, IsWidenedWhereTheThickPartLeavesBreastOut) {
+  // A tall peg on a wide, low breast: thick (over 0.35 of the peg's column) is the peg alone.
+  Volume<std::uint8_t> labels({160, 90, 100}, Eigen::Vector3d::Constant(2), {-159, -91, -99},
+                              label::air);
+  for (int k = 0; k < labels.size.z(); ++k)
+    for (int j = 0; j < labels.size.y(); ++j)
+      for (int i = 0; i < labels.size.x(); ++i) {
+        const Eigen::Vector3d x = labels.position(i, j, k);
+        const double off = std::hypot(std::abs(x.x()) - 80, x.z());
+        const double height = std::max(off < 70 ? 25.0 : 0.0, off < 15 ? 120.0 : 0.0);
+        if (x.y() > chest_front)
+          labels(i, j, k) = label::muscle;
+        else if (x.y() > chest_front - coat - height)
+          labels(i, j, k) = label::fat;
+      }
+  const FoundRegion found = find_region(labels, Side::left);
+  EXPECT_LT(found.outside.share, 0.03);
+}
+
 TEST(BreastRegion, RefusesASideWithoutABreast) {
   Volume<std::uint8_t> flat({100, 40, 60}, Eigen::Vector3d::Constant(2), {-99, 0, 0}, label::air);
   for (int k = 0; k < flat.size.z(); ++k)

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180;
 constexpr double axis_behind_mm = 110;  // as PectoralWall's
-constexpr std::size_t least_muscle = 2000;
+constexpr double least_part_ml = 2;
 constexpr std::uint16_t muscle_in_maps = 4;
 
 struct Map {
@@ -28,7 +28,7 @@ Map read_map(const std::filesystem::path& path) {
     body.values[v] = values.values[v] != 0;
     muscle.values[v] = values.values[v] == muscle_in_maps;
   }
-  return {without_small_components(muscle, least_muscle), find_breast_frame(body)};
+  return {without_small_components(muscle, least_part_ml), find_breast_frame(body)};
 }
 
 /// The outermost muscle on a ray [mm]; 0: none.
