@@ -2,198 +2,219 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <stdexcept>
 
+#include "registration/mammogram/breast_mask.h"
 #include "registration/mammogram/mammogram_masks.h"
+#include "registration/mammogram/nipple_marker.h"
+#include "registration/mammogram/nipple_search.h"
+#include "registration/mammogram/pectoral_edge.h"
 
 namespace mammotwin {
 namespace {
 
-/// Skin stands out of air by this share of the brightest grey after a light blur.
-constexpr double kAirShare = 0.03;
-constexpr double kBlur = 2;  // [pixels]
-/// A breast fills at least this share of its mammogram.
-constexpr double kLeastBreast = 0.03;
-
-/// The image with its chest wall on the left, so that one case remains.
-class Upright {
- public:
-  Upright(const MammogramImage& image, ImageEdge chest_wall) : image_(image), edge_(chest_wall) {}
-  float at(int from_wall, int row) const { return image_.at(column(from_wall), row); }
-  int column(int from_wall) const {
-    return edge_ == ImageEdge::left ? from_wall : image_.columns - 1 - from_wall;
-  }
-  double column(double from_wall) const {
-    return edge_ == ImageEdge::left ? from_wall : image_.columns - 1 - from_wall;
-  }
-  Eigen::Vector2d pixel(double from_wall, double row) const { return {column(from_wall), row}; }
-  int columns() const { return image_.columns; }
-  int rows() const { return image_.rows; }
-
- private:
-  const MammogramImage& image_;
-  ImageEdge edge_;
-};
-
-float brightest(const MammogramImage& image) {
-  return *std::max_element(image.grey.begin(), image.grey.end());
-}
-
-std::vector<std::uint8_t> breast_mask(const MammogramImage& image) {
-  const auto regions =
-      regions_above(smoothed(image, kBlur), static_cast<float>(kAirShare * brightest(image)));
-  std::vector<std::uint8_t> mask(regions.size());
-  std::transform(regions.begin(), regions.end(), mask.begin(), [](auto r) { return r == 1; });
-  const auto pixels = std::accumulate(mask.begin(), mask.end(), std::size_t{0});
-  if (pixels < kLeastBreast * mask.size())
-    throw std::runtime_error("no breast in the mammogram: the largest bright region fills " +
-                             std::to_string(100 * pixels / mask.size()) + " % of it");
-  return mask;
-}
+constexpr double kBlur_mm = 1;
+constexpr double kMarkerSd_mm = 3;  // of a marker stuck on the nipple
+constexpr double kSaidSd_mm = 3, kSaidPectoralSd_mm = 3;
+constexpr double kUnsureNipple_mm = 5, kUnsurePectoral_mm = 8;
+/// A muscle's evidence in a view called CC that makes it doubtful; the least in 16 real MLO is 5.
+constexpr double kObliqueEvidence = 10;
+/// A nipple beyond the skin line, fainter than skin, stands out so far at least.
+constexpr double kFaintBulge_mm = 1.5;
+/// A marker lies on the skin: so far from the skin line at most.
+constexpr double kMarkerReach_mm = 15;
 
 /// The vertical edge that more of the breast touches.
-ImageEdge chest_wall_edge(const std::vector<std::uint8_t>& mask, int columns, int rows) {
-  int left = 0, right = 0;
-  for (int row = 0; row < rows; ++row)
-    for (int i = 0; i < columns / 20; ++i) {
-      left += mask[static_cast<std::size_t>(row) * columns + i];
-      right += mask[static_cast<std::size_t>(row + 1) * columns - 1 - i];
+ImageEdge chest_wall_edge(const MammogramImage& mask) {
+  double left = 0, right = 0;
+  for (int row = 0; row < mask.rows; ++row)
+    for (int i = 0; i < mask.columns / 20; ++i) {
+      left += mask.at(i, row);
+      right += mask.at(mask.columns - 1 - i, row);
     }
   return left >= right ? ImageEdge::left : ImageEdge::right;
 }
 
-/// Distance of the skin from the chest wall's edge in each row [pixels]; -1 where there is no
-/// breast.
-std::vector<int> skin_line(const std::vector<std::uint8_t>& mask, const Upright& image) {
-  std::vector<int> skin(image.rows(), -1);
-  for (int row = 0; row < image.rows(); ++row)
-    for (int i = image.columns() - 1; i >= 0 && skin[row] < 0; --i)
-      if (mask[static_cast<std::size_t>(row) * image.columns() + image.column(i)]) skin[row] = i;
-  return skin;
-}
-
-struct Disc {
-  int low_column = 1 << 30, high_column = -1, low_row = 1 << 30, high_row = -1, pixels = 0;
-  int width() const { return high_column - low_column + 1; }
-  int height() const { return high_row - low_row + 1; }
-};
-
-/// A marker is a saturated disc of 1 to 3 % of the image's width: 1.5 to 5 mm on usual detectors.
-bool is_marker(const Disc& d, int columns) {
-  const double size = std::max(d.width(), d.height());
-  const double fill = d.pixels / (0.25 * M_PI * d.width() * d.height());
-  return size > 0.01 * columns && size < 0.03 * columns &&
-         std::abs(d.width() - d.height()) < 0.2 * size && fill > 0.9 && fill < 1.1;
-}
-
-std::optional<Eigen::Vector2d> find_marker(const MammogramImage& image) {
-  constexpr double kSaturated = 0.98;
-  const auto regions = regions_above(image, static_cast<float>(kSaturated * brightest(image)));
-  std::vector<Disc> discs(*std::max_element(regions.begin(), regions.end()) + 1);
-  for (int row = 0; row < image.rows; ++row)
-    for (int column = 0; column < image.columns; ++column) {
-      const auto region = regions[static_cast<std::size_t>(row) * image.columns + column];
-      if (region == 0) continue;
-      Disc& d = discs[region];
-      d.low_column = std::min(d.low_column, column);
-      d.high_column = std::max(d.high_column, column);
-      d.low_row = std::min(d.low_row, row);
-      d.high_row = std::max(d.high_row, row);
-      ++d.pixels;
-    }
-  std::optional<Eigen::Vector2d> found;
-  for (const Disc& d : discs)
-    if (d.pixels > 0 && is_marker(d, image.columns)) {
-      if (found) return std::nullopt;  // two of them: neither is surely the nipple's
-      found = Eigen::Vector2d(d.low_column + d.high_column, d.low_row + d.high_row) / 2;
-    }
-  return found;
-}
-
-/// A straight edge: distance from the chest wall at the top row, and the row at which it meets the
-/// chest wall's edge (below the image if it leaves at the bottom).
-struct Edge {
-  double top, end;
-  double at(double row) const { return top * (1 - row / end); }
-};
-
-/// Mean brightness lost across the edge, `reach` pixels to either side.
-double contrast(const Upright& image, const Edge& edge, int reach) {
-  const int last = std::min<int>(image.rows() - 1, 0.9 * edge.end);
-  double sum = 0;
-  int count = 0;
-  for (int row = 10; row < last; row += 8) {
-    const int x = static_cast<int>(std::lround(edge.at(row)));
-    if (x - reach < 0 || x + reach >= image.columns()) continue;
-    sum += image.at(x - reach, row) - image.at(x + reach, row);
-    ++count;
+MammogramImage hung(MammogramImage mask, ImageEdge chest_wall) {
+  if (chest_wall == ImageEdge::left) return mask;
+  for (int row = 0; row < mask.rows; ++row) {
+    const auto begin = mask.grey.begin() + static_cast<std::ptrdiff_t>(row) * mask.columns;
+    std::reverse(begin, begin + mask.columns);
   }
-  return count < 20 ? 0 : sum / count;
+  return mask;
 }
 
-/// The line of greatest mean contrast, muscle being bright; lines to try are 4 pixels apart.
-std::optional<Edge> pectoral_edge(const Upright& image, int skin_at_top, float full_grey) {
-  constexpr double kLeastContrast = 0.04;  // of the brightest grey
-  const int reach = image.columns() / 60;
-  Edge best{0, 0};
-  double most = kLeastContrast * full_grey;
-  for (int top = image.columns() / 12; top < 0.9 * skin_at_top; top += 4)
-    for (double end = 0.3 * image.rows(); end < 2.0 * image.rows(); end += 8) {
-      const double c = contrast(image, {double(top), end}, reach);
-      if (c > most) {
-        most = c;
-        best = {double(top), end};
-      }
-    }
-  if (best.end == 0) return std::nullopt;
-  return best;
-}
-
-/// Row of the skin's point farthest from the pectoral edge, or from the chest wall without one.
-int farthest_row(const std::vector<int>& skin, const std::optional<Edge>& edge) {
-  int row = 0;
-  double most = -1;
-  for (std::size_t r = 0; r < skin.size(); ++r) {
-    const double across = edge ? edge->end / std::hypot(edge->top, edge->end) : 1;
-    const double distance = skin[r] < 0 ? -1 : (skin[r] - (edge ? edge->at(r) : 0)) * across;
-    if (distance > most) {
-      most = distance;
-      row = static_cast<int>(r);
+/// What lies between the chest wall and a line, by rows.
+MammogramImage mask_within(const std::vector<Eigen::Vector2d>& line, const UprightImage& image) {
+  MammogramImage mask = image.image();
+  std::vector<double> depth(mask.rows, 0);
+  for (std::size_t n = 1; n < line.size(); ++n) {
+    const Eigen::Vector2d &a = line[n - 1], &b = line[n];
+    const double steps = std::ceil((b - a).norm() / (image.pixel_mm() / 2)) + 1;
+    for (double k = 0; k <= steps; ++k) {
+      const Eigen::Vector2d x = a + (b - a) * (k / steps);
+      const int row = static_cast<int>(std::floor(x.y() / image.pixel_mm()));
+      if (row >= 0 && row < mask.rows) depth[row] = std::max(depth[row], x.x());
     }
   }
-  return row;
+  for (int row = 0; row < mask.rows; ++row)
+    for (int column = 0; column < mask.columns; ++column)
+      mask.at(column, row) = (column + 0.5) * image.pixel_mm() < depth[row];
+  return mask;
 }
+
+double distance(const Eigen::Vector2d& x, const std::vector<Eigen::Vector2d>& line) {
+  double squared = 1e30;
+  for (const Eigen::Vector2d& y : line) squared = std::min(squared, (x - y).squaredNorm());
+  return std::sqrt(squared);
+}
+
+/// One mammogram on its way from pixels to findings.
+class Reading {
+ public:
+  Reading(const MammogramImage& image, double pixel_mm, bool oblique, const SaidFindings& said)
+      : image_(image),
+        pixel_mm_(pixel_mm),
+        oblique_(oblique),
+        said_(said),
+        upright_(image, pixel_mm) {}
+
+  MammogramFindings run() {
+    read_outline();
+    smooth_ = upright_;
+    smooth_->image() = smoothed(upright_.image(), kBlur_mm / upright_.pixel_mm());
+    read_pectoral();
+    read_nipple();
+    return found_;
+  }
+
+ private:
+  void read_outline() {
+    if (!said_.outline.empty()) return take_outline();
+    const MammogramImage mask = breast_mask(upright_.image(), upright_.pixel_mm());
+    found_.chest_wall = chest_wall_edge(mask);
+    upright_.hang(found_.chest_wall);
+    mask_ = hung(mask, found_.chest_wall);
+    skin_ = skin_line(mask_, upright_.pixel_mm(), oblique_);
+    for (const Eigen::Vector2d& x : skin_.points)
+      found_.outline.push_back(upright_.stored_pixel(x));
+    found_.remarks = skin_.remarks;
+  }
+
+  void take_outline() {
+    const auto& line = said_.outline;
+    if (line.size() < 2) throw std::runtime_error("outline: expected two points or more");
+    const double middle = (image_.columns - 1) / 2.;
+    double ends = 0;
+    for (const Eigen::Vector2d& end : {line.front(), line.back()}) ends += end.x() / 2;
+    found_.chest_wall = ends < middle ? ImageEdge::left : ImageEdge::right;
+    upright_.hang(found_.chest_wall);
+    for (const Eigen::Vector2d& pixel : line) skin_.points.push_back(upright_.place(pixel));
+    if (skin_.points.front().y() > skin_.points.back().y())
+      std::reverse(skin_.points.begin(), skin_.points.end());
+    for (const Eigen::Vector2d& x : skin_.points)
+      found_.outline.push_back(upright_.stored_pixel(x));
+    mask_ = mask_within(skin_.points, upright_);
+  }
+
+  void read_pectoral() {
+    if (said_.pectoral) {
+      found_.pectoral = said_.pectoral;
+      found_.pectoral_curve = {said_.pectoral->first, said_.pectoral->second};
+      found_.pectoral_sd_mm = kSaidPectoralSd_mm;
+      return;
+    }
+    const std::optional<PectoralEdge> edge = pectoral_edge(*smooth_, mask_);
+    if (!oblique_) {
+      if (edge && edge->evidence > kObliqueEvidence)
+        doubt("view", "a pectoral edge crosses this CC as it does an MLO; is it one?");
+      return;
+    }
+    if (!edge) return doubt("pectoral", "no pectoral edge is seen in this MLO; is it one?");
+    found_.pectoral = {upright_.stored_pixel(edge->top), upright_.stored_pixel(edge->end)};
+    for (const Eigen::Vector2d& x : edge->points)
+      found_.pectoral_curve.push_back(upright_.stored_pixel(x));
+    found_.pectoral_sd_mm = edge->sd_mm;
+    if (edge->sd_mm > kUnsurePectoral_mm)
+      doubt("pectoral", "the pectoral edge is not clear; views.mlo.pectoral can say it");
+  }
+
+  void read_nipple() {
+    if (said_.nipple) return take_nipple(*said_.nipple, NippleEvidence::said, kSaidSd_mm);
+    const auto marker = find_marker(image_, pixel_mm_);
+    if (marker && distance(upright_.place(*marker), skin_.points) < kMarkerReach_mm)
+      return take_nipple(*marker, NippleEvidence::marker, kMarkerSd_mm);
+    NippleFinding nipple = find_nipple(nipple_profile(skin_, *smooth_), oblique_);
+    if (!nipple.in_profile && said_.outline.empty())
+      if (const auto faint = faint_nipple()) nipple = *faint;
+    take_nipple(upright_.stored_pixel(nipple.candidates.front().place),
+                nipple.in_profile ? NippleEvidence::profile : NippleEvidence::not_in_profile,
+                nipple.sd_mm);
+    found_.nipples.clear();
+    for (const NippleCandidate& c : nipple.candidates)
+      found_.nipples.push_back({upright_.stored_pixel(c.place), c.probability});
+    if (nipple.sd_mm > kUnsureNipple_mm)
+      doubt("nipple", std::string("the nipple is not clear") +
+                          (nipple.in_profile ? "" : ", not in profile") +
+                          "; views.*.nipple_pixel can say it");
+  }
+
+  /// A nipple in profile that is fainter than any skin, as film readers leave it.
+  std::optional<NippleFinding> faint_nipple() const {
+    try {
+      const SkinLine line =
+          skin_line(breast_mask(upright_.image(), upright_.pixel_mm(), kFaintShare),
+                    upright_.pixel_mm(), oblique_);
+      const NippleFinding nipple = find_nipple(nipple_profile(line, *smooth_), oblique_);
+      if (nipple.candidates.front().bulge_mm > kFaintBulge_mm && nipple.sd_mm < kUnsureNipple_mm)
+        return nipple;
+    } catch (const std::runtime_error&) {  // at that brightness no breast is seen: nor a nipple
+    }
+    return std::nullopt;
+  }
+
+  void take_nipple(const Eigen::Vector2d& pixel, NippleEvidence evidence, double sd_mm) {
+    found_.nipple = pixel;
+    found_.evidence = evidence;
+    found_.nipple_sd_mm = sd_mm;
+    found_.nipples = {{pixel, 1}};
+  }
+
+  void doubt(const char* what, const std::string& words) {
+    found_.unsure.push_back(what);
+    found_.remarks.push_back(words);
+  }
+
+  const MammogramImage& image_;
+  double pixel_mm_;
+  bool oblique_;
+  const SaidFindings& said_;
+  UprightImage upright_;
+  std::optional<UprightImage> smooth_;
+  MammogramImage mask_;
+  SkinLine skin_;
+  MammogramFindings found_;
+};
 
 }  // namespace
 
-MammogramFindings find_breast(const MammogramImage& image, bool oblique) {
-  const auto mask = breast_mask(image);
-  MammogramFindings found;
-  found.chest_wall = chest_wall_edge(mask, image.columns, image.rows);
-  const Upright upright(image, found.chest_wall);
-  const std::vector<int> skin = skin_line(mask, upright);
-  for (int row = 0; row < image.rows; ++row)
-    if (skin[row] >= 0) found.outline.push_back(upright.pixel(skin[row], row));
+const char* name_of(NippleEvidence evidence) {
+  switch (evidence) {
+    case NippleEvidence::marker:
+      return "marker";
+    case NippleEvidence::profile:
+      return "profile";
+    case NippleEvidence::said:
+      return "said";
+    case NippleEvidence::not_in_profile:
+      break;
+  }
+  return "not in profile";
+}
 
-  std::optional<Edge> edge;
-  if (oblique) {
-    const MammogramImage blurred = smoothed(image, image.columns / 200.0);
-    edge =
-        pectoral_edge(Upright(blurred, found.chest_wall), skin[image.rows / 100], brightest(image));
-  }
-  if (edge) {
-    const double bottom = std::min<double>(image.rows - 1, edge->end);
-    found.pectoral = {upright.pixel(edge->top, 0), upright.pixel(edge->at(bottom), bottom)};
-  }
-  if (const auto marker = find_marker(image)) {
-    found.nipple = *marker;
-    found.evidence = NippleEvidence::marker;
-  } else {
-    const int row = farthest_row(skin, edge);
-    found.nipple = upright.pixel(skin[row], row);
-  }
-  return found;
+MammogramFindings find_breast(const MammogramImage& image, double pixel_mm, bool oblique,
+                              const SaidFindings& said) {
+  return Reading(image, pixel_mm, oblique, said).run();
 }
 
 }  // namespace mammotwin

@@ -10,6 +10,7 @@ struct MammogramImage {
   int columns = 0, rows = 0;
   std::vector<float> grey;
 
+  float& at(int column, int row) { return grey[static_cast<std::size_t>(row) * columns + column]; }
   float at(int column, int row) const {
     return grey[static_cast<std::size_t>(row) * columns + column];
   }

@@ -10,12 +10,12 @@
 namespace mammotwin {
 namespace {
 
-constexpr double kOutlineSd_mm = 2;  // of the model's outline, found over synthetic patients
-constexpr double kPiece_mm = 30;     // of outline that counts as one observation
-constexpr double kBehind_mm = 8;     // nearer to the detector's edge no outline is compared
-constexpr double kBorder_mm = 3;     // of the image: an outline there is the image's end
-constexpr double kMarker_mm = 3, kProfile_mm = 8;  // sd of a nipple found by either
-constexpr double kPatternSd = 0.7;                 // of normalised patterns of the same breast
+constexpr double kOutlineSd_mm = 2;    // of the model's outline, found over synthetic patients
+constexpr double kPiece_mm = 30;       // of outline that counts as one observation
+constexpr double kBehind_mm = 8;       // nearer to the detector's edge no outline is compared
+constexpr double kBorder_mm = 3;       // of the image: an outline there is the image's end
+constexpr double kLeastNipple_mm = 3;  // sd: what the model knows of its own
+constexpr double kPatternSd = 0.7;     // of normalised patterns of the same breast
 constexpr double kPatternPiece_mm = 15;
 constexpr double kHuber = 2;  // standard deviations beyond which outliers count less
 
@@ -48,7 +48,7 @@ Eigen::Vector2d edge_centre(const std::vector<Eigen::Vector2d>& outline) {
 }  // namespace
 
 ViewEvidence view_evidence(const MammogramImage& image, const MammogramFindings& findings,
-                           const Detector& detector, const std::optional<Eigen::Vector2d>& nipple) {
+                           const Detector& detector) {
   ViewEvidence evidence;
   std::vector<Eigen::Vector2d> whole;
   const double border = kBorder_mm / detector.pixels->spacing_mm;
@@ -58,9 +58,8 @@ ViewEvidence view_evidence(const MammogramImage& image, const MammogramFindings&
       evidence.outline.push_back(whole.back());
   }
   if (evidence.outline.size() < 2) throw std::runtime_error("the mammogram shows no outline");
-  evidence.nipple = detector.detector_from_image(nipple.value_or(findings.nipple));
-  const bool sure = nipple || findings.evidence == NippleEvidence::marker;
-  evidence.nipple_sd_mm = sure ? kMarker_mm : kProfile_mm;
+  evidence.nipple = detector.detector_from_image(findings.nipple);
+  evidence.nipple_sd_mm = std::max(kLeastNipple_mm, findings.nipple_sd_mm);
   evidence.grid = density_grid(whole);
   evidence.pattern = pattern(evidence.grid, grey_in_cells(evidence.grid, image, detector));
   return evidence;

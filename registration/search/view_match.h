@@ -17,11 +17,10 @@ struct ViewEvidence {
   Eigen::VectorXd pattern;  ///< of dense tissue (density_map.h)
 };
 
-/// `nipple`: (column, row) where somebody said it; else what was found. Throws std::logic_error
-/// without a pixel grid.
+/// What was found, each with its own standard deviation; what is unsure of it weighs as little as
+/// that says. Throws std::logic_error without a pixel grid.
 ViewEvidence view_evidence(const MammogramImage& image, const MammogramFindings& findings,
-                           const Detector& detector,
-                           const std::optional<Eigen::Vector2d>& nipple = {});
+                           const Detector& detector);
 
 struct MatchFigures {
   double outline_rms_mm = 0;

@@ -2,62 +2,137 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <random>
 
 namespace mammotwin {
 namespace {
 
-/// Half an ellipse of breast on the left edge, brighter triangle of muscle, optionally a marker.
-MammogramImage drawn(bool muscle, bool marker) {
-  MammogramImage image{500, 650, std::vector<float>(500 * 650, 0)};
+constexpr double kPixel_mm = 0.4;
+
+struct Drawing {
+  bool muscle = false, marker = false, nipple = false, strip = false, frame = false;
+  float air = 0, noise = 0;
+};
+
+/// Half an ellipse of breast on the left edge (120 x 256 mm), and what a drawing asks for: a
+/// brighter triangle of muscle, a marker, a nipple 6 mm proud of the skin at row 340, a strip of
+/// abdomen, the dark frame of an exposed field.
+MammogramImage drawn(const Drawing& d) {
+  MammogramImage image{500, 700, std::vector<float>(500 * 700, d.air)};
+  std::mt19937 random(7);
+  std::normal_distribution<float> noise(0, d.noise);
   for (int row = 0; row < image.rows; ++row)
     for (int column = 0; column < image.columns; ++column) {
-      float& grey = image.grey[static_cast<std::size_t>(row) * image.columns + column];
+      float& grey = image.at(column, row);
       if (std::hypot(column / 300.0, (row - 330) / 320.0) < 1) grey = 80;
-      if (muscle && row < 100 && column < 260) grey = 80;
-      if (muscle && column < 150 * (1 - row / 400.0)) grey = 160;
-      if (marker && std::hypot(column - 290, row - 380) < 5) grey = 255;
+      if (d.nipple && std::hypot(column - 300, row - 340) < 15) grey = 80;
+      if (d.strip && row > 620 && column < 60) grey = 80;
+      if (d.muscle && row < 100 && column < 260) grey = 80;
+      if (d.muscle && column < 150 * (1 - row / 400.0)) grey = 160;
+      if (d.marker && std::hypot(column - 290, row - 380) < 5) grey = 255;
+      if (d.noise > 0) grey += noise(random);
+      if (d.frame && column > 450) grey = -20;
     }
   return image;
 }
 
-TEST(MammogramFindings, OutlineAndProfileOfADrawnBreast) {
-  const MammogramFindings found = find_breast(drawn(false, false), false);
+bool unsure(const MammogramFindings& found, const char* what) {
+  return std::count(found.unsure.begin(), found.unsure.end(), what) > 0;
+}
+
+/// Worst distance of the outline from the drawn ellipse, as far as it is 20 rows off its ends [mm].
+double worst_outline(const MammogramFindings& found) {
+  double worst = 0;
+  for (const Eigen::Vector2d& x : found.outline) {
+    const double height = (x.y() - 330) / 320.0;
+    if (std::abs(height) > 0.9) continue;
+    worst = std::max(worst, std::abs(x.x() - 300 * std::sqrt(1 - height * height)) * kPixel_mm);
+  }
+  return worst;
+}
+
+TEST(MammogramFindings, SmoothBreastHasAnOutlineAndANippleThatIsUnsure) {
+  const MammogramFindings found = find_breast(drawn({}), kPixel_mm, false);
   EXPECT_EQ(found.chest_wall, ImageEdge::left);
-  EXPECT_EQ(found.evidence, NippleEvidence::profile);
-  // The ellipse's tip; blur and threshold move the skin by about a blur of 2 pixels twice.
-  EXPECT_NEAR(found.nipple.x(), 300, 4);
-  EXPECT_NEAR(found.nipple.y(), 330, 25);  // flat there: 1 pixel in 300 over 25 rows
+  EXPECT_EQ(found.evidence, NippleEvidence::not_in_profile);
+  EXPECT_TRUE(unsure(found, "nipple"));
+  EXPECT_GT(found.nipple_sd_mm, 10);   // nothing tells where it is
+  EXPECT_LT(worst_outline(found), 1);  // two pixels
   EXPECT_FALSE(found.pectoral.has_value());
 }
 
+TEST(MammogramFindings, AirMayBeGreyNoisyAndFramed) {
+  for (const Drawing& d : {Drawing{.air = 40}, Drawing{.air = 30, .noise = 2},
+                           Drawing{.air = 30, .noise = 2, .frame = true}})
+    EXPECT_LT(worst_outline(find_breast(drawn(d), kPixel_mm, false)), 1) << d.air << d.noise;
+}
+
+TEST(MammogramFindings, NippleInProfileIsFoundAndSure) {
+  const MammogramFindings found = find_breast(drawn({.nipple = true}), kPixel_mm, false);
+  EXPECT_EQ(found.evidence, NippleEvidence::profile);
+  EXPECT_FALSE(unsure(found, "nipple"));
+  // The tip's 15 pixels' round is flat to a pixel over 11 rows; the outline is smoothed over 2 mm.
+  EXPECT_LT((found.nipple - Eigen::Vector2d(314, 340)).norm() * kPixel_mm, 2.5);
+}
+
+TEST(MammogramFindings, AbdomenBelowTheBreastIsCutOffAndSaid) {
+  const MammogramFindings found = find_breast(drawn({.strip = true}), kPixel_mm, false);
+  EXPECT_FALSE(found.remarks.empty());
+  EXPECT_LT(found.outline.back().y(), 655);  // the breast ends at row 650, the strip at 700
+}
+
 TEST(MammogramFindings, MirroredImageHasItsChestWallRight) {
-  MammogramImage image = drawn(false, true), mirrored = image;
+  const MammogramImage image = drawn({.marker = true});
+  MammogramImage mirrored = image;
   for (int row = 0; row < image.rows; ++row)
     for (int column = 0; column < image.columns; ++column)
-      mirrored.grey[static_cast<std::size_t>(row) * 500 + column] = image.at(499 - column, row);
-  const MammogramFindings found = find_breast(mirrored, false);
+      mirrored.at(column, row) = image.at(499 - column, row);
+  const MammogramFindings found = find_breast(mirrored, kPixel_mm, false);
   EXPECT_EQ(found.chest_wall, ImageEdge::right);
   EXPECT_NEAR(found.nipple.x(), 499 - 290, 1);
 }
 
 TEST(MammogramFindings, MarkerIsTheNipple) {
-  const MammogramFindings found = find_breast(drawn(false, true), false);
+  const MammogramFindings found = find_breast(drawn({.marker = true}), kPixel_mm, false);
   EXPECT_EQ(found.evidence, NippleEvidence::marker);
   EXPECT_LT((found.nipple - Eigen::Vector2d(290, 380)).norm(), 1);
 }
 
 TEST(MammogramFindings, PectoralEdgeOfADrawnMuscle) {
-  const MammogramFindings found = find_breast(drawn(true, false), true);
+  const MammogramFindings found = find_breast(drawn({.muscle = true}), kPixel_mm, true);
   ASSERT_TRUE(found.pectoral.has_value());
-  EXPECT_NEAR(found.pectoral->first.x(), 150, 8);    // lines are tried 4 pixels apart
-  EXPECT_NEAR(found.pectoral->second.y(), 400, 16);  // and 8 rows
+  for (const Eigen::Vector2d& x : found.pectoral_curve) {
+    if (x.y() > 360) continue;  // its last 16 mm are the corner at the chest wall
+    EXPECT_NEAR(x.x(), 150 * (1 - x.y() / 400), 6) << x.y();  // about 2 mm across
+  }
 }
 
-TEST(MammogramFindings, RefuseAnEmptyImageAndAMissingFile) {
+TEST(MammogramFindings, MuscleInAViewCalledCcIsDoubtAndItsAbsenceInAnMloToo) {
+  EXPECT_TRUE(unsure(find_breast(drawn({.muscle = true}), kPixel_mm, false), "view"));
+  EXPECT_TRUE(unsure(find_breast(drawn({}), kPixel_mm, true), "pectoral"));
+}
+
+TEST(MammogramFindings, WhatIsSaidGoesBeforeWhatIsSeen) {
+  SaidFindings said;
+  said.nipple = Eigen::Vector2d(250, 300);
+  said.pectoral = {{100, 0}, {0, 300}};
+  said.outline = {{0, 20}, {200, 100}, {290, 330}, {200, 560}, {0, 640}};
+  const MammogramFindings found = find_breast(drawn({.muscle = true}), kPixel_mm, true, said);
+  EXPECT_EQ(found.nipple, *said.nipple);
+  EXPECT_EQ(found.evidence, NippleEvidence::said);
+  EXPECT_EQ(found.pectoral->first, said.pectoral->first);
+  ASSERT_EQ(found.outline.size(), said.outline.size());
+  EXPECT_LT((found.outline[2] - said.outline[2]).norm(), 1e-9);
+}
+
+TEST(MammogramFindings, RefuseWhatShowsNoBreast) {
   MammogramImage empty{100, 100, std::vector<float>(10000, 0)};
   empty.grey[5050] = 200;
-  EXPECT_THROW(find_breast(empty, false), std::runtime_error);
+  EXPECT_THROW(find_breast(empty, kPixel_mm, false), std::runtime_error);
+  MammogramImage full = drawn({.air = 100});  // what is bright lies at all edges
+  EXPECT_THROW(find_breast(full, kPixel_mm, false), std::runtime_error);
   EXPECT_THROW(read_mammogram_png("absent.png"), std::runtime_error);
 }
 

@@ -1,0 +1,186 @@
+#include "registration/mammogram/breast_mask.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "registration/mammogram/mammogram_masks.h"
+
+namespace mammotwin {
+namespace {
+
+/// Skin stands out of air by so many of air's standard deviations; and by a share of the range of
+/// greys: exports round to 256 greys, so a spread can be nought.
+constexpr double kAirSpreads = 9;
+constexpr double kThin_mm = 2;
+constexpr double kLeastBreast = 0.03, kMostBreast = 0.9;  // of the image
+/// More of the image's rows with skin on the far edge: that is no skin.
+constexpr double kMostCut = 0.1;
+/// Air of an exposed field is looked for so often above darker frames.
+constexpr int kMostFrames = 3;
+
+float median(std::vector<float>& values) {
+  const auto middle = values.begin() + values.size() / 2;
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// Share of a line of pixels that is as bright as anything.
+template <class At>
+bool is_white(int count, float white, At at) {
+  constexpr double kNearlyAll = 0.95;
+  int bright = 0;
+  for (int i = 0; i < count; ++i) bright += at(i) >= white;
+  return bright > kNearlyAll * count;
+}
+
+/// White lines along the image's edges, as film readers leave them, become as dark as anything.
+void blacken_borders(MammogramImage& image) {
+  constexpr double kWhite = 0.97, kMostBorder = 0.1;
+  const auto [low, high] = std::minmax_element(image.grey.begin(), image.grey.end());
+  const float dark = *low, white = static_cast<float>(dark + kWhite * (*high - dark));
+  const auto column = [&](int c) {
+    if (!is_white(image.rows, white, [&](int r) { return image.at(c, r); })) return false;
+    for (int r = 0; r < image.rows; ++r) image.at(c, r) = dark;
+    return true;
+  };
+  const auto row = [&](int r) {
+    if (!is_white(image.columns, white, [&](int c) { return image.at(c, r); })) return false;
+    for (int c = 0; c < image.columns; ++c) image.at(c, r) = dark;
+    return true;
+  };
+  const int wide = static_cast<int>(kMostBorder * image.columns);
+  const int high_rows = static_cast<int>(kMostBorder * image.rows);
+  for (int c = 0; c < wide && column(c); ++c) continue;
+  for (int c = image.columns - 1; c >= image.columns - wide && column(c); --c) continue;
+  for (int r = 0; r < high_rows && row(r); ++r) continue;
+  for (int r = image.rows - 1; r >= image.rows - high_rows && row(r); --r) continue;
+}
+
+struct Extent {
+  std::size_t pixels = 0;
+  int at_left = 0, at_right = 0;  ///< rows in which it touches
+  int edge() const { return std::max(at_left, at_right); }
+};
+
+Extent extent_of(const MammogramImage& mask) {
+  Extent e;
+  for (const float m : mask.grey) e.pixels += m > 0;
+  const int margin = mask.columns / 100;  // a dark line along the edge is no gap
+  for (int row = 0; row < mask.rows; ++row) {
+    bool left = false, right = false;
+    for (int i = 0; i <= margin; ++i) {
+      left |= mask.at(i, row) > 0;
+      right |= mask.at(mask.columns - 1 - i, row) > 0;
+    }
+    e.at_left += left;
+    e.at_right += right;
+  }
+  return e;
+}
+
+/// Of the regions above a threshold the one that fills most among those at an edge.
+MammogramImage region_at_edge(const MammogramImage& image, float threshold, int radius) {
+  MammogramImage bright = image;
+  for (float& grey : bright.grey) grey = grey > threshold;
+  const auto regions = regions_above(opened(bright, radius), 0.5f);
+  MammogramImage mask{image.columns, image.rows, std::vector<float>(image.grey.size())};
+  for (std::uint32_t region = 1; region <= 3; ++region) {  // labels and tape are smaller
+    for (std::size_t i = 0; i < regions.size(); ++i) mask.grey[i] = regions[i] == region;
+    if (extent_of(mask).edge() > kLeastBreast * image.rows) return mask;
+  }
+  return mask;
+}
+
+/// What is dark and enclosed by the breast is breast.
+void fill_holes(MammogramImage& mask) {
+  MammogramImage outside = mask;
+  for (float& m : outside.grey) m = 1 - m;
+  const auto regions = regions_above(outside, 0.5f);
+  std::vector<bool> open(*std::max_element(regions.begin(), regions.end()) + 1, false);
+  const auto see = [&](int column, int row) {
+    open[regions[static_cast<std::size_t>(row) * mask.columns + column]] = true;
+  };
+  for (int r = 0; r < mask.rows; ++r) {
+    see(0, r);
+    see(mask.columns - 1, r);
+  }
+  for (int c = 0; c < mask.columns; ++c) {
+    see(c, 0);
+    see(c, mask.rows - 1);
+  }
+  for (std::size_t i = 0; i < mask.grey.size(); ++i)
+    if (regions[i] > 0 && !open[regions[i]]) mask.grey[i] = 1;
+}
+
+/// Empty where a mask is like a breast; else what is wrong with it.
+std::string fault_of(const MammogramImage& mask) {
+  const Extent e = extent_of(mask);
+  const double share = static_cast<double>(e.pixels) / mask.grey.size();
+  const std::string fills = std::to_string(static_cast<int>(100 * share)) + " % of the image";
+  if (share < kLeastBreast) return "the largest bright region at an edge fills " + fills;
+  if (share > kMostBreast) return "what is brighter than air fills " + fills;
+  if (std::min(e.at_left, e.at_right) > kMostCut * mask.rows)
+    return "what is brighter than air reaches both sides of the image";
+  return "";
+}
+
+/// Enough of the image is brighter than `floor` to hold air and a breast.
+bool has_more_than(float floor, const MammogramImage& image) {
+  const auto above =
+      std::count_if(image.grey.begin(), image.grey.end(), [&](float grey) { return grey > floor; });
+  return above > kLeastBreast * image.grey.size();
+}
+
+}  // namespace
+
+AirLevel air_level(const MammogramImage& image, float floor, double least_share) {
+  constexpr double kSdOfMad = 1.4826;  // of a normal distribution
+  MammogramImage above{0, 1, {}};
+  for (const float grey : image.grey)
+    if (grey > floor) above.grey.push_back(grey);
+  if (above.grey.empty()) throw std::runtime_error("no air is seen beside the breast");
+  above.columns = static_cast<int>(above.grey.size());
+  const auto [low, high] = std::minmax_element(above.grey.begin(), above.grey.end());
+  const float range = *high - *low;
+  if (!(range > 0)) throw std::runtime_error("all of the image has one grey");
+  const float otsu = otsu_threshold(above);
+  std::vector<float> dark;
+  for (const float grey : above.grey)
+    if (grey <= otsu) dark.push_back(grey);
+  AirLevel air;
+  air.grey = median(dark);
+  for (float& grey : dark) grey = std::abs(grey - air.grey);
+  air.spread = static_cast<float>(kSdOfMad * median(dark));
+  air.threshold = std::min(
+      otsu, air.grey + static_cast<float>(std::max(kAirSpreads * air.spread, least_share * range)));
+  return air;
+}
+
+MammogramImage breast_mask(const MammogramImage& given, double pixel_mm, double least_share) {
+  MammogramImage image = given;
+  blacken_borders(image);
+  float floor = -std::numeric_limits<float>::infinity();
+  std::string fault;
+  for (int frame = 0; frame < kMostFrames && has_more_than(floor, image); ++frame) {
+    const AirLevel air = air_level(image, floor, least_share);
+    MammogramImage mask =
+        region_at_edge(image, air.threshold, std::max(1L, std::lround(kThin_mm / 2 / pixel_mm)));
+    const std::string now = fault_of(mask);
+    if (now.empty()) {
+      fill_holes(mask);
+      return mask;
+    }
+    if (fault.empty()) fault = now;
+    floor = air.threshold;
+  }
+  throw std::runtime_error(fault +
+                           ": no breast's outline is seen; expected a bright breast at the left or "
+                           "right edge with dark air before it. Is it a crop, or inverted? "
+                           "views.cc.outline (views.mlo.outline) can say it");
+}
+
+}  // namespace mammotwin

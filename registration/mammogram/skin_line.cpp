@@ -1,0 +1,107 @@
+#include "registration/mammogram/skin_line.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "registration/mammogram/mammogram_masks.h"
+
+namespace mammotwin {
+namespace {
+
+using Line = std::vector<Eigen::Vector2d>;
+
+constexpr double kValley_mm = 3, kHollow_mm = 4;
+constexpr double kLeastSkin_mm = 30;
+
+/// The longest part of a closed border that is off the image's edges, in pixels.
+Line free_part(const Line& border, const MammogramImage& mask) {
+  const auto free = [&](const Eigen::Vector2d& x) {
+    return x.x() > 0 && x.y() > 0 && x.y() < mask.rows - 1;
+  };
+  const std::size_t n = border.size();
+  const auto held = std::find_if_not(border.begin(), border.end(), free);
+  const std::size_t first = held == border.end() ? 0 : held - border.begin();
+  Line longest, now;
+  for (std::size_t i = 0; i <= n; ++i) {
+    const Eigen::Vector2d& x = border[(first + i) % n];
+    if (i < n && free(x)) {
+      now.push_back(x);
+      continue;
+    }
+    if (now.size() > longest.size()) longest = now;
+    now.clear();
+  }
+  return longest;
+}
+
+long deepest(const Line& line) {
+  return std::max_element(line.begin(), line.end(),
+                          [](const auto& a, const auto& b) { return a.x() < b.x(); }) -
+         line.begin();
+}
+
+/// Index from `tip` towards `end` (exclusive, step 1 or -1) at which depth has its least before it
+/// rises by a valley's height; `end` where it does not.
+long valley(const Line& line, long tip, long end, int step) {
+  long least = tip;
+  for (long i = tip; i != end; i += step) {
+    if (line[i].x() < line[least].x()) least = i;
+    if (line[i].x() > line[least].x() + kValley_mm && line[least].x() < line[tip].x() / 2)
+      return least;
+  }
+  return end;
+}
+
+double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
+
+/// The point that lies deepest behind a chord from any point after the tip to the line's end;
+/// `end` where nothing lies 4 mm behind: there a breast is convex.
+long hollow(const Line& line, long tip, long end, int step) {
+  constexpr double kNear_mm = 40;  // of the line's end: farther out it is the nipple's flank
+  constexpr int kStride = 4;       // of the points that chords begin at
+  const Eigen::Vector2d last = line[end - step];
+  long deepest = end;
+  double most = kHollow_mm;
+  for (long a = tip; step * (end - a) > kStride; a += kStride * step) {
+    const Eigen::Vector2d chord = last - line[a];
+    for (long i = a; i != end && chord.norm() > kHollow_mm; i += step) {
+      const double behind = step * cross(chord, line[i] - line[a]) / chord.norm();
+      if (behind < most || (line[i] - last).norm() > kNear_mm) continue;
+      most = behind;
+      deepest = i;
+    }
+  }
+  return deepest;
+}
+
+}  // namespace
+
+SkinLine skin_line(const MammogramImage& mask, double pixel_mm, bool oblique) {
+  Line border;
+  for (const auto& [column, row] : longest_border(mask)) border.emplace_back(column, row);
+  Line line = free_part(border, mask);
+  if (line.size() * pixel_mm < kLeastSkin_mm)
+    throw std::runtime_error("no skin line is seen: the bright region ends at the image's edges");
+  for (Eigen::Vector2d& x : line) x = (x + Eigen::Vector2d(0.5, 0.5)) * pixel_mm;
+  if (line.front().y() > line.back().y()) std::reverse(line.begin(), line.end());
+
+  SkinLine skin;
+  const auto cut = [&](long found, long end, const char* what) {
+    if (found != end) skin.remarks.push_back(what);
+    return found;
+  };
+  const long tip = deepest(line), size = static_cast<long>(line.size());
+  long last =
+      cut(valley(line, tip, size, 1), size, "below the breast a fold or the abdomen is cut off");
+  last = cut(hollow(line, tip, last, 1), last, "a fold at the breast's lower end is cut off");
+  long before = cut(valley(line, tip, -1, -1), -1, "above the breast the arm or axilla is cut off");
+  if (!oblique)
+    before =
+        cut(hollow(line, tip, before, -1), before, "a fold at the breast's upper end is cut off");
+  skin.points.assign(line.begin() + before + 1, line.begin() + last);
+  return skin;
+}
+
+}  // namespace mammotwin
