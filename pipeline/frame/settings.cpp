@@ -180,6 +180,25 @@ void Settings::numbers(std::string key, std::optional<Eigen::Vector2d>& variable
       [&variable] { return variable ? list_of(*variable) : json(); });
 }
 
+void Settings::points(std::string key, std::vector<Eigen::Vector2d>& variable, std::size_t count,
+                      Range range, std::string help) {
+  add(
+      std::move(key), "[[x, y], ...]", range, std::move(help),
+      [&variable, count, range](const json& v) {
+        if (!v.is_array() || v.size() != count)
+          throw BadSetting("is " + detail::text_of(v) + "; expected a list of " +
+                           std::to_string(count) + " points [x, y]");
+        std::vector<Eigen::Vector2d> points;
+        for (const json& point : v) points.push_back(checked_vector<Eigen::Vector2d>(point, range));
+        variable = points;
+      },
+      [&variable] {
+        json list = json::array();
+        for (const Eigen::Vector2d& point : variable) list.push_back(list_of(point));
+        return variable.empty() ? json() : list;
+      });
+}
+
 void Settings::integers(std::string key, std::optional<Eigen::Vector3i>& variable, Range range,
                         std::string help) {
   add(

@@ -61,6 +61,9 @@ class Settings {
              std::string help);
   void numbers(std::string key, std::optional<Eigen::Vector2d>& variable, Range range,
                std::string help);
+  /// None, or `count` points as [[x, y], ...].
+  void points(std::string key, std::vector<Eigen::Vector2d>& variable, std::size_t count,
+              Range range, std::string help);
   void integers(std::string key, std::optional<Eigen::Vector3i>& variable, Range range,
                 std::string help);
   void label_values(std::string key, std::vector<int>& variable, std::string help);

@@ -135,9 +135,13 @@ void declare_view(Settings& s, const std::string& view, ViewSettings& v) {
   const std::string prefix = "views." + view + ".";
   s.path(prefix + "mammogram", v.mammogram,
          "the view's mammogram (DICOM, or PNG with `detector` keys): the breast is brought to it");
-  s.numbers(
-      prefix + "nipple_pixel", v.nipple_pixel, {-20000, 20000, "pixels"},
-      "column and row of the nipple in the mammogram; default: its marker, or the profile's tip");
+  s.numbers(prefix + "nipple_pixel", v.nipple_pixel, {-20000, 20000, "pixels"},
+            "column and row of the nipple in the mammogram; default: its marker, or what is found");
+  s.points(prefix + "pectoral", v.pectoral, 2, {-20000, 20000, "pixels"},
+           "two points, column and row, of the pectoral muscle's edge; default: what is found");
+  s.path(prefix + "outline", v.outline,
+         "the breast's skin line in the mammogram: a mask (PNG of its size) or a contour (text, a "
+         "column and a row a line); default: what is found");
   s.number(prefix + "thickness_mm", v.thickness_mm, {10, 200, "mm", "is it in cm?"},
            "compressed thickness; default the DICOM mammogram's, else 0.45 of the free extent");
   s.number(

@@ -52,7 +52,9 @@ struct CompressionSettings {
 /// What patient.toml says of one view.
 struct ViewSettings {
   std::optional<std::filesystem::path> mammogram;
-  std::optional<Eigen::Vector2d> nipple_pixel;  ///< (column, row)
+  std::optional<Eigen::Vector2d> nipple_pixel;   ///< (column, row)
+  std::vector<Eigen::Vector2d> pectoral;         ///< none or two points (column, row)
+  std::optional<std::filesystem::path> outline;  ///< a mask (PNG) or a contour
   std::optional<double> thickness_mm;
   std::optional<double> angle_deg;
   double default_angle_deg = 0;  ///< where neither header nor patient.toml says one

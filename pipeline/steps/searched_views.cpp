@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "pipeline/steps/breast_problem.h"
+#include "pipeline/steps/view_header.h"
 #include "pipeline/steps/view_problem.h"
 #include "registration/mammogram/mammogram_findings.h"
 #include "registration/mammogram/mammogram_header.h"
@@ -15,12 +16,6 @@ using nlohmann::json;
 
 // What is worth a look after a search.
 constexpr double kPoorOutline_mm = 5, kPoorNipple_mm = 10, kFarState = 2;
-
-SaidFindings said_in(const ViewSettings& settings) {
-  SaidFindings said;
-  said.nipple = settings.nipple_pixel;
-  return said;
-}
 
 ViewEvidence evidence_of(const Patient& patient, const RegisteredView& view) {
   const CompressedView& geometry = view.projection.view();
@@ -38,8 +33,9 @@ ViewEvidence evidence_of(const Patient& patient, const RegisteredView& view) {
         "the " + geometry.name + " mammogram has " + std::to_string(image.columns) + " x " +
         std::to_string(image.rows) + " pixels; " + key + ".detector says " +
         std::to_string(detector.pixels->columns) + " x " + std::to_string(detector.pixels->rows));
-  const MammogramFindings found = find_breast(image, detector.pixels->spacing_mm,
-                                              std::abs(geometry.angle_deg) > 15, said_in(settings));
+  const MammogramFindings found =
+      find_breast(image, detector.pixels->spacing_mm, std::abs(geometry.angle_deg) > 15,
+                  said_in(patient, settings));
   if (found.chest_wall != detector.pixels->chest_wall)
     throw std::runtime_error("the " + geometry.name + " mammogram" +
                              ": the breast lies on the image's other side than " + key +

@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <fstream>
+#include <sstream>
 #include <stdexcept>
-
-#include "registration/mammogram/header_geometry.h"
 
 namespace mammotwin {
 namespace {
@@ -21,9 +20,25 @@ void require_png(const std::filesystem::path& path, const std::string& key) {
                              "damaged? copy or export it again)");
 }
 
-HeaderOverrides overrides_of(const ViewSettings& view) {
-  return {view.thickness_mm,     view.angle_deg,  view.source_distance_mm, view.support_gap_mm,
-          view.pixel_spacing_mm, view.chest_wall, view.lateral_at_top};
+/// A contour's points: a column and a row a line, parted by blanks or a comma.
+std::vector<Eigen::Vector2d> read_contour(const std::filesystem::path& path) {
+  std::ifstream in(path);
+  std::vector<Eigen::Vector2d> contour;
+  for (std::string line; std::getline(in, line);) {
+    std::replace(line.begin(), line.end(), ',', ' ');
+    std::istringstream numbers(line);
+    Eigen::Vector2d x;
+    if (numbers >> x.x() >> x.y())
+      contour.push_back(x);
+    else if (line.find_first_not_of(" \t\r") != std::string::npos && !contour.empty())
+      throw std::runtime_error(path.string() + ": line \"" + line +
+                               "\" is no column and row in pixels");
+  }
+  if (contour.size() < 2)
+    throw std::runtime_error(path.string() +
+                             ": holds fewer than two points; expected a mask (PNG) or a contour, a "
+                             "column and a row a line");
+  return contour;
 }
 
 void take(const HeaderGeometry& header, ViewSettings& view) {
@@ -40,6 +55,24 @@ void take(const HeaderGeometry& header, ViewSettings& view) {
 }
 
 }  // namespace
+
+HeaderOverrides overrides_of(const ViewSettings& view) {
+  return {view.thickness_mm,     view.angle_deg,  view.source_distance_mm, view.support_gap_mm,
+          view.pixel_spacing_mm, view.chest_wall, view.lateral_at_top};
+}
+
+SaidFindings said_in(const Patient& patient, const ViewSettings& view) {
+  SaidFindings said;
+  said.nipple = view.nipple_pixel;
+  if (view.pectoral.size() == 2) said.pectoral = {view.pectoral[0], view.pectoral[1]};
+  if (!view.outline) return said;
+  const std::filesystem::path path = patient.resolve(*view.outline);
+  if (path.extension() == ".png")
+    said.mask = read_mammogram_png(path);
+  else
+    said.outline = read_contour(path);
+  return said;
+}
 
 std::optional<std::filesystem::path> dicom_mammogram(const Patient& patient,
                                                      const std::string& view) {

@@ -18,7 +18,7 @@ constexpr double kAirSpreads = 9;
 constexpr double kThin_mm = 2;
 constexpr double kLeastBreast = 0.03, kMostBreast = 0.9;  // of the image
 /// More of the image's rows with skin on the far edge: that is no skin.
-constexpr double kMostCut = 0.1;
+constexpr double kMostCut = 0.05;
 /// Air of an exposed field is looked for so often above darker frames.
 constexpr int kMostFrames = 3;
 
@@ -35,29 +35,6 @@ bool is_white(int count, float white, At at) {
   int bright = 0;
   for (int i = 0; i < count; ++i) bright += at(i) >= white;
   return bright > kNearlyAll * count;
-}
-
-/// White lines along the image's edges, as film readers leave them, become as dark as anything.
-void blacken_borders(MammogramImage& image) {
-  constexpr double kWhite = 0.97, kMostBorder = 0.1;
-  const auto [low, high] = std::minmax_element(image.grey.begin(), image.grey.end());
-  const float dark = *low, white = static_cast<float>(dark + kWhite * (*high - dark));
-  const auto column = [&](int c) {
-    if (!is_white(image.rows, white, [&](int r) { return image.at(c, r); })) return false;
-    for (int r = 0; r < image.rows; ++r) image.at(c, r) = dark;
-    return true;
-  };
-  const auto row = [&](int r) {
-    if (!is_white(image.columns, white, [&](int c) { return image.at(c, r); })) return false;
-    for (int c = 0; c < image.columns; ++c) image.at(c, r) = dark;
-    return true;
-  };
-  const int wide = static_cast<int>(kMostBorder * image.columns);
-  const int high_rows = static_cast<int>(kMostBorder * image.rows);
-  for (int c = 0; c < wide && column(c); ++c) continue;
-  for (int c = image.columns - 1; c >= image.columns - wide && column(c); --c) continue;
-  for (int r = 0; r < high_rows && row(r); ++r) continue;
-  for (int r = image.rows - 1; r >= image.rows - high_rows && row(r); --r) continue;
 }
 
 struct Extent {
@@ -136,6 +113,28 @@ bool has_more_than(float floor, const MammogramImage& image) {
 }
 
 }  // namespace
+
+void blacken_borders(MammogramImage& image) {
+  constexpr double kWhite = 0.97, kMostBorder = 0.1;
+  const auto [low, high] = std::minmax_element(image.grey.begin(), image.grey.end());
+  const float dark = *low, white = static_cast<float>(dark + kWhite * (*high - dark));
+  const auto column = [&](int c) {
+    if (!is_white(image.rows, white, [&](int r) { return image.at(c, r); })) return false;
+    for (int r = 0; r < image.rows; ++r) image.at(c, r) = dark;
+    return true;
+  };
+  const auto row = [&](int r) {
+    if (!is_white(image.columns, white, [&](int c) { return image.at(c, r); })) return false;
+    for (int c = 0; c < image.columns; ++c) image.at(c, r) = dark;
+    return true;
+  };
+  const int wide = static_cast<int>(kMostBorder * image.columns);
+  const int high_rows = static_cast<int>(kMostBorder * image.rows);
+  for (int c = 0; c < wide && column(c); ++c) continue;
+  for (int c = image.columns - 1; c >= image.columns - wide && column(c); --c) continue;
+  for (int r = 0; r < high_rows && row(r); ++r) continue;
+  for (int r = image.rows - 1; r >= image.rows - high_rows && row(r); --r) continue;
+}
 
 AirLevel air_level(const MammogramImage& image, float floor, double least_share) {
   constexpr double kSdOfMad = 1.4826;  // of a normal distribution

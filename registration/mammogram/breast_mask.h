@@ -18,6 +18,10 @@ struct AirLevel {
 /// range of greys. Throws std::runtime_error where nothing is dark.
 AirLevel air_level(const MammogramImage& image, float floor, double least_share);
 
+/// White lines along the image's edges, as film readers and collimators leave them, become as dark
+/// as anything.
+void blacken_borders(MammogramImage& image);
+
 /// The breast: 1, else 0; the largest bright region that lies at the left or right edge, without
 /// white borders, labels and what is thinner than 2 mm. Where the darkest grey is the frame of an
 /// exposed field, whose grey air would make all of the field a breast, air is looked for again

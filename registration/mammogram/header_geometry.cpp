@@ -1,6 +1,7 @@
 #include "registration/mammogram/header_geometry.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdio>
 #include <map>
@@ -15,6 +16,9 @@ constexpr const char* kIntent = "(0008,0068) PresentationIntentType";
 constexpr const char* kDistance = "(0018,1110) DistanceSourceToDetector";
 constexpr const char* kToPatient = "(0018,1111) DistanceSourceToPatient";
 constexpr const char* kMagnification = "(0018,1114) EstimatedRadiographicMagnificationFactor";
+constexpr const char* kImageType = "(0008,0008) ImageType";
+constexpr const char* kCollimator = "(0018,1702) and (0018,1704) Collimator edges";
+constexpr const char* kElementSpacing = "(0018,7022) DetectorElementSpacing";
 constexpr const char* kImagerSpacing = "(0018,1164) ImagerPixelSpacing";
 constexpr const char* kThickness = "(0018,11A0) BodyPartThickness";
 constexpr const char* kForce = "(0018,11A2) CompressionForce";
@@ -44,6 +48,13 @@ std::string text_of(double value) {
 
 bool has(const std::string& text, const char* word) { return text.find(word) != std::string::npos; }
 
+/// A word of `text` begins so: MAG in "MAG 1.8" and not in IMAGING.
+bool has_word(const std::string& text, const std::string& word) {
+  for (auto at = text.find(word); at != std::string::npos; at = text.find(word, at + 1))
+    if (at == 0 || !std::isalnum(static_cast<unsigned char>(text[at - 1]))) return true;
+  return false;
+}
+
 /// CC and MLO in SNOMED RT and SNOMED CT (PS3.16 CID 4014).
 const std::map<std::string, std::string> kViewCodes{
     {"R-10242", "CC"}, {"399162004", "CC"}, {"R-10226", "MLO"}, {"399368009", "MLO"}};
@@ -68,6 +79,26 @@ void check_kind(const MammogramHeader& h, HeaderGeometry& geometry) {
     geometry.remarks.push_back(std::string(kIntent) + " is missing; taken as FOR PRESENTATION");
 }
 
+/// What is a mammogram, but not the plain view that the search was tried on.
+void remark_on_kind(const MammogramHeader& h, HeaderGeometry& geometry) {
+  const std::pair<const char*, const char*> kinds[] = {
+      {"SUBTRACT", "a contrast-enhanced subtraction: fat is not dark in it as in a plain view"},
+      {"RECOMBINED", "a contrast-enhanced subtraction: fat is not dark in it as in a plain view"},
+      {"GENERATED_2D", "a synthetic 2-D view computed from tomosynthesis"},
+      {"STEREO", "one of a stereo pair, taken at another angle"}};
+  for (const std::string& type : h.image_type)
+    for (const auto& [word, meaning] : kinds)
+      if (has(type, word))
+        geometry.remarks.push_back(std::string(kImageType) + " says " + type + ": " + meaning);
+  constexpr double kLittle = 0.8;  // of the columns: more is cut off than a border
+  if (h.collimated_left && h.collimated_right && h.columns &&
+      *h.collimated_right - *h.collimated_left < kLittle * *h.columns)
+    geometry.remarks.push_back(
+        std::string(kCollimator) +
+        " leave less than 80 % of the columns: heavy collimation may cut the "
+        "outline");
+}
+
 void check_enlargement(const MammogramHeader& h) {
   constexpr double most = 1.15;  // contact views: 1.0 to 1.1
   if (h.magnification && *h.magnification > most)
@@ -78,7 +109,8 @@ void check_enlargement(const MammogramHeader& h) {
       if (has(modifier, bad))
         refuse(kModifier, "says \"" + modifier + "\": such a view cannot be used");
   for (const char* bad : {"SPOT", "MAG"})
-    if (has(h.paddle, bad)) refuse(kPaddle, "is \"" + h.paddle + "\": such a view cannot be used");
+    if (has_word(h.paddle, bad))
+      refuse(kPaddle, "is \"" + h.paddle + "\": such a view cannot be used");
 }
 
 void check_view(const MammogramHeader& h, const std::string& view) {
@@ -164,10 +196,20 @@ double distance_of(const MammogramHeader& h, const std::string& view, HeaderGeom
   return *h.source_to_detector_mm;
 }
 
-double gap_of(const MammogramHeader& h, double distance, HeaderGeometry& geometry) {
+/// One vendor's DistanceSourceToPatient ends at the breast's top (25 mm of breast and a gap of 43:
+/// 18 mm of support), which a gap beyond any usual support tells.
+double gap_of(const MammogramHeader& h, double distance, std::optional<double> thickness,
+              HeaderGeometry& geometry) {
+  constexpr double kUsual = 30, kMost = 50;  // [mm] of supports over detectors
   if (!h.source_to_patient_mm) return 0;
   const double gap = distance - *h.source_to_patient_mm;
-  if (gap >= 0 && gap <= 50) return gap;
+  if (thickness && gap > kUsual && gap >= *thickness && gap - *thickness <= kUsual) {
+    geometry.remarks.push_back(std::string(kToPatient) + " is " + text_of(*h.source_to_patient_mm) +
+                               ", which seems to end at the breast's top; taken as a support " +
+                               text_of(gap - *thickness) + " mm above the detector");
+    return gap - *thickness;
+  }
+  if (gap >= 0 && gap <= kMost) return gap;
   geometry.remarks.push_back(std::string(kToPatient) + " is " + text_of(*h.source_to_patient_mm) +
                              ", which is no support 0 to 50 mm above the detector; taken as 0");
   return 0;
@@ -192,6 +234,17 @@ double spacing_of(const MammogramHeader& h, const std::string& view, HeaderGeome
     return square(kPixelSpacing, h.pixel_spacing_mm, view);
   }
   const double spacing = square(kImagerSpacing, h.imager_spacing_mm, view);
+  if (!h.element_spacing_mm.empty()) {
+    // At the breast's plane a pixel is smaller by magnification, 2 to 15 %; binning doubles it.
+    const double element = h.element_spacing_mm[0], ratio = element / spacing;
+    if (ratio > 1.02 && ratio < 1.15) {
+      geometry.remarks.push_back(std::string(kElementSpacing) + " is " + text_of(element) + ", " +
+                                 kImagerSpacing + " " + text_of(spacing) +
+                                 ", as if on the breast's plane; the former is used, on the "
+                                 "detector's");
+      return square(kElementSpacing, h.element_spacing_mm, view);
+    }
+  }
   if (!h.pixel_spacing_mm.empty() && std::abs(h.pixel_spacing_mm[0] / spacing - 1) > 0.01)
     geometry.remarks.push_back(std::string(kPixelSpacing) + " differs from " + kImagerSpacing +
                                "; the latter is used, on the detector's plane");
@@ -224,10 +277,23 @@ bool lateral_at_top_of(const MammogramHeader& h, const std::string& view, Side s
 
 }  // namespace
 
+std::string view_said_in(const MammogramHeader& h) {
+  std::string view = h.view_position.empty() ? coded_view(h) : h.view_position;
+  std::transform(view.begin(), view.end(), view.begin(),
+                 [](unsigned char c) { return std::tolower(c); });
+  return view;
+}
+
+Side side_said_in(const MammogramHeader& h) {
+  const std::string said = h.image_laterality.empty() ? h.laterality : h.image_laterality;
+  return said == "R" ? Side::right : Side::left;
+}
+
 HeaderGeometry header_geometry(const MammogramHeader& h, const std::string& view, Side side,
                                const HeaderOverrides& o) {
   HeaderGeometry g;
   check_kind(h, g);
+  remark_on_kind(h, g);
   check_enlargement(h);
   check_view(h, view);
   check_side(h, side);
@@ -236,8 +302,9 @@ HeaderGeometry header_geometry(const MammogramHeader& h, const std::string& view
   g.force_N = force_of(h, g);
   g.detector.source_distance_mm =
       o.source_distance_mm ? *o.source_distance_mm : distance_of(h, view, g);
-  g.detector.support_gap_mm =
-      o.support_gap_mm ? *o.support_gap_mm : gap_of(h, g.detector.source_distance_mm, g);
+  g.detector.support_gap_mm = o.support_gap_mm
+                                  ? *o.support_gap_mm
+                                  : gap_of(h, g.detector.source_distance_mm, g.thickness_mm, g);
   if (!h.rows || !h.columns || *h.rows < 1 || *h.columns < 1) refuse(kSize, "is missing");
   PixelGrid grid;
   grid.columns = *h.columns;

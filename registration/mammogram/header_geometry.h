@@ -27,6 +27,12 @@ struct HeaderGeometry {
   std::vector<std::string> remarks;  ///< what was assumed or looks odd, each naming its tag
 };
 
+/// "cc", "mlo", another view in lower case, or empty where no tag says it.
+std::string view_said_in(const MammogramHeader& header);
+
+/// Side as laterality says it; left where it says neither, which `header_geometry` refuses.
+Side side_said_in(const MammogramHeader& header);
+
 /// Judges a header against the view that is asked for ("cc", "mlo") and the MRI's side.
 ///
 /// Throws std::runtime_error "<tag> <name> ..." for what cannot be used: another modality, view or

@@ -91,7 +91,8 @@ class Reading {
  private:
   void read_outline() {
     if (!said_.outline.empty()) return take_outline();
-    const MammogramImage mask = breast_mask(upright_.image(), upright_.pixel_mm());
+    const MammogramImage mask =
+        said_.mask ? said_mask() : breast_mask(upright_.image(), upright_.pixel_mm());
     found_.chest_wall = chest_wall_edge(mask);
     upright_.hang(found_.chest_wall);
     mask_ = hung(mask, found_.chest_wall);
@@ -99,6 +100,19 @@ class Reading {
     for (const Eigen::Vector2d& x : skin_.points)
       found_.outline.push_back(upright_.stored_pixel(x));
     found_.remarks = skin_.remarks;
+  }
+
+  MammogramImage said_mask() const {
+    if (said_.mask->columns != image_.columns || said_.mask->rows != image_.rows)
+      throw std::runtime_error(
+          "outline: the mask has " + std::to_string(said_.mask->columns) + " x " +
+          std::to_string(said_.mask->rows) + " pixels; expected the mammogram's " +
+          std::to_string(image_.columns) + " x " + std::to_string(image_.rows));
+    MammogramImage mask = *said_.mask;
+    for (float& m : mask.grey) m = m > 0;
+    mask = UprightImage(mask, pixel_mm_).image();
+    for (float& m : mask.grey) m = m > 0.5f;
+    return mask;
   }
 
   void take_outline() {

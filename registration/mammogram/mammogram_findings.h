@@ -46,6 +46,7 @@ struct MammogramFindings {
 struct SaidFindings {
   std::optional<Eigen::Vector2d> nipple;
   std::optional<std::pair<Eigen::Vector2d, Eigen::Vector2d>> pectoral;  ///< two points of the edge
+  std::optional<MammogramImage> mask;    ///< of the image's size, the breast above 0
   std::vector<Eigen::Vector2d> outline;  ///< from one end to the other
 };
 

@@ -1,9 +1,12 @@
 #include "registration/mammogram/mammogram_header.h"
 
 #include <dcmtk/config/osconfig.h>
+#include <dcmtk/dcmdata/dcrledrg.h>
 #include <dcmtk/dcmdata/dctk.h>
+#include <dcmtk/dcmimage/diregist.h>
 #include <dcmtk/dcmimgle/dcmimage.h>
 #include <dcmtk/dcmjpeg/djdecode.h>
+#include <dcmtk/dcmjpls/djdecode.h>
 
 #include <algorithm>
 #include <cctype>
@@ -11,6 +14,8 @@
 #include <fstream>
 #include <memory>
 #include <stdexcept>
+
+#include "registration/mammogram/detector_counts.h"
 
 namespace mammotwin {
 namespace {
@@ -82,10 +87,12 @@ DcmFileFormat load(const std::filesystem::path& path) {
   return file;
 }
 
-/// Decoders for JPEG, registered for the process once.
+/// Decoders for JPEG, JPEG-LS and RLE, registered for the process once.
 void register_decoders() {
   static const bool once = [] {
     DJDecoderRegistration::registerCodecs();
+    DJLSDecoderRegistration::registerCodecs();
+    DcmRLEDecoderRegistration::registerCodecs();
     return true;
   }();
   (void)once;
@@ -120,6 +127,10 @@ MammogramHeader read_mammogram_header(const std::filesystem::path& path) {
   h.force = number_of(d, DCM_CompressionForce);
   h.source_to_detector_mm = number_of(d, DCM_DistanceSourceToDetector);
   h.source_to_patient_mm = number_of(d, DCM_DistanceSourceToPatient);
+  h.image_type = texts_of(d, DCM_ImageType);
+  h.element_spacing_mm = numbers_of(d, DCM_DetectorElementSpacing);
+  h.collimated_left = count_of(d, DCM_CollimatorLeftVerticalEdge);
+  h.collimated_right = count_of(d, DCM_CollimatorRightVerticalEdge);
   h.magnification = number_of(d, DCM_EstimatedRadiographicMagnificationFactor);
   h.imager_spacing_mm = numbers_of(d, DCM_ImagerPixelSpacing);
   h.pixel_spacing_mm = numbers_of(d, DCM_PixelSpacing);
@@ -129,50 +140,112 @@ MammogramHeader read_mammogram_header(const std::filesystem::path& path) {
   return h;
 }
 
+namespace {
+
+/// Refuses by name what no decoder here can read.
+void check_compression(const DcmDataset& dataset, const std::string& file) {
+  const E_TransferSyntax syntax = dataset.getOriginalXfer();
+  for (const E_TransferSyntax jpeg_2000 :
+       {EXS_JPEG2000, EXS_JPEG2000LosslessOnly, EXS_JPEG2000Multicomponent,
+        EXS_JPEG2000MulticomponentLosslessOnly})
+    if (syntax == jpeg_2000)
+      throw std::runtime_error(file +
+                               ": its pixels are JPEG 2000, which is not read here; expected "
+                               "uncompressed, RLE, JPEG or JPEG-LS: have it sent so, or convert it "
+                               "(gdcmconv --raw)");
+}
+
+template <class From>
+void copy(const void* from, std::vector<float>& to) {
+  const From* values = static_cast<const From*>(from);
+  std::copy(values, values + to.size(), to.begin());
+}
+
+/// Values as they are stored.
+void take_grey(const DiPixel& pixels, std::vector<float>& grey) {
+  switch (pixels.getRepresentation()) {
+    case EPR_Uint8:
+      return copy<Uint8>(pixels.getData(), grey);
+    case EPR_Sint8:
+      return copy<Sint8>(pixels.getData(), grey);
+    case EPR_Uint16:
+      return copy<Uint16>(pixels.getData(), grey);
+    case EPR_Sint16:
+      return copy<Sint16>(pixels.getData(), grey);
+    case EPR_Uint32:
+      return copy<Uint32>(pixels.getData(), grey);
+    case EPR_Sint32:
+      return copy<Sint32>(pixels.getData(), grey);
+  }
+}
+
+/// Colour of which all channels are equal is grey.
+void take_colour(DicomImage& decoded, std::vector<float>& grey, const std::string& file) {
+  constexpr int kBits = 8;
+  constexpr std::size_t kChannels = 3;
+  std::vector<Uint8> colour(decoded.getOutputDataSize(kBits));
+  if (colour.size() != kChannels * grey.size() ||
+      !decoded.getOutputData(colour.data(), colour.size(), kBits))
+    throw std::runtime_error(file + ": (7FE0,0010) pixel data: colour that cannot be read");
+  for (std::size_t i = 0; i < grey.size(); ++i) {
+    const Uint8* c = &colour[kChannels * i];
+    if (c[0] != c[1] || c[1] != c[2])
+      throw std::runtime_error(file +
+                               ": (0028,0004) PhotometricInterpretation is colour, and its "
+                               "channels differ; expected a grey mammogram");
+    grey[i] = c[0];
+  }
+}
+
+/// Indices of pixels that the header calls padding.
+std::vector<std::size_t> padding_of(DcmDataset& dataset, const std::vector<float>& grey) {
+  const auto value = number_of(dataset, DCM_PixelPaddingValue);
+  std::vector<std::size_t> padding;
+  if (!value) return padding;
+  const double limit = number_of(dataset, DCM_PixelPaddingRangeLimit).value_or(*value);
+  const auto [low, high] = std::minmax(*value, limit);
+  for (std::size_t i = 0; i < grey.size(); ++i)
+    if (grey[i] >= low && grey[i] <= high) padding.push_back(i);
+  return padding;
+}
+
+CountsEncoding counts_encoding(DcmDataset& dataset) {
+  CountsEncoding encoding;
+  encoding.logarithmic = text_of(dataset, DCM_PixelIntensityRelationship) == "LOG";
+  const auto sign = number_of(dataset, DCM_PixelIntensityRelationshipSign);
+  if (sign) encoding.brighter_is_more = *sign > 0;
+  return encoding;
+}
+
+}  // namespace
+
 MammogramImage read_mammogram_dicom(const std::filesystem::path& path) {
   register_decoders();
+  const std::string name = path.filename().string();
   DcmFileFormat file = load(path);
   DcmDataset& dataset = *file.getDataset();
-  const bool counts = text_of(dataset, DCM_PresentationIntentType) == "FOR PROCESSING";
-  const bool inverted = text_of(dataset, DCM_PhotometricInterpretation) == "MONOCHROME1";
-  const DicomImage decoded(&dataset, dataset.getOriginalXfer(), CIF_IgnoreModalityTransformation);
-  const DiPixel* pixels = decoded.getStatus() == EIS_Normal ? decoded.getInterData() : nullptr;
-  if (!pixels)
-    throw std::runtime_error(path.filename().string() + ": (7FE0,0010) pixel data: " +
-                             DicomImage::getString(decoded.getStatus()));
+  check_compression(dataset, name);
+  DicomImage decoded(&dataset, dataset.getOriginalXfer(), CIF_IgnoreModalityTransformation);
+  if (decoded.getStatus() != EIS_Normal)
+    throw std::runtime_error(
+        name + ": (7FE0,0010) pixel data: " + DicomImage::getString(decoded.getStatus()));
   MammogramImage image{
       static_cast<int>(decoded.getWidth()), static_cast<int>(decoded.getHeight()), {}};
   image.grey.resize(static_cast<std::size_t>(image.columns) * image.rows);
-  const auto take = [&](const auto* from) {
-    for (std::size_t i = 0; i < image.grey.size(); ++i) image.grey[i] = static_cast<float>(from[i]);
-  };
-  switch (pixels->getRepresentation()) {
-    case EPR_Uint8:
-      take(static_cast<const Uint8*>(pixels->getData()));
-      break;
-    case EPR_Sint8:
-      take(static_cast<const Sint8*>(pixels->getData()));
-      break;
-    case EPR_Uint16:
-      take(static_cast<const Uint16*>(pixels->getData()));
-      break;
-    case EPR_Sint16:
-      take(static_cast<const Sint16*>(pixels->getData()));
-      break;
-    case EPR_Uint32:
-      take(static_cast<const Uint32*>(pixels->getData()));
-      break;
-    case EPR_Sint32:
-      take(static_cast<const Sint32*>(pixels->getData()));
-      break;
+  if (decoded.isMonochrome())
+    take_grey(*decoded.getInterData(), image.grey);
+  else
+    take_colour(decoded, image.grey, name);
+  const std::vector<std::size_t> padding = padding_of(dataset, image.grey);
+  const bool inverted = text_of(dataset, DCM_PhotometricInterpretation) == "MONOCHROME1";
+  if (text_of(dataset, DCM_PresentationIntentType) == "FOR PROCESSING") {
+    absorption_from_counts(image, counts_encoding(dataset));
+  } else if (inverted) {
+    const float most = *std::max_element(image.grey.begin(), image.grey.end());
+    for (float& grey : image.grey) grey = most - grey;
   }
-  const float most = *std::max_element(image.grey.begin(), image.grey.end());
-  for (float& grey : image.grey) {
-    if (counts && !inverted)
-      grey = std::log(std::max(1.f, most) / std::max(1.f, grey));
-    else if (inverted)
-      grey = most - grey;
-  }
+  const float air = *std::min_element(image.grey.begin(), image.grey.end());
+  for (const std::size_t i : padding) image.grey[i] = air;
   return image;
 }
 

@@ -19,7 +19,10 @@ struct MammogramHeader {
   std::vector<std::string> patient_orientation;             ///< of rows, of columns
   std::optional<double> primary_angle_deg, thickness_mm, force, source_to_detector_mm,
       source_to_patient_mm, magnification;
-  std::vector<double> imager_spacing_mm, pixel_spacing_mm;  ///< between rows, between columns
+  std::vector<std::string> image_type;  ///< (0008,0008)
+  std::vector<double> imager_spacing_mm, pixel_spacing_mm,
+      element_spacing_mm;  ///< between rows, between columns; the last of the detector itself
+  std::optional<int> collimated_left, collimated_right;  ///< columns of (0018,1702) and (0018,1704)
   std::optional<int> rows, columns, frames;
 };
 
@@ -30,7 +33,9 @@ MammogramHeader read_mammogram_header(const std::filesystem::path& path);
 bool is_dicom(const std::filesystem::path& path);
 
 /// Grey values, dense tissue bright: MONOCHROME1 is turned over; detector counts (FOR PROCESSING)
-/// become the logarithm of their loss. Uncompressed and JPEG files. Throws std::runtime_error.
+/// become what was absorbed (detector_counts.h); padding becomes air. Uncompressed, RLE, JPEG and
+/// JPEG-LS files; colour where red, green and blue are equal. Throws std::runtime_error, naming
+/// JPEG 2000 where it is that.
 MammogramImage read_mammogram_dicom(const std::filesystem::path& path);
 
 }  // namespace mammotwin

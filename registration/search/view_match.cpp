@@ -36,6 +36,25 @@ CarriedNipple carried(const ReducedView& view, const HermiteMesh& prone,
   return {found.point, found.in_lps - compressed.position(found.point)};
 }
 
+double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
+
+/// Muscle is dense, and no tissue of the breast: its cells, on the other side of its edge than the
+/// nipple, do not count.
+void leave_out_muscle(const MammogramFindings& findings, const Detector& detector,
+                      DensityGrid& grid) {
+  if (!findings.pectoral) return;
+  const Eigen::Vector2d top = detector.detector_from_image(findings.pectoral->first);
+  const Eigen::Vector2d way = detector.detector_from_image(findings.pectoral->second) - top;
+  const double nipple = cross(way, detector.detector_from_image(findings.nipple) - top);
+  std::erase_if(grid.cells, [&](int cell) {
+    const bool muscle = cross(way, grid.middle(cell) - top) * nipple < 0;
+    if (muscle) grid.inside[cell] = 0;
+    return muscle;
+  });
+}
+
 Eigen::Vector2d edge_centre(const std::vector<Eigen::Vector2d>& outline) {
   double low = 1e30, high = -1e30;
   for (const Eigen::Vector2d& x : outline) {
@@ -61,6 +80,7 @@ ViewEvidence view_evidence(const MammogramImage& image, const MammogramFindings&
   evidence.nipple = detector.detector_from_image(findings.nipple);
   evidence.nipple_sd_mm = std::max(kLeastNipple_mm, findings.nipple_sd_mm);
   evidence.grid = density_grid(whole);
+  leave_out_muscle(findings, detector, evidence.grid);
   evidence.pattern = pattern(evidence.grid, grey_in_cells(evidence.grid, image, detector));
   return evidence;
 }
