@@ -35,7 +35,7 @@ void declare(StageDeclaration& stage, Arguments& args) {
   stage.input("mlo", args.mlo, "breast compressed in MLO (.vtu)");
   stage.product("lesions", args.lesions, "table of lesions to write (.csv; .mrk.json beside it)");
   for (const char* view : {"cc", "mlo"})
-    for (const char* key : {".detector.", ".mammogram", ".nipple_pixel"})
+    for (const char* key : {".detector.", ".mammogram", ".nipple_pixel", ".pectoral", ".outline"})
       stage.options_from(std::string("views.") + view + key, false);
   stage.options_from("register.", true);
   stage.command()
@@ -47,7 +47,8 @@ void declare(StageDeclaration& stage, Arguments& args) {
 StagePlan plan(const Arguments& args, const Patient& patient) {
   StagePlan plan{{}, {"views.", "register.", "compress.", "materials.", "unload.density"}};
   for (const ViewSettings* view : {&patient.cc, &patient.mlo})
-    if (view->mammogram) plan.inputs.push_back(patient.resolve(*view->mammogram));
+    for (const auto& file : {view->mammogram, view->outline})
+      if (file) plan.inputs.push_back(patient.resolve(*file));
   if (std::filesystem::exists(args.mri())) plan.inputs.push_back(args.mri());
   if (!args.landmarks.empty()) plan.inputs.push_back(args.landmarks);
   return plan;
