@@ -236,7 +236,8 @@ NewtonReport Newton::solve(State& state, const NewtonOptions& options,
       return report;
     }
     if (pending.empty() && balanced(balance, options)) {
-      const bool minimum = !indefinite_ || options.tolerance > kEquilibrium || is_stable(state);
+      const bool minimum = !indefinite_ || options.keep_unstable ||
+                           options.tolerance > kEquilibrium || is_stable(state);
       if (!minimum && ++falls <= kMostFalls && fall(state, balance, options, report)) continue;
       report.converged = minimum;
       if (!minimum) report.reason = "the equilibrium found is unstable";

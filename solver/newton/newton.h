@@ -21,6 +21,9 @@ struct NewtonOptions {
   /// may be empty. The residual stays exact, so only the speed of convergence changes.
   std::function<void(bool)> stabilise;
   double max_shift = 1000;  ///< Laplacian shifts tried on an indefinite matrix before giving up [-]
+  /// Takes a balanced state whose tangent is indefinite for an answer: for paths that only symmetry
+  /// holds, such as a closed form's.
+  bool keep_unstable = false;
   /// Called after each step with the merit before and after it (condensed_energy.h) [mN mm].
   std::function<void(double before, double after)> watch;
 };

@@ -68,7 +68,6 @@ void Rest(benchmark::State& state) {
   cholesky.factor(p.assembler->matrix());
   for (auto _ : state) {
     const Eigen::VectorXd step = cholesky.solve(p.assembler->right_hand_side());
-    double work = 0;
     p.assembler->pressures_after(p.state, p.assembler->nodal_step(step, {}));
     benchmark::DoNotOptimize(p.assembler->balance(p.state).energy);
   }
