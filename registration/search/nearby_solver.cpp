@@ -1,6 +1,7 @@
 #include "registration/search/nearby_solver.h"
 
 #include <array>
+#include <cmath>
 #include <stdexcept>
 #include <utility>
 
@@ -74,7 +75,8 @@ std::optional<SolvedView> NearbySolver::solve_from(const CompressionResult& near
   try {
     const CompressionProblem problem = problem_at_(state);
     CompressionResult result = compress_from(near, problem, soft_options());
-    if (!result.report.usable()) return std::nullopt;
+    // A breast that slid out altogether leaves plates without a place.
+    if (!result.report.usable() || !std::isfinite(result.plates.paddle_height)) return std::nullopt;
     const CompressedView view =
         view_of_plates(base_.view.name, base_.view.side, base_.view.angle_deg + state[kRoll],
                        problem.plates, result);

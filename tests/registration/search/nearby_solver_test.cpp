@@ -62,7 +62,7 @@ TEST(NearbySolver, SlopesAreWhatSolvesSay) {
 // there.
 TEST(NearbySolver, GoesOnWhereTheBreastSlipsBackwards) {
   const auto loose_at = [](const ViewState& state) {
-    CompressionProblem problem = dome_problem(30 + state[kThickness], false);
+    CompressionProblem problem = dome_problem(36 + state[kThickness], false);
     problem.mesh = dome_breast({2, 2, 1});
     problem.plates.wall_clearance = 20;
     return problem;
