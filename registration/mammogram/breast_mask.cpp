@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -136,27 +137,44 @@ void blacken_borders(MammogramImage& image) {
   for (int r = image.rows - 1; r >= image.rows - high_rows && row(r); --r) continue;
 }
 
-AirLevel air_level(const MammogramImage& image, float floor, double least_share) {
+namespace {
+
+/// Median and spread of values, which must not be empty and are changed.
+AirLevel level_of(std::vector<float>& values) {
   constexpr double kSdOfMad = 1.4826;  // of a normal distribution
-  MammogramImage above{0, 1, {}};
+  AirLevel air;
+  air.grey = median(values);
+  for (float& grey : values) grey = std::abs(grey - air.grey);
+  air.spread = static_cast<float>(kSdOfMad * median(values));
+  return air;
+}
+
+}  // namespace
+
+AirLevel air_level(const MammogramImage& image, float floor, double least_share) {
+  constexpr int kMostSplits = 3;
+  MammogramImage part{0, 1, {}};
   for (const float grey : image.grey)
-    if (grey > floor) above.grey.push_back(grey);
-  if (above.grey.empty()) throw std::runtime_error("no air is seen beside the breast");
-  above.columns = static_cast<int>(above.grey.size());
-  const auto [low, high] = std::minmax_element(above.grey.begin(), above.grey.end());
+    if (grey > floor) part.grey.push_back(grey);
+  if (part.grey.empty()) throw std::runtime_error("no air is seen beside the breast");
+  const auto [low, high] = std::minmax_element(part.grey.begin(), part.grey.end());
   const float range = *high - *low;
   if (!(range > 0)) throw std::runtime_error("all of the image has one grey");
-  const float otsu = otsu_threshold(above);
-  std::vector<float> dark;
-  for (const float grey : above.grey)
-    if (grey <= otsu) dark.push_back(grey);
-  AirLevel air;
-  air.grey = median(dark);
-  for (float& grey : dark) grey = std::abs(grey - air.grey);
-  air.spread = static_cast<float>(kSdOfMad * median(dark));
-  air.threshold = std::min(
-      otsu, air.grey + static_cast<float>(std::max(kAirSpreads * air.spread, least_share * range)));
-  return air;
+  std::optional<AirLevel> first;
+  for (int split = 0; split < kMostSplits; ++split) {
+    part.columns = static_cast<int>(part.grey.size());
+    const float otsu = otsu_threshold(part);
+    std::erase_if(part.grey, [otsu](float grey) { return grey > otsu; });
+    std::vector<float> dark = part.grey;
+    AirLevel air = level_of(dark);
+    const float skin =
+        air.grey + static_cast<float>(std::max(kAirSpreads * air.spread, least_share * range));
+    air.threshold = std::min(otsu, skin);
+    if (skin < otsu) return air;
+    if (!first) first = air;
+    if (*std::min_element(part.grey.begin(), part.grey.end()) == otsu) break;
+  }
+  return *first;
 }
 
 MammogramImage breast_mask(const MammogramImage& given, double pixel_mm, double least_share) {

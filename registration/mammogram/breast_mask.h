@@ -14,8 +14,9 @@ struct AirLevel {
 };
 
 /// The air of an image whose dark part lies above `floor`, by what it is in this image: the median
-/// below Otsu's threshold and its spread. Skin is nine spreads brighter, and `least_share` of the
-/// range of greys. Throws std::runtime_error where nothing is dark.
+/// below Otsu's threshold and its spread. Where that part is too wide for air (bright muscle, and
+/// more dim breast than air below the threshold), it is split again. Skin is nine spreads brighter,
+/// and `least_share` of the range of greys. Throws std::runtime_error where nothing is dark.
 AirLevel air_level(const MammogramImage& image, float floor, double least_share);
 
 /// White lines along the image's edges, as film readers and collimators leave them, become as dark
