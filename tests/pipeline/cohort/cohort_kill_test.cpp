@@ -79,7 +79,8 @@ class FullDisk : public KilledRun {
 TEST_F(FullDisk, EndsWithAMessageAndNothingHalfWritten) {
   const CommandResult run = run_patient("p");
   EXPECT_EQ(run.exit_code, 1) << run.text;
-  EXPECT_NE(run.text.find("cannot be written: No space left on device"), std::string::npos) << run.text;
+  EXPECT_NE(run.text.find("cannot be written: No space left on device"), std::string::npos)
+      << run.text;
   for (const auto& [name, bytes] : products()) EXPECT_FALSE(is_partial(name)) << name;
   EXPECT_EQ(verify("p").exit_code, 0) << verify("p").text;
 }
