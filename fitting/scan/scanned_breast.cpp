@@ -40,7 +40,7 @@ Plane plane_through(const std::vector<Eigen::Vector3d>& points) {
   return {mean, Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance).eigenvectors().col(0)};
 }
 
-Plane base_of(const ScanSurface& scan, const ScanOptions& o) {
+Plane base_of(const ScanSurface& scan, const ScannedSkinOptions& o) {
   Plane base;
   if (o.base_point && o.base_normal) {
     base = {o.unit_mm * *o.base_point, o.base_normal->normalized()};
@@ -150,7 +150,7 @@ Volume<std::uint8_t> labels_under(const TriangleSurface& skin) {
 
 }  // namespace
 
-ScannedBreast read_scanned_breast(const std::filesystem::path& path, const ScanOptions& o) {
+ScannedBreast read_scanned_breast(const std::filesystem::path& path, const ScannedSkinOptions& o) {
   const std::vector<Eigen::Vector3d> raw = read_scan_points(path, o.unit_mm);
   const ScanCloud cloud = clean_scan(raw);
   ScannedBreast result;

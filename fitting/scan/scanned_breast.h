@@ -8,7 +8,7 @@
 namespace mammotwin {
 
 /// How a scan is read.
-struct ScanOptions {
+struct ScannedSkinOptions {
   double unit_mm = 1;  ///< length of the file's unit, 1e-6 to 1e6 [mm]
   /// A point of the base plane and its normal, away from the breast's tip or towards it, in the
   /// file's axes and unit. Default: the plane of the scan's rim, `base_depth_mm` behind it.
@@ -30,6 +30,7 @@ struct ScannedBreast {
 
 /// Throws std::runtime_error naming the file and the likely cause (read_scan_points,
 /// scan_surface), or where no breast stands out from the base.
-ScannedBreast read_scanned_breast(const std::filesystem::path& path, const ScanOptions& options);
+ScannedBreast read_scanned_breast(const std::filesystem::path& path,
+                                  const ScannedSkinOptions& options);
 
 }  // namespace mammotwin

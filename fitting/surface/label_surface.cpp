@@ -159,7 +159,7 @@ float trilinear(const Volume<float>& v, const Eigen::Vector3d& index) {
 }  // namespace
 
 Volume<float> solid_from_labels(const Volume<std::uint8_t>& labels, const BreastRegion& region,
-                                const HeightField& wall, const SolidOptions& options) {
+                                const HeightField& wall, const LabelSurfaceOptions& options) {
   Mask body = body_in_window(labels, region, wall, options.margin_mm);
   if (options.closing_voxels > 0)
     body = grown(grown(body, options.closing_voxels, 1), options.closing_voxels, 0);

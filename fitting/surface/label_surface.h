@@ -9,12 +9,12 @@ namespace mammotwin {
 /// overhanging skin is kept; behind the chest wall all is solid. 1 solid, 0 air. The window holds
 /// the region and a margin; where the labels end there, the outermost column goes on. Columns
 /// without any label are solid from 5 mm in front of the wall.
-struct SolidOptions {
+struct LabelSurfaceOptions {
   int closing_voxels = 0;  ///< radius of the ball that closes gaps in the body first
   double margin_mm = 8;
 };
 Volume<float> solid_from_labels(const Volume<std::uint8_t>& labels, const BreastRegion& region,
-                                const HeightField& wall, const SolidOptions& options);
+                                const HeightField& wall, const LabelSurfaceOptions& options);
 
 /// Gaussian of standard deviation sigma_mm.
 Volume<float> smoothed(const Volume<float>& volume, double sigma_mm);

@@ -22,8 +22,7 @@ using nlohmann::json;
 
 constexpr double kPatientThicknessMm = 55;
 constexpr double kPatientMloDeg = 45;
-constexpr int kMostAttempts = 30;      // of the drawn build
-constexpr int kMostCpuSeconds = 3600;  // a segmentation or fit takes some 30
+constexpr int kMostAttempts = 30;  // of the drawn build
 
 json read_json(const fs::path& path) {
   std::ifstream in(path);
@@ -64,14 +63,12 @@ json segment_drawn(const SyntheticBreast& drawn, const fs::path& folder) {
           {"lesions", p.options.anatomy.lesions}};
 }
 
-std::string side_toml(Side side) { return "side = \"" + name_of(side) + "\"\n"; }
-
 /// Runs a stage whose product lies in `folder` and returns its sidecar. Throws std::runtime_error
 /// with its reason where it left no product.
 json run_stage_in(const fs::path& folder, const std::string& stage,
                   const std::vector<std::string>& arguments, const std::string& product) {
   const StageEnd end =
-      run_stage_command(stage, arguments, folder / (stage + ".log"), kMostCpuSeconds);
+      run_stage_command(stage, arguments, folder / (stage + ".log"), kMostStageCpuSeconds);
   const json sidecar = read_json(folder / (product + ".json"));
   if (end.exit_code == 0) return sidecar;
   const json reasons = sidecar.value("reasons", json::array());

@@ -42,14 +42,9 @@ json new_row(const EvaluatedBreast& breast, const PreparedBreast& prepared, cons
   return row;
 }
 
-json read_json(const fs::path& path) {
-  std::ifstream in(path);
-  return in ? json::parse(in) : json::object();
-}
-
 /// The sidecar that the stage left, or one in its form that says how its process ended.
 json sidecar_after(const StageEnd& end, const fs::path& sidecar, int most_cpu_seconds) {
-  if (end.exit_code < 128 && fs::exists(sidecar)) return read_json(sidecar);
+  if (end.exit_code < 128 && fs::exists(sidecar)) return json::parse(std::ifstream(sidecar));
   const int signal = end.exit_code - 128;
   const std::string reason = signal == SIGXCPU || signal == SIGKILL
                                  ? sentence("stopped after %d s of CPU", most_cpu_seconds)

@@ -16,8 +16,6 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-constexpr int kMostCpuSeconds = 3600;  // a segmentation or fit takes some 30
-
 json relative_error(double found, double expected) {
   if (expected < 1) return nullptr;  // [ml]: too little to be a fraction of
   return found / expected - 1;
@@ -27,7 +25,7 @@ json relative_error(double found, double expected) {
 json sidecar_of(const std::string& stage, const std::vector<std::string>& arguments,
                 const fs::path& product, double& cpu_seconds) {
   const fs::path log = product.parent_path() / (stage + ".log");
-  const StageEnd end = run_stage_command(stage, arguments, log, kMostCpuSeconds);
+  const StageEnd end = run_stage_command(stage, arguments, log, kMostStageCpuSeconds);
   cpu_seconds = end.cpu_seconds;
   std::ifstream in(product.string() + ".json");
   const json sidecar = in ? json::parse(in) : json::object();

@@ -13,8 +13,6 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-std::string side_toml(Side side) { return "side = \"" + name_of(side) + "\"\n"; }
-
 RealBreast mri_breast(const fs::path& patient) {
   const auto radiologist = json::parse(std::ifstream(patient / "lesions_radiologist.json"));
   const json& lesion = radiologist.at("mri").at(0);
@@ -26,6 +24,8 @@ RealBreast mri_breast(const fs::path& patient) {
 }
 
 }  // namespace
+
+std::string side_toml(Side side) { return "side = \"" + name_of(side) + "\"\n"; }
 
 std::string labels_toml(const fs::path& label_map) {
   std::map<std::string, json> values;

@@ -9,6 +9,8 @@
 namespace mammotwin {
 
 /// [labels] of a patient.toml whose segmentation is a label map made elsewhere.
+/// `side = "left"` of a patient.toml.
+std::string side_toml(Side side);
 std::string labels_toml(const std::filesystem::path& label_map);
 
 /// One breast of a folder of cases: a label map's, or that of a patient's MRI on the side of the

@@ -19,8 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-constexpr int kMostAttempts = 30;  // of the drawn build: not every chest carries every breast
-constexpr int kMostCpuSeconds = 3600;
+constexpr int kMostChests = 30;  // of the drawn build: not every chest carries every breast
 /// Not mri.nrrd: `segment`, whose products stand in the same folder, leaves its part of the MRI
 /// there.
 constexpr const char* kScan = "scan.nrrd";
@@ -32,7 +31,7 @@ SyntheticPatient make_drawn(int number, bool coarse, DrawnPatient& drawn) {
     try {
       return make_patient(drawn.patient);
     } catch (const std::invalid_argument&) {
-      if (attempt + 1 == kMostAttempts) throw;
+      if (attempt + 1 == kMostChests) throw;
     }
   }
 }
@@ -111,14 +110,14 @@ json drawn_json(const DrawnPatient& drawn, const std::vector<TrueView>& views) {
   return all;
 }
 
-void run_stage_in(const fs::path& folder, const std::string& stage, std::vector<std::string> files,
+void run_on_files(const fs::path& folder, const std::string& stage, std::vector<std::string> files,
                   const std::string& view = "") {
   const std::string product = files.back();
   for (std::string& file : files) file = (folder / file).string();
   if (!view.empty()) files.insert(files.begin(), view);
   files.insert(files.end(), {"--patient", (folder / "patient.toml").string()});
   const StageEnd end =
-      run_stage_command(stage, files, folder / (stage + view + ".log"), kMostCpuSeconds);
+      run_stage_command(stage, files, folder / (stage + view + ".log"), kMostStageCpuSeconds);
   if (end.exit_code == 0) return;
   std::ifstream in(folder / (product + ".json"));
   const json sidecar = in ? json::parse(in) : json::object();
@@ -149,16 +148,16 @@ void make_registration_case(int number, bool coarse, const fs::path& folder) {
 }
 
 void run_registration_case(const fs::path& folder) {
-  run_stage_in(folder, "segment", {"segmentation.seg.nrrd"});
-  run_stage_in(folder, "fit", {"segmentation.seg.nrrd", "fractions.nrrd", "prone.vtu"});
-  run_stage_in(folder, "unload",
+  run_on_files(folder, "segment", {"segmentation.seg.nrrd"});
+  run_on_files(folder, "fit", {"segmentation.seg.nrrd", "fractions.nrrd", "prone.vtu"});
+  run_on_files(folder, "unload",
                {"segmentation.seg.nrrd", "fractions.nrrd", "prone.vtu", "unloaded.vtu"});
   for (const char* view : {"cc", "mlo"})
-    run_stage_in(
+    run_on_files(
         folder, "compress",
         {"segmentation.seg.nrrd", "fractions.nrrd", "unloaded.vtu", std::string(view) + ".vtu"},
         view);
-  run_stage_in(folder, "register",
+  run_on_files(folder, "register",
                {"segmentation.seg.nrrd", "fractions.nrrd", "cc.vtu", "mlo.vtu", "lesions.csv"});
 }
 

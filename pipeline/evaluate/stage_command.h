@@ -6,6 +6,9 @@
 
 namespace mammotwin {
 
+/// A segmentation or fit takes some 30.
+inline constexpr int kMostStageCpuSeconds = 3600;
+
 struct StageEnd {
   int exit_code = 0;       ///< 128 + number where a signal ended it, as a shell says it
   double cpu_seconds = 0;  ///< all its threads, user and system

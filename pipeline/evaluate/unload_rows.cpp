@@ -20,7 +20,7 @@ using Nodes = std::vector<HermiteMesh::Node>;
 
 constexpr double kCompressedShare = 0.45;  // of the free extent, as mammotwin-compress assumes
 constexpr double kMloDeg = 45;
-constexpr double kSprings[] = {0.02, 0.05, 0.08};  // [kPa/mm]
+constexpr double kWallSprings[] = {0.02, 0.05, 0.08};  // [kPa/mm]
 
 /// A breast of the folder; the problem keeps a reference to its fractions.
 struct FittedBreast {
@@ -137,7 +137,8 @@ json unload_rows(const std::filesystem::path& folder) {
                unload_with("half", breast.problem({}, Pose::prone, 0.5)),
                unload_with("c1 = 0.1 kPa", breast.problem(soft, Pose::prone, 1))};
   json slides = json::object();
-  for (const double spring : kSprings) slides[json(spring).dump()] = standing_slide(breast, spring);
+  for (const double spring : kWallSprings)
+    slides[json(spring).dump()] = standing_slide(breast, spring);
   return {{"unloaded", rows}, {"standing_slide_max_mm", slides}};
 }
 

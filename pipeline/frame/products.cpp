@@ -16,10 +16,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-fs::path folder_of(const fs::path& path) {
-  return path.has_parent_path() ? path.parent_path() : fs::path(".");
-}
-
 void rename_or_throw(const fs::path& from, const fs::path& to) {
   std::error_code error;
   fs::create_directories(folder_of(to), error);
@@ -35,6 +31,10 @@ void make_own_folder(const fs::path& folder) {
 }
 
 }  // namespace
+
+fs::path folder_of(const fs::path& path) {
+  return path.has_parent_path() ? path.parent_path() : fs::path(".");
+}
 
 Products::Products(fs::path main_product) : main_(std::move(main_product)) {
   std::error_code error;

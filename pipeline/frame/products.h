@@ -7,6 +7,9 @@
 
 namespace mammotwin {
 
+/// The folder that a file stands or will stand in; "." for a bare name.
+std::filesystem::path folder_of(const std::filesystem::path& file);
+
 /// Files that appear together or not at all: each is written in a folder of this run's own, beside
 /// the products and closed to other users, and renamed by `commit`. What is not committed is
 /// removed when this goes out of scope.

@@ -12,10 +12,6 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-fs::path folder_of(const fs::path& product) {
-  return product.has_parent_path() ? product.parent_path() : fs::path(".");
-}
-
 /// A relative path of which nothing exists yet would stay relative in weakly_canonical.
 fs::path whole(const fs::path& path) { return fs::weakly_canonical(fs::absolute(path)); }
 

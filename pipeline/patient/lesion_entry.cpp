@@ -3,10 +3,6 @@
 #include <string>
 
 namespace mammotwin {
-namespace {
-constexpr double kFarthestMm = 2000;  // no scanner's frame reaches farther from its isocentre
-}
-
 void declare_lesion(Settings& settings, const std::string& prefix, LesionEntry& entry) {
   settings.text(prefix + "id", entry.id, "name in every table; default L1, L2, ...");
   settings.point(prefix + "point_lps_mm", entry.point_lps_mm, {-kFarthestMm, kFarthestMm, "mm"},

@@ -9,6 +9,9 @@
 
 namespace mammotwin {
 
+/// No scanner's frame reaches farther from its isocentre.
+inline constexpr double kFarthestMm = 2000;
+
 /// One `[[lesions]]` of patient.toml: a point, a sphere, markups, or a label map.
 struct LesionEntry {
   std::optional<std::string> id;

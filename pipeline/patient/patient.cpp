@@ -11,7 +11,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
-constexpr double kFarthestMm = 2000;
 constexpr ForeignTissue kTissues[] = {ForeignTissue::air,        ForeignTissue::skin,
                                       ForeignTissue::fat,        ForeignTissue::fibroglandular,
                                       ForeignTissue::transition, ForeignTissue::muscle,
@@ -95,8 +94,8 @@ std::optional<fs::path> Patient::scan_file() const {
   return resolve(*scan_);
 }
 
-ScanOptions Patient::scan_options() const {
-  ScanOptions options = scan_options_;
+ScannedSkinOptions Patient::scan_options() const {
+  ScannedSkinOptions options = scan_options_;
   if (options.base_point.has_value() != options.base_normal.has_value())
     throw std::runtime_error(file_.string() +
                              ": scan.base_point and scan.base_normal belong "

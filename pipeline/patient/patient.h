@@ -52,7 +52,7 @@ class Patient : public SettingsFile {
   /// `patient_position`: DICOM's code ("HFP": head first, prone); empty where it is not known.
   Pose imaged_pose(const std::string& patient_position) const;
   /// How it is read. Throws std::runtime_error where half of a base plane is given.
-  ScanOptions scan_options() const;
+  ScannedSkinOptions scan_options() const;
 
   SegmentOptions segment;
   FitOptions fit;
@@ -85,7 +85,7 @@ class Patient : public SettingsFile {
   std::filesystem::path file_;
   std::optional<Side> side_;
   std::optional<std::filesystem::path> mri_, pre_, labels_, scan_, nipple_markups_;
-  ScanOptions scan_options_;
+  ScannedSkinOptions scan_options_;
   std::optional<Eigen::Vector3d> scan_up_;
   std::optional<std::string> series_, pre_series_;
   std::optional<bool> fat_suppressed_;

@@ -3,8 +3,8 @@
 #include <fstream>
 #include <stdexcept>
 
-#include "pipeline/report/frames_figure.h"
-#include "pipeline/report/overview_picture.h"
+#include "pipeline/report/figures/frames_figure.h"
+#include "pipeline/report/figures/overview_picture.h"
 #include "pipeline/report/page_data.h"
 #include "pipeline/report/page_template.h"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "pipeline/report/base64.h"
-#include "pipeline/report/fit_error.h"
+#include "pipeline/report/figures/fit_error.h"
 #include "pipeline/report/mesh_surface.h"
 #include "pipeline/report/palette.h"
 #include "registration/carry/position_grid.h"

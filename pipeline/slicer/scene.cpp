@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "pipeline/report/fit_error.h"
+#include "pipeline/report/figures/fit_error.h"
 #include "pipeline/report/palette.h"
 #include "pipeline/slicer/scene_nodes.h"
 #include "pipeline/slicer/surface_file.h"

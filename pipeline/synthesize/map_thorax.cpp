@@ -8,6 +8,7 @@
 #include "pipeline/synthesize/counter_random.h"
 #include "pipeline/synthesize/lattice_noise.h"
 #include "pipeline/synthesize/tissue_map.h"
+#include "pipeline/synthesize/torso.h"
 #include "segmentation/body/breast_region.h"
 #include "segmentation/image/components.h"
 #include "segmentation/image/distance.h"
@@ -19,7 +20,6 @@ using Eigen::Vector3d;
 using Mask = Volume<std::uint8_t>;
 
 constexpr double widest_gap_mm = 25;
-constexpr double rib_mm = 8, rib_pitch_mm = 27, sternum_half_mm = 17;
 
 /// Bridges gaps between columns that have a front.
 void bridge(const Mask& map, int k, WallFront& front) {

@@ -9,12 +9,9 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double sheet_mm = 5;       // serratus and rectus where there is no pectoral
-constexpr double flank_mm = 12;      // serratus and latissimus at the sides, over the sheet
-constexpr double rib_mm = 8;         // depth of ribs and what lies between them
-constexpr double rib_pitch_mm = 27;  // along the body
-constexpr double sternum_half_mm = 17;
-constexpr double lean = 0.08;  // the sternum's top lies this much further back [mm/mm]
+constexpr double sheet_mm = 5;   // serratus and rectus where there is no pectoral
+constexpr double flank_mm = 12;  // serratus and latissimus at the sides, over the sheet
+constexpr double lean = 0.08;    // the sternum's top lies this much further back [mm/mm]
 
 }  // namespace
 

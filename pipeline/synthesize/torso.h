@@ -10,6 +10,10 @@ namespace mammotwin {
 /// What lies behind the front of the pectoral muscle.
 enum class Organ { muscle, rib, lung, heart, liver };
 
+inline constexpr double rib_mm = 8;         ///< depth of ribs and what lies between them
+inline constexpr double rib_pitch_mm = 27;  ///< along the body
+inline constexpr double sternum_half_mm = 17;
+
 /// The chest without breasts: a rib cage that is an ellipse in every axial plane and narrows
 /// towards the head, pectoral muscles on it with a lateral cusp, fat and skin. LPS [mm]; the
 /// sternal skin is at y = 0 where z = 0, the nipples are near z = 0.

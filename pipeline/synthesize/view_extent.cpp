@@ -9,7 +9,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double clearance_mm = 10;  // from the plates' edge back to the chest wall
+constexpr double edge_clearance_mm = 10;  // from the plates' edge back to the chest wall
 
 template <class Visit>
 void for_region(const Volume<std::uint8_t>& labels, const BreastRegion& region,
@@ -28,7 +28,7 @@ double extent_along_beam(const Volume<std::uint8_t>& labels, const BreastRegion&
                          double angle_deg) {
   double edge_y = 1e9;
   for_region(labels, region, [&](const Vector3d& x, std::uint8_t value) {
-    if (value == label::muscle) edge_y = std::min(edge_y, x.y() - clearance_mm);
+    if (value == label::muscle) edge_y = std::min(edge_y, x.y() - edge_clearance_mm);
   });
   const double angle = angle_deg * std::numbers::pi / 180;
   const double outward = region.side == Side::left ? 1 : -1;

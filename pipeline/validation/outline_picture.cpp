@@ -9,9 +9,9 @@ namespace mammotwin {
 
 namespace {
 
-constexpr double kScale = 6;    // [pt/mm]
-constexpr double kMargin = 26;  // [pt]
-constexpr int kPieces = 12;     // of an element's edge
+constexpr double kOutlineScale = 6;    // [pt/mm]
+constexpr double kOutlineMargin = 26;  // [pt]
+constexpr int kOutlinePieces = 12;     // of an element's edge
 
 /// Points of faces with two reference coordinates fixed or one, in the order of another.
 struct Trace {
@@ -24,13 +24,13 @@ Trace trace(const CylinderFigures& f, const FaceList& faces, int axis, double va
   constexpr double on_plane = 1e-6;  // [mm]
   std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>> points;
   for (const auto& [e, face] : faces)
-    for (int i = 0; i <= kPieces; ++i)
-      for (int j = 0; j <= kPieces; ++j) {
+    for (int i = 0; i <= kOutlinePieces; ++i)
+      for (int j = 0; j <= kOutlinePieces; ++j) {
         Eigen::Vector3d xi;
         const int across = face / 2;
         xi[across] = face % 2;
-        xi[(across + 1) % 3] = static_cast<double>(i) / kPieces;
-        xi[(across + 2) % 3] = static_cast<double>(j) / kPieces;
+        xi[(across + 1) % 3] = static_cast<double>(i) / kOutlinePieces;
+        xi[(across + 2) % 3] = static_cast<double>(j) / kOutlinePieces;
         const Eigen::Vector3d X = f.before.mesh.position({e, xi});
         if (std::abs(X[axis] - value) < on_plane)
           points.push_back({X, f.after.mesh.position({e, xi})});
@@ -54,8 +54,8 @@ Picture::Points all_round(const std::vector<Eigen::Vector3d>& quarter, int acros
   for (int q = 0; q < 4; ++q)
     for (int k = 0; k < n; ++k) {
       const Eigen::Vector3d& x = quarter[q % 2 == 0 ? k : n - 1 - k];
-      points.push_back(middle +
-                       kScale * Eigen::Vector2d(signs[q][0] * x[across], signs[q][1] * x[up]));
+      points.push_back(middle + kOutlineScale *
+                                    Eigen::Vector2d(signs[q][0] * x[across], signs[q][1] * x[up]));
     }
   return points;
 }
@@ -80,8 +80,8 @@ void draw_plates(Picture& picture, const Eigen::Vector2d& middle, double half_wi
   constexpr double plate = 3;  // [mm] drawn
   for (double side : {-1.0, 1.0}) {
     const double y = side < 0 ? -thickness / 2 - plate : thickness / 2;
-    picture.rectangle(middle.x() - half_width * kScale, middle.y() + y * kScale,
-                      2 * half_width * kScale, plate * kScale, palette::grid);
+    picture.rectangle(middle.x() - half_width * kOutlineScale, middle.y() + y * kOutlineScale,
+                      2 * half_width * kOutlineScale, plate * kOutlineScale, palette::grid);
   }
 }
 
@@ -97,19 +97,20 @@ Picture outline_picture(const GelResult& r) {
   Trace side = trace(f, ends, 0, 0, 1);
   side = {with_top(side.before), with_top(side.after)};
   const double half_width = 1.15 * f.half_width_end_mm, half_length = 1.12 * side.after.front().z();
-  const double height = 2 * (kMargin + 10) + x.diameter * kScale;
-  Picture picture(4 * kMargin + 2 * (half_width + half_length) * kScale, height + 20);
+  const double height = 2 * (kOutlineMargin + 10) + x.diameter * kOutlineScale;
+  Picture picture(4 * kOutlineMargin + 2 * (half_width + half_length) * kOutlineScale, height + 20);
   picture.rectangle(0, 0, picture.width(), picture.height(), palette::paper);
-  const Eigen::Vector2d left(kMargin + half_width * kScale, height / 2 + 10);
-  const Eigen::Vector2d right(picture.width() - kMargin - half_length * kScale, height / 2 + 10);
+  const Eigen::Vector2d left(kOutlineMargin + half_width * kOutlineScale, height / 2 + 10);
+  const Eigen::Vector2d right(picture.width() - kOutlineMargin - half_length * kOutlineScale,
+                              height / 2 + 10);
   draw_plates(picture, left, half_width, x.thickness);
   draw_plates(picture, right, half_length, x.thickness);
   draw(picture, rim, 0, 1, left, palette::lesion);
   draw(picture, middle, 0, 1, left, palette::nipple);
   draw(picture, side, 2, 1, right, palette::nipple);
-  picture.text({kMargin, 16}, "along the axis: middle (blue), end (red); dashed: before", 10,
+  picture.text({kOutlineMargin, 16}, "along the axis: middle (blue), end (red); dashed: before", 10,
                palette::ink);
-  picture.text({right.x() - half_length * kScale, 16}, "from the side", 10, palette::ink);
+  picture.text({right.x() - half_length * kOutlineScale, 16}, "from the side", 10, palette::ink);
   return picture;
 }
 

@@ -16,7 +16,7 @@ namespace {
 
 constexpr int kContinued = 2;  // voxels beyond the surface: interpolation reaches one
 
-enum State : std::uint8_t { unknown, inside, continued };
+enum Place : std::uint8_t { unknown, inside, continued };
 
 bool touches(const Volume<std::uint8_t>& state, int i, int j, int k) {
   for (int c = -1; c <= 1; ++c)

@@ -15,32 +15,31 @@
 namespace mammotwin {
 namespace {
 
-constexpr std::array kColumns = {"name",      "mri_l_mm", "mri_p_mm",   "mri_s_mm",
-                                 "cc_column", "cc_row",   "mlo_column", "mlo_row"};
+constexpr std::array kLandmarkColumns = {"name",      "mri_l_mm", "mri_p_mm",   "mri_s_mm",
+                                         "cc_column", "cc_row",   "mlo_column", "mlo_row"};
 
 /// The numbers of neighbouring cells, if all are there. Throws if only some are.
 template <int n>
 std::optional<Eigen::Matrix<double, n, 1>> numbers(const std::vector<std::string>& cells, int first,
                                                    const std::string& where) {
-  Eigen::Matrix<double, n, 1> values;
+  Eigen::Matrix<double, n, 1> values = Eigen::Matrix<double, n, 1>::Zero();
   int filled = 0;
   for (int i = 0; i < n; ++i)
     if (!cells[first + i].empty()) {
-      values[i] = csv::number(cells[first + i], where + ": " + kColumns[first + i]);
+      values[i] = csv::number(cells[first + i], where + ": " + kLandmarkColumns[first + i]);
       ++filled;
     }
   if (filled == 0) return std::nullopt;
   if (filled != n)
-    throw std::runtime_error(where + ": " + kColumns[first] +
-                             " and its neighbours are only partly "
-                             "filled; expected all or none");
+    throw std::runtime_error(where + ": " + kLandmarkColumns[first] +
+                             " and its neighbours are only partly filled; expected all or none");
   return values;
 }
 
 LandmarkPair parse_pair(const std::vector<std::string>& cells, const std::string& where) {
-  if (cells.size() != kColumns.size())
+  if (cells.size() != kLandmarkColumns.size())
     throw std::runtime_error(where + " has " + std::to_string(cells.size()) + " cells; expected " +
-                             std::to_string(kColumns.size()));
+                             std::to_string(kLandmarkColumns.size()));
   LandmarkPair pair;
   pair.name = cells[0];
   pair.mri_in_lps = numbers<3>(cells, 1, where);
@@ -126,7 +125,7 @@ std::vector<LandmarkPair> read_landmark_pairs(const std::filesystem::path& path)
   if (!std::getline(in, text))
     throw std::runtime_error(path.string() + ": cannot be read, or empty");
   const std::vector<std::string> header = csv::cells(text);
-  if (!std::equal(header.begin(), header.end(), kColumns.begin(), kColumns.end()))
+  if (!std::equal(header.begin(), header.end(), kLandmarkColumns.begin(), kLandmarkColumns.end()))
     throw std::runtime_error(path.string() + ": the first line is \"" + text +
                              "\"; expected name,mri_l_mm,mri_p_mm,mri_s_mm,cc_column,cc_row,"
                              "mlo_column,mlo_row");

@@ -22,7 +22,7 @@ struct Column {
 
 #define MAMMOTWIN_COLUMN(name) \
   Column { #name, &LesionRow::name }
-const std::array kColumns = {
+const std::array kLesionColumns = {
     MAMMOTWIN_COLUMN(patient),
     MAMMOTWIN_COLUMN(lesion),
     MAMMOTWIN_COLUMN(view),
@@ -66,16 +66,16 @@ std::string cell(const LesionRow& row, const Column& column) {
 }
 
 LesionRow parse_row(const std::vector<std::string>& cells, const std::string& where) {
-  if (cells.size() != kColumns.size())
+  if (cells.size() != kLesionColumns.size())
     throw std::runtime_error(where + " has " + std::to_string(cells.size()) + " cells; expected " +
-                             std::to_string(kColumns.size()));
+                             std::to_string(kLesionColumns.size()));
   LesionRow row;
   for (std::size_t i = 0; i < cells.size(); ++i) {
-    if (const Text* text = std::get_if<Text>(&kColumns[i].field)) {
+    if (const Text* text = std::get_if<Text>(&kLesionColumns[i].field)) {
       row.*(*text) = cells[i];
     } else if (!cells[i].empty()) {
-      row.*std::get<Number>(kColumns[i].field) =
-          csv::number(cells[i], where + ": column " + kColumns[i].name);
+      row.*std::get<Number>(kLesionColumns[i].field) =
+          csv::number(cells[i], where + ": column " + kLesionColumns[i].name);
     }
   }
   return row;
@@ -83,23 +83,24 @@ LesionRow parse_row(const std::vector<std::string>& cells, const std::string& wh
 
 void check_header(const std::string& line, const std::string& file) {
   const std::vector<std::string> cells = csv::cells(line);
-  for (std::size_t i = 0; i < kColumns.size(); ++i)
-    if (i >= cells.size() || cells[i] != kColumns[i].name)
+  for (std::size_t i = 0; i < kLesionColumns.size(); ++i)
+    if (i >= cells.size() || cells[i] != kLesionColumns[i].name)
       throw std::runtime_error(file + ": column " + std::to_string(i + 1) + " is \"" +
                                (i < cells.size() ? cells[i] : "") + "\"; expected \"" +
-                               kColumns[i].name + "\" (is this a lesions.csv of this version?)");
+                               kLesionColumns[i].name +
+                               "\" (is this a lesions.csv of this version?)");
 }
 
 }  // namespace
 
 void write_lesion_table(const std::filesystem::path& path, const std::vector<LesionRow>& rows) {
   std::ofstream out(path);
-  for (const Column& column : kColumns)
-    out << (&column == kColumns.data() ? "" : ",") << column.name;
+  for (const Column& column : kLesionColumns)
+    out << (&column == kLesionColumns.data() ? "" : ",") << column.name;
   out << '\n';
   for (const LesionRow& row : rows) {
-    for (const Column& column : kColumns)
-      out << (&column == kColumns.data() ? "" : ",") << cell(row, column);
+    for (const Column& column : kLesionColumns)
+      out << (&column == kLesionColumns.data() ? "" : ",") << cell(row, column);
     out << '\n';
   }
   out.close();

@@ -11,7 +11,7 @@
 namespace mammotwin {
 namespace {
 
-constexpr double kStep_mm = 0.5;
+constexpr double kAlongSkin_mm = 0.5;
 constexpr double kNear_mm = 7, kFar_mm = 22;  // flanks of a nipple of up to 14 mm
 constexpr double kLeastFlank = 0.6;           // of their points that must be there on either side
 
@@ -24,12 +24,13 @@ std::vector<Eigen::Vector2d> evenly(const std::vector<Eigen::Vector2d>& line) {
     for (int j = i - reach; j <= i + reach; ++j) smooth[i] += line[j] / (2 * reach + 1);
   }
   std::vector<Eigen::Vector2d> even{smooth.front()};
-  double left = kStep_mm;
+  double left = kAlongSkin_mm;
   for (std::size_t i = 1; i < smooth.size(); ++i) {
     const Eigen::Vector2d way = smooth[i] - smooth[i - 1];
     const double length = way.norm();
     double gone = left;
-    for (; gone <= length; gone += kStep_mm) even.push_back(smooth[i - 1] + way * (gone / length));
+    for (; gone <= length; gone += kAlongSkin_mm)
+      even.push_back(smooth[i - 1] + way * (gone / length));
     left = gone - length;
   }
   return even;
@@ -49,7 +50,8 @@ constexpr double kLeastProbability = 0.05;
 
 /// Indices of both flanks of point i; empty where too little of either is there.
 std::vector<int> flanks(int i, int size) {
-  const int near = std::lround(kNear_mm / kStep_mm), far = std::lround(kFar_mm / kStep_mm);
+  const int near = std::lround(kNear_mm / kAlongSkin_mm),
+            far = std::lround(kFar_mm / kAlongSkin_mm);
   const int least = static_cast<int>(near + kLeastFlank * (far - near));
   if (i < least || i + least >= size) return {};
   std::vector<int> found;
@@ -91,7 +93,7 @@ double inside(const UprightImage& image, const Eigen::Vector2d& x, const Eigen::
   constexpr double kFirst_mm = 1, kLast_mm = 8;
   double sum = 0;
   int count = 0;
-  for (double depth = kFirst_mm; depth <= kLast_mm; depth += kStep_mm, ++count)
+  for (double depth = kFirst_mm; depth <= kLast_mm; depth += kAlongSkin_mm, ++count)
     sum += image.at(x - depth * out);
   return sum / count;
 }
@@ -104,7 +106,7 @@ std::vector<double> over_flanks(const std::vector<double>& values) {
     if (flank.empty()) continue;
     std::vector<double> x, y;
     for (const int j : flank) {
-      x.push_back((j - i) * kStep_mm);
+      x.push_back((j - i) * kAlongSkin_mm);
       y.push_back(values[j]);
     }
     over[i] = values[i] - parabola_at_zero(x, y);
@@ -137,7 +139,7 @@ std::vector<double> probabilities(const NippleProfile& profile, bool oblique) {
 }
 
 std::vector<double> within_a_nipple(const std::vector<double>& p) {
-  const int reach = std::lround(kHalfNipple_mm / kStep_mm), size = static_cast<int>(p.size());
+  const int reach = std::lround(kHalfNipple_mm / kAlongSkin_mm), size = static_cast<int>(p.size());
   std::vector<double> sum(size, 0);
   for (int i = 0; i < size; ++i)
     for (int j = std::max(0, i - reach); j <= std::min(size - 1, i + reach); ++j) sum[i] += p[j];
@@ -146,7 +148,7 @@ std::vector<double> within_a_nipple(const std::vector<double>& p) {
 
 /// The point of most bulge within half a nipple.
 std::size_t tip_index(const NippleProfile& profile, std::size_t i) {
-  const std::size_t reach = std::lround(kHalfNipple_mm / kStep_mm);
+  const std::size_t reach = std::lround(kHalfNipple_mm / kAlongSkin_mm);
   const auto& b = profile.bulge_mm;
   const auto begin = b.begin() + (i < reach ? 0 : i - reach);
   const std::size_t tip =
@@ -166,7 +168,7 @@ NippleProfile nipple_profile(const SkinLine& skin, const UprightImage& smooth) {
   profile.points = evenly(skin.points);
   const auto& p = profile.points;
   const int size = static_cast<int>(p.size());
-  if (size * kStep_mm < 2 * kFar_mm) throw std::runtime_error("the skin line is too short");
+  if (size * kAlongSkin_mm < 2 * kFar_mm) throw std::runtime_error("the skin line is too short");
   std::vector<double> bright(size, 0);
   profile.bulge_mm.assign(size, 0);
   std::optional<int> first, last;
@@ -189,7 +191,7 @@ NippleFinding find_nipple(const NippleProfile& profile, bool oblique) {
   const std::vector<double> mass = within_a_nipple(p);
   NippleFinding found;
   for (std::size_t i = 0; i < mass.size(); ++i) {
-    const std::size_t reach = std::lround(2 * kHalfNipple_mm / kStep_mm);
+    const std::size_t reach = std::lround(2 * kHalfNipple_mm / kAlongSkin_mm);
     const auto begin = mass.begin() + (i < reach ? 0 : i - reach);
     const auto end = mass.begin() + std::min(mass.size(), i + reach + 1);
     if (mass[i] >= kLeastProbability &&

@@ -8,20 +8,20 @@
 namespace mammotwin {
 namespace {
 
-using Line = std::vector<Eigen::Vector2d>;
+using Points = std::vector<Eigen::Vector2d>;
 
 constexpr double kValley_mm = 3, kHollow_mm = 4;
 constexpr double kLeastSkin_mm = 30;
 
 /// The longest part of a closed border that is off the image's edges, in pixels.
-Line free_part(const Line& border, const MammogramImage& mask) {
+Points free_part(const Points& border, const MammogramImage& mask) {
   const auto free = [&](const Eigen::Vector2d& x) {
     return x.x() > 0 && x.y() > 0 && x.y() < mask.rows - 1;
   };
   const std::size_t n = border.size();
   const auto held = std::find_if_not(border.begin(), border.end(), free);
   const std::size_t first = held == border.end() ? 0 : held - border.begin();
-  Line longest, now;
+  Points longest, now;
   for (std::size_t i = 0; i <= n; ++i) {
     const Eigen::Vector2d& x = border[(first + i) % n];
     if (i < n && free(x)) {
@@ -34,7 +34,7 @@ Line free_part(const Line& border, const MammogramImage& mask) {
   return longest;
 }
 
-long deepest(const Line& line) {
+long deepest(const Points& line) {
   return std::max_element(line.begin(), line.end(),
                           [](const auto& a, const auto& b) { return a.x() < b.x(); }) -
          line.begin();
@@ -42,7 +42,7 @@ long deepest(const Line& line) {
 
 /// Index from `tip` towards `end` (exclusive, step 1 or -1) at which depth has its least before it
 /// rises by a valley's height; `end` where it does not.
-long valley(const Line& line, long tip, long end, int step) {
+long valley(const Points& line, long tip, long end, int step) {
   long least = tip;
   for (long i = tip; i != end; i += step) {
     if (line[i].x() < line[least].x()) least = i;
@@ -58,7 +58,7 @@ double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
 
 /// The point that lies deepest behind a chord from any point after the tip to the line's end;
 /// `end` where nothing lies 4 mm behind: there a breast is convex.
-long hollow(const Line& line, long tip, long end, int step) {
+long hollow(const Points& line, long tip, long end, int step) {
   constexpr double kNear_mm = 40;  // of the line's end: farther out it is the nipple's flank
   constexpr int kStride = 4;       // of the points that chords begin at
   const Eigen::Vector2d last = line[end - step];
@@ -79,9 +79,9 @@ long hollow(const Line& line, long tip, long end, int step) {
 }  // namespace
 
 SkinLine skin_line(const MammogramImage& mask, double pixel_mm, bool oblique) {
-  Line border;
+  Points border;
   for (const auto& [column, row] : longest_border(mask)) border.emplace_back(column, row);
-  Line line = free_part(border, mask);
+  Points line = free_part(border, mask);
   if (line.size() * pixel_mm < kLeastSkin_mm)
     throw std::runtime_error("no skin line is seen: the bright region ends at the image's edges");
   for (Eigen::Vector2d& x : line) x = (x + Eigen::Vector2d(0.5, 0.5)) * pixel_mm;

@@ -12,7 +12,7 @@ namespace {
 
 // Of a standard deviation, to either side: a derivative. Plates must move by less than what contact
 // lets them sink in (hundredths of a mm), for beyond that the residual is not linear.
-constexpr double kNudge = 1e-4;
+constexpr double kStateNudge = 1e-4;
 // Of the penalty that the compression ended with: the softest at which the breast stays where it
 // is.
 constexpr std::array<double, 3> kSofter = {0.1, 0.3, 1};
@@ -110,10 +110,10 @@ std::optional<Slopes> NearbySolver::slopes(const ViewState& sd) const {
   if (!nearby.usable()) return std::nullopt;
   Slopes slopes;
   for (int i = 0; i < kMechanical; ++i) {
-    const ViewState nudge = kNudge * sd[i] * ViewState::Unit(i);
+    const ViewState nudge = kStateNudge * sd[i] * ViewState::Unit(i);
     try {
       slopes[i] = change_between(nearby, -nudge, nudge);
-      for (HermiteMesh::Node& node : slopes[i]) node /= 2 * kNudge;
+      for (HermiteMesh::Node& node : slopes[i]) node /= 2 * kStateNudge;
     } catch (const std::invalid_argument&) {  // a state in which the problem cannot be posed
     }
   }

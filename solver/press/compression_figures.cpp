@@ -6,12 +6,12 @@
 #include <limits>
 
 #include "solver/element/tensor_basis.h"
+#include "solver/units.h"
 
 namespace mammotwin {
 
 namespace {
 
-constexpr double kNewtonPerMilli = 1e-3;
 constexpr double kCm2PerMm2 = 1e-2;
 
 /// Largest distance of the chest-wall face from its surface [mm].

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solver/units.h"
+
 namespace mammotwin {
 
 namespace {
@@ -11,7 +13,6 @@ namespace {
 constexpr double kStepTolerance = 1e-2;  // of load steps before the last
 constexpr double kNearlyClosed = 0.5;  // [mm] penetration that a load step may leave: far less than
                                        // an edge's rounding, so that tissue keeps to its side
-constexpr double kNewtonPerMilli = 1e-3;  // mN to N
 
 PenaltyOptions penalties_of_steps() {
   PenaltyOptions penalties;

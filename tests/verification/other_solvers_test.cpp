@@ -31,8 +31,12 @@ TEST(HalfBallMesh, HoldsTheVolumeOfAHalfBallAndItsLabels) {
       Vector3d xi(0.3, 0.6, 0.4);
       xi[face / 2] = face % 2;
       const Vector3d x = ball.mesh.position({e, xi});
-      if (ball.faces[e][face] == FaceLabel::skin) EXPECT_NEAR(x.norm(), 50, 0.01);
-      if (ball.faces[e][face] == FaceLabel::chest_wall) EXPECT_NEAR(x.z(), 0, 1e-9);
+      if (ball.faces[e][face] == FaceLabel::skin) {
+        EXPECT_NEAR(x.norm(), 50, 0.01);
+      }
+      if (ball.faces[e][face] == FaceLabel::chest_wall) {
+        EXPECT_NEAR(x.z(), 0, 1e-9);
+      }
     }
 }
 

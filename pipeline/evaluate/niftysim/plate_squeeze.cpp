@@ -13,15 +13,15 @@
 #include "solver/load/load_stepping.h"
 #include "solver/material/mixture.h"
 #include "solver/material/neo_hookean.h"
+#include "solver/units.h"
 
 namespace mammotwin {
 namespace {
 
 using Eigen::Vector3d;
 
-constexpr int kAcross = 0, kDepth = 2;  // components of the file's frame
-constexpr double kGapTolerance = 0.05;  // [mm]
-constexpr double kNewtonPerMilli = 1e-3;
+constexpr int kAcross = 0, kDepth = 2;    // components of the file's frame
+constexpr double kGapTolerance = 0.05;    // [mm]
 constexpr double kRollTolerance = 5e-3;   // [rad]: 0.3 mm at the rim
 constexpr double kCoupleTolerance = 0.5;  // [N mm], of some 50
 constexpr int kMostRollRounds = 40;

@@ -3,6 +3,8 @@
 #include <Eigen/LU>
 #include <cmath>
 
+#include "solver/units.h"
+
 namespace mammotwin {
 namespace {
 
@@ -10,7 +12,6 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 constexpr double kTouching = 2e-3;  // [mm]; contact there is exact but for single precision
-constexpr double kNewtonPerMilli = 1e-3;
 
 Matrix3d edges(const std::vector<Vector3d>& x, const std::array<int, 4>& c) {
   Matrix3d e;

@@ -88,7 +88,8 @@ std::pair<double, double> heights(const VictreLabels& labels) {
 
 CompressionProblem problem_of(const MeshFile& mesh, const Volume<Fractions>& fractions,
                               const std::pair<double, double>& between) {
-  CompressionProblem problem{.mesh = mesh};
+  CompressionProblem problem;
+  problem.mesh = mesh;
   const auto mean = std::make_shared<MeanFractions>(fractions);
   problem.tissue = [mean](const Vector3d& x, double volume) {
     const Fractions f = mean->at(x, volume);

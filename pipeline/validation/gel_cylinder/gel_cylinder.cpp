@@ -13,13 +13,13 @@
 #include "solver/contact/penalty_continuation.h"
 #include "solver/load/load_stepping.h"
 #include "solver/material/neo_hookean.h"
+#include "solver/units.h"
 
 namespace mammotwin {
 
 namespace {
 
-constexpr double kNewtonPerMilli = 1e-3, kMilliJoulePerMicro = 1e-3;
-constexpr double kOnPlane = 1e-6;  // [mm]
+constexpr double kMilliJoulePerMicro = 1e-3;
 
 void hold(const HermiteMesh& mesh, const FaceList& faces, int component, DofMap& dofs) {
   for (const auto& [e, face] : faces)

@@ -8,8 +8,6 @@ namespace mammotwin {
 
 namespace {
 
-constexpr double kOnPlane = 1e-6;  // [mm]
-
 /// Elements of a mesh whose middle has x >= least_x and y >= 0, nodes renumbered, ties kept.
 MeshFile cut_out(const MeshFile& whole, double least_x) {
   std::vector<int> index(whole.mesh.num_nodes(), -1);

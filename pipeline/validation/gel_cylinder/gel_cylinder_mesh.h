@@ -5,6 +5,8 @@
 
 namespace mammotwin {
 
+inline constexpr double kOnPlane = 1e-6;  // [mm]
+
 /// What of the cylinder is meshed; the plates' normal is y or z.
 enum class CylinderPart {
   eighth,  ///< x, y, z >= 0: three planes of symmetry

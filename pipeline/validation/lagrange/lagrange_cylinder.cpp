@@ -7,13 +7,13 @@
 #include "pipeline/validation/lagrange/lagrange_newton.h"
 #include "solver/contact/penalty_continuation.h"
 #include "solver/material/neo_hookean.h"
+#include "solver/units.h"
 
 namespace mammotwin {
 
 namespace {
 
 constexpr double kOnPlane = 1e-6;  // [mm]
-constexpr double kNewtonPerMilli = 1e-3;
 
 std::vector<bool> held_dofs(const LagrangeMesh& mesh, const CylinderExperiment& x) {
   std::vector<bool> held(3 * mesh.X.size(), false);

@@ -6,16 +6,11 @@
 
 namespace mammotwin {
 
-namespace {
-
-/// Places closer than this are one node; the offset keeps round lengths off a boundary [mm].
-std::array<long, 3> key_of(const Eigen::Vector3d& x) {
+std::array<long, 3> place_key(const Eigen::Vector3d& x) {
   constexpr double same = 1e-3, offset = 0.37e-3;
   return {std::lround((x[0] + offset) / same), std::lround((x[1] + offset) / same),
           std::lround((x[2] + offset) / same)};
 }
-
-}  // namespace
 
 LagrangeMesh::LagrangeMesh(const HermiteMesh& shape, const LagrangeElement& e) : element(e) {
   std::map<std::array<long, 3>, int> index;
@@ -23,7 +18,7 @@ LagrangeMesh::LagrangeMesh(const HermiteMesh& shape, const LagrangeElement& e) :
     auto& nodes = elements.emplace_back();
     for (int n = 0; n < element.num_nodes(); ++n) {
       const Eigen::Vector3d place = shape.position({e, element.xi(n)});
-      const auto [found, is_new] = index.try_emplace(key_of(place), static_cast<int>(X.size()));
+      const auto [found, is_new] = index.try_emplace(place_key(place), static_cast<int>(X.size()));
       if (is_new) X.push_back(place);
       nodes.push_back(found->second);
     }

@@ -1,11 +1,15 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "fitting/mesh/hermite_mesh.h"
 #include "pipeline/validation/lagrange/lagrange_element.h"
 
 namespace mammotwin {
+
+/// Places closer than 1e-3 mm have one key; an offset keeps round lengths off a boundary.
+std::array<long, 3> place_key(const Eigen::Vector3d& x);
 
 /// A mesh of Lagrange elements over the elements of a Hermite mesh, its nodes on that mesh.
 struct LagrangeMesh {

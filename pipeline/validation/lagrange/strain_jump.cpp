@@ -6,23 +6,19 @@
 #include <map>
 #include <vector>
 
+#include "pipeline/validation/lagrange/lagrange_mesh.h"
+
 namespace mammotwin {
 
 namespace {
 
-constexpr int kPoints =
+constexpr int kSamplesASide =
     4;  // a side; a grid without points on edges, symmetric under the face's turns
 
 struct Sample {
   Eigen::Matrix3d E;
   int element;
 };
-
-std::array<long, 3> key_of(const Eigen::Vector3d& x) {
-  constexpr double same = 1e-3, offset = 0.37e-3;  // [mm]
-  return {std::lround((x[0] + offset) / same), std::lround((x[1] + offset) / same),
-          std::lround((x[2] + offset) / same)};
-}
 
 Eigen::Matrix3d strain(const HermiteMesh& before, const HermiteMesh& after, const MeshPoint& p) {
   const Eigen::Matrix3d F = after.jacobian(p) * before.jacobian(p).inverse();
@@ -35,12 +31,12 @@ double strain_jump(const HermiteMesh& before, const HermiteMesh& after) {
   std::map<std::array<long, 3>, std::vector<Sample>> samples;
   for (int e = 0; e < before.num_elements(); ++e)
     for (int face = 0; face < 6; ++face)
-      for (int k = 0; k < kPoints * kPoints; ++k) {
+      for (int k = 0; k < kSamplesASide * kSamplesASide; ++k) {
         MeshPoint p{e, {}};
         p.xi[face / 2] = face % 2;
-        p.xi[(face / 2 + 1) % 3] = (k % kPoints + 0.5) / kPoints;
-        p.xi[(face / 2 + 2) % 3] = (k / kPoints + 0.5) / kPoints;
-        samples[key_of(before.position(p))].push_back({strain(before, after, p), e});
+        p.xi[(face / 2 + 1) % 3] = (k % kSamplesASide + 0.5) / kSamplesASide;
+        p.xi[(face / 2 + 2) % 3] = (k / kSamplesASide + 0.5) / kSamplesASide;
+        samples[place_key(before.position(p))].push_back({strain(before, after, p), e});
       }
   double jumps = 0, strains = 0;
   for (const auto& [place, at] : samples) {

@@ -110,7 +110,7 @@ TEST(ScannedBreast, StandsInFrontOfTheBasePlaneWhicheverWayItWasScanned) {
   turn.translation() = Eigen::Vector3d(300, -200, 50);
   Points turned;
   for (const auto& x : dome()) turned.push_back(turn * x);
-  ScanOptions options;
+  ScannedSkinOptions options;
   options.up = turn.linear() * Eigen::Vector3d::UnitZ();
   const ScannedBreast scanned = read_scanned_breast(file_of(turned, "turned.xyz"), options);
   EXPECT_EQ(scanned.holes, 0);

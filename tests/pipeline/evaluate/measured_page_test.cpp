@@ -29,7 +29,7 @@ MeasuredPage small_page() {
            {"ok", "usable", 2, false, std::nullopt}}};
 }
 
-const json kCases = {
+const json kRows = {
     {"cases",
      {{{"name", "a"},
        {"side", "left"},
@@ -42,13 +42,13 @@ const json kCases = {
 // Medians 0.2 of (0.1, 0.2, 0.75) and 0.9 of (0.8, 1.0); worst 0.75 (above 0.5) and 0.8 (below
 // 0.9).
 TEST(MeasuredPage, SummarisesByMedianAndWorst) {
-  EXPECT_NE(measured_markdown(small_page(), kCases)
+  EXPECT_NE(measured_markdown(small_page(), kRows)
                 .find("| all | 3 | 0.20, **0.75** | 0.9, **0.8** | 2 of 3 |"),
             std::string::npos);
 }
 
 TEST(MeasuredPage, HasALineForEachCaseAndLeavesOutWhatIsNotKnown) {
-  const std::string text = measured_markdown(small_page(), kCases);
+  const std::string text = measured_markdown(small_page(), kRows);
   EXPECT_NE(text.find("| a left | 0.10 | **0.8** | yes |"), std::string::npos) << text;
   EXPECT_NE(text.find("| b | **0.75** |  | **no** |"), std::string::npos) << text;
 }
@@ -56,7 +56,7 @@ TEST(MeasuredPage, HasALineForEachCaseAndLeavesOutWhatIsNotKnown) {
 TEST(MeasuredPage, GroupsTheSummary) {
   MeasuredPage page = small_page();
   page.group_by = "ok";
-  const std::string text = measured_markdown(page, kCases);
+  const std::string text = measured_markdown(page, kRows);
   EXPECT_NE(text.find("| true | 2 | 0.15, 0.20 |"), std::string::npos) << text;
   EXPECT_NE(text.find("| false | 1 | **0.75**, **0.75** |"), std::string::npos) << text;
 }

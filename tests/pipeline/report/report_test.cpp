@@ -6,7 +6,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "pipeline/report/overview_picture.h"
+#include "pipeline/report/figures/overview_picture.h"
 #include "pipeline/report/page_data.h"
 #include "pipeline/report/page_template.h"
 #include "tests/pipeline/report/report_fake_results.h"

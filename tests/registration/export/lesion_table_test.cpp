@@ -8,14 +8,11 @@
 
 #include "registration/export/predictions_text.h"
 #include "registration/view/breast_position.h"
+#include "tests/registration/export/scratch_file.h"
 #include "tests/registration/squeezed_box.h"
 
 namespace mammotwin {
 namespace {
-
-std::filesystem::path scratch(const std::string& name) {
-  return std::filesystem::path(testing::TempDir()) / name;
-}
 
 std::string text_of(const std::filesystem::path& path) {
   std::ostringstream text;
@@ -45,7 +42,7 @@ TEST(PredictionsText, KeepsANameWithACommaTogether) {
   mri.view = "mri", view.view = "cc";
   view.depth_mm = 12.34, view.lateral_mm = -5, view.height_mm = 20;
   view.detector_u_mm = 13, view.detector_v_mm = -5.25;
-  const auto path = scratch("predictions.csv");
+  const auto path = scratch_file("predictions.csv");
   write_lesion_table(path, {mri, view});
   const std::string text = predictions_text(read_lesion_table(path));
   EXPECT_NE(
@@ -57,7 +54,7 @@ TEST(PredictionsText, KeepsANameWithACommaTogether) {
 }
 
 TEST(LesionTable, HasTheColumnsThatOthersRead) {
-  const auto path = scratch("columns.csv");
+  const auto path = scratch_file("columns.csv");
   write_lesion_table(path, {});
   EXPECT_EQ(text_of(path),
             "patient,lesion,view,mri_l_mm,mri_p_mm,mri_s_mm,depth_mm,lateral_mm,height_mm,"
@@ -74,7 +71,7 @@ TEST(LesionTable, ComesBackAsItWasWritten) {
   row.view = "cc";
   row.mri_l_mm = -12.3456;
   row.height_mm = -1e-9;  // must not become -0.000
-  const auto path = scratch("round.csv");
+  const auto path = scratch_file("round.csv");
   write_lesion_table(path, {row});
   EXPECT_NE(text_of(path).find("042,\"mass, \"\"A\"\"\",cc,-12.346,,,,,0.000,"), std::string::npos);
   const LesionRow read = read_lesion_table(path).at(0);
@@ -84,7 +81,7 @@ TEST(LesionTable, ComesBackAsItWasWritten) {
 }
 
 TEST(LesionTable, NamesTheCellThatCannotBeRead) {
-  const auto path = scratch("bad.csv");
+  const auto path = scratch_file("bad.csv");
   write_lesion_table(path, {});
   std::ofstream(path, std::ios::app) << "042,1,cc,twelve" << std::string(23, ',') << "\n";
   try {

@@ -8,21 +8,19 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "tests/registration/export/scratch_file.h"
+
 namespace mammotwin {
 namespace {
 
-std::filesystem::path scratch(const std::string& name) {
-  return std::filesystem::path(testing::TempDir()) / name;
-}
-
 std::filesystem::path write_text(const std::string& name, const std::string& text) {
-  const auto path = scratch(name);
+  const auto path = scratch_file(name);
   std::ofstream(path) << text;
   return path;
 }
 
 TEST(Markups, ComeBackAsTheyWereWritten) {
-  const auto path = scratch("points.mrk.json");
+  const auto path = scratch_file("points.mrk.json");
   write_markups(path, {{"lesion 1", {12.25, -3.5, 1.0 / 3}}, {"nipple", {0, -60, 0}}});
   const auto points = read_markups(path);
   ASSERT_EQ(points.size(), 2u);
@@ -31,7 +29,7 @@ TEST(Markups, ComeBackAsTheyWereWritten) {
 }
 
 TEST(Markups, SayTheirFrameUnitAndSchema) {
-  const auto path = scratch("frame.mrk.json");
+  const auto path = scratch_file("frame.mrk.json");
   write_markups(path, {{"1", {1, 2, 3}}});
   const auto file = nlohmann::json::parse(std::ifstream(path));
   EXPECT_NE(file.at("@schema").get<std::string>().find("markups-schema-v1.0.3.json#"),
@@ -42,7 +40,7 @@ TEST(Markups, SayTheirFrameUnitAndSchema) {
 }
 
 TEST(Markups, ACurveIsClosedAndNamed) {
-  const auto path = scratch("curve.mrk.json");
+  const auto path = scratch_file("curve.mrk.json");
   write_closed_curve(path, "L1 in cc", {{1, 2, 3}, {4, 5, 6}, {7, 8, 10}});
   const auto markup = nlohmann::json::parse(std::ifstream(path)).at("markups").at(0);
   EXPECT_EQ(markup["type"], "ClosedCurve");
@@ -86,7 +84,7 @@ void expect_types(const nlohmann::json& object, const Types& types) {
 }
 
 TEST(Markups, HaveTheTypesOfSlicersSchema) {
-  const auto points = scratch("points.mrk.json"), curve = scratch("curve.mrk.json");
+  const auto points = scratch_file("points.mrk.json"), curve = scratch_file("curve.mrk.json");
   write_markups(points, {{"1", {1, 2, 3}}, {"nipple", {0, -60, 0}}});
   write_closed_curve(curve, "L1 in cc", {{1, 2, 3}, {4, 5, 6}, {7, 8, 10}});
   for (const auto& path : {points, curve}) {
@@ -119,7 +117,7 @@ TEST(Markups, NameWhatIsWrongWithAFile) {
     }
     return std::string();
   };
-  EXPECT_NE(message(scratch("absent.mrk.json")).find("cannot be opened"), std::string::npos);
+  EXPECT_NE(message(scratch_file("absent.mrk.json")).find("cannot be opened"), std::string::npos);
   EXPECT_NE(message(write_text("ijk.mrk.json", R"({"markups": [{"coordinateSystem": "IJK",
       "controlPoints": []}]})"))
                 .find("\"IJK\"; expected LPS or RAS"),

@@ -8,7 +8,7 @@ namespace mammotwin {
 namespace {
 
 /// Two bumps of 40 and 30 mm at -70 and 80 mm on a flat chest, 2 mm columns from -150 mm.
-std::vector<double> two_breasts(double second = 30) {
+std::vector<double> two_bumps(double second = 30) {
   std::vector<double> front;
   for (int i = 0; i <= 150; ++i) {
     const double x = -150 + 2 * i;
@@ -21,7 +21,7 @@ std::vector<double> two_breasts(double second = 30) {
 }
 
 TEST(Apices, AreTheBumpsAndTheMiddleOfThePlateauBetween) {
-  const auto apices = find_apices(two_breasts(), 2);
+  const auto apices = find_apices(two_bumps(), 2);
   ASSERT_TRUE(apices);
   EXPECT_EQ(apices->right, 40);
   EXPECT_EQ(apices->left, 115);
@@ -29,9 +29,9 @@ TEST(Apices, AreTheBumpsAndTheMiddleOfThePlateauBetween) {
   EXPECT_NEAR(-150 + 2 * apices->valley, 5, 2);
 }
 
-TEST(Apices, OneBreastHasNoValley) { EXPECT_FALSE(find_apices(two_breasts(0), 2)); }
+TEST(Apices, OneBreastHasNoValley) { EXPECT_FALSE(find_apices(two_bumps(0), 2)); }
 
-TEST(Apices, ALowSecondBumpIsNoBreast) { EXPECT_FALSE(find_apices(two_breasts(8), 2)); }
+TEST(Apices, ALowSecondBumpIsNoBreast) { EXPECT_FALSE(find_apices(two_bumps(8), 2)); }
 
 TEST(Apices, NothingAtAllIsNoBreast) {
   EXPECT_FALSE(find_apices({}, 2));

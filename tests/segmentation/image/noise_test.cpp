@@ -10,7 +10,7 @@
 namespace mammotwin {
 namespace {
 
-constexpr double noise = 5;
+constexpr double deviation = 5;
 
 Volume<float> image_of(const Eigen::Vector3i& size) {
   return Volume<float>(size, Eigen::Vector3d::Ones(), Eigen::Vector3d::Zero(), 0);
@@ -20,7 +20,7 @@ Volume<float> image_of(const Eigen::Vector3i& size) {
 Volume<float> white_noise(const Eigen::Vector3i& size, unsigned seed) {
   auto image = image_of(size);
   std::mt19937 random(seed);
-  std::normal_distribution<float> gauss(0, noise);
+  std::normal_distribution<float> gauss(0, deviation);
   for (float& value : image.values) value = gauss(random);
   return image;
 }
@@ -40,13 +40,14 @@ TEST(NoiseOfDetail, IsThatOfTheImageBesideAnEdge) {
       for (int i = 0; i < 20; ++i) image(i, j, k) += i < 10 ? 100.0F : 200.0F;
   // 8 x 8 x 10 cubes: the median of 640 has a standard deviation of 5 %.
   for (const int step : {1, 2})
-    EXPECT_NEAR(noise_of_detail(image, image.like<std::uint8_t>(1), step), noise, 3 * 0.05 * noise);
+    EXPECT_NEAR(noise_of_detail(image, image.like<std::uint8_t>(1), step), deviation,
+                3 * 0.05 * deviation);
   EXPECT_EQ(noise_of_detail(image, image.like<std::uint8_t>(0)), 0);
 }
 
 TEST(NoiseOfDetail, AtADistanceSeesMoreOfFilteredNoise) {
   const Volume<float> image = filtered(white_noise({40, 40, 40}, 6));
-  const double all = noise * std::pow(0.44, 1.5);
+  const double all = deviation * std::pow(0.44, 1.5);
   const auto everywhere = image.like<std::uint8_t>(1);
   // A mixed difference of separable noise has the variance times 1 - correlation for each axis.
   EXPECT_NEAR(noise_of_detail(image, everywhere, 1), all * std::pow(0.20 / 0.44, 1.5), 0.05 * all);

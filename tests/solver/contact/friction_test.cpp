@@ -90,7 +90,7 @@ TEST(PlateFriction, ForgetsWhereAPointStoodThatLeftThePlate) {
 TEST(PlateFriction, GradientAndHessianAreDerivativesSymmetricAndSemidefinite) {
   PressedBlock block;
   SurfacePoint point = block.model.faces(0)[0].point(7);
-  for (const Eigen::Vector3d slip :
+  for (const Eigen::Vector3d& slip :
        {Eigen::Vector3d(0.03, -0.05, 0), Eigen::Vector3d(0.4, 0.3, 0)}) {
     Eigen::Matrix<double, 9, 1> y = Eigen::Matrix<double, 9, 1>::Zero();
     y.head<3>() = point.X + slip;

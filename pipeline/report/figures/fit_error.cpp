@@ -1,4 +1,4 @@
-#include "pipeline/report/fit_error.h"
+#include "pipeline/report/figures/fit_error.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "pipeline/report/fit_course_figure.h"
+#include "pipeline/report/figures/fit_course_figure.h"
 
 #include <algorithm>
 #include <cmath>

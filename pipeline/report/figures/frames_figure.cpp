@@ -1,4 +1,4 @@
-#include "pipeline/report/frames_figure.h"
+#include "pipeline/report/figures/frames_figure.h"
 
 #include <cmath>
 #include <numbers>

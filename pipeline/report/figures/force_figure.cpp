@@ -1,4 +1,4 @@
-#include "pipeline/report/force_figure.h"
+#include "pipeline/report/figures/force_figure.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "pipeline/report/render_figure.h"
+#include "pipeline/report/figures/render_figure.h"
 
 #include <Eigen/Geometry>
 

@@ -1,4 +1,4 @@
-#include "pipeline/report/convergence_figure.h"
+#include "pipeline/report/figures/convergence_figure.h"
 
 #include <algorithm>
 

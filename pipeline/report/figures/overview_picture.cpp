@@ -1,11 +1,11 @@
-#include "pipeline/report/overview_picture.h"
+#include "pipeline/report/figures/overview_picture.h"
 
 #include <algorithm>
 #include <vector>
 
-#include "pipeline/report/mri_figure.h"
+#include "pipeline/report/figures/mri_figure.h"
+#include "pipeline/report/figures/render_figure.h"
 #include "pipeline/report/palette.h"
-#include "pipeline/report/render_figure.h"
 #include "pipeline/report/view_figures.h"
 
 namespace mammotwin {

@@ -1,4 +1,4 @@
-#include "pipeline/report/mri_figure.h"
+#include "pipeline/report/figures/mri_figure.h"
 
 #include <algorithm>
 #include <cmath>
