@@ -13,8 +13,10 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
+constexpr const char* kContours = "lesions_radiologist.json";  // beside mri/
+
 RealBreast mri_breast(const fs::path& patient) {
-  const auto radiologist = json::parse(std::ifstream(patient / "lesions_radiologist.json"));
+  const auto radiologist = json::parse(std::ifstream(patient / kContours));
   const json& lesion = radiologist.at("mri").at(0);
   const Side side = lesion.at("side") == "L" ? Side::left : Side::right;
   std::ostringstream toml;
@@ -41,7 +43,7 @@ std::vector<RealBreast> real_breasts(const fs::path& cases) {
   for (const LabelMapBreast& map : label_map_breasts(cases))
     all.push_back({map.exam, map.side, side_toml(map.side) + labels_toml(map.file)});
   for (const fs::path& entry : sorted_entries(cases))
-    if (entry.filename().string().starts_with("mimbcd_")) all.push_back(mri_breast(entry));
+    if (fs::exists(entry / kContours)) all.push_back(mri_breast(entry));
   return all;
 }
 
