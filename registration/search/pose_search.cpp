@@ -1,5 +1,8 @@
 #include "registration/search/pose_search.h"
 
+#include <ceres/cost_function.h>
+#include <ceres/problem.h>
+#include <ceres/solver.h>
 #include <tbb/parallel_for.h>
 
 #include <Eigen/Cholesky>
@@ -16,6 +19,7 @@ constexpr double kNudge = 0.05;    // of a standard deviation: well above the ou
 constexpr double kFarthest = 2.5;  // a mechanical number's modes are not believed beyond
 constexpr int kMostIterations = 25;
 constexpr double kGain = 1e-3;  // of the cost: less is converged
+constexpr double kFirstRadius = 100;
 // Standard deviations beyond which a shift in depth costs its distance, not the square: real
 // detectors' edges stand centimetres behind the chest wall at times, where the model's plates
 // cannot.
@@ -59,10 +63,15 @@ class Joint {
       r[view[kShiftDepth]] = huber(z[view[kShiftDepth]], kShiftTail);
     return r;
   }
-  void bound(Eigen::VectorXd& z) const {
+  /// Ceres starts from nothing that lies outside.
+  void bound(ceres::Problem& problem, double* z) const {
     for (const auto& view : indices_)
       for (int i = 0; i < kMechanical; ++i)
-        if (view[i] >= 0) z[view[i]] = std::clamp(z[view[i]], -kFarthest, kFarthest);
+        if (view[i] >= 0) {
+          z[view[i]] = std::clamp(z[view[i]], -kFarthest, kFarthest);
+          problem.SetParameterLowerBound(z, view[i], -kFarthest);
+          problem.SetParameterUpperBound(z, view[i], kFarthest);
+        }
   }
 
  private:
@@ -70,18 +79,85 @@ class Joint {
   int size_ = 0;
 };
 
+/// The prior's residuals, then those of each view.
+class Residuals {
+ public:
+  Residuals(const std::vector<const ViewMatch*>& views, const Joint& joint)
+      : views_(views), joint_(joint) {}
+
+  Eigen::VectorXd at(const Eigen::VectorXd& z, bool with_pattern) const {
+    std::vector<Eigen::VectorXd> parts(views_.size());
+    Eigen::Index size = z.size();
+    for (std::size_t v = 0; v < views_.size(); ++v) {
+      parts[v] = views_[v]->residuals(joint_.state(v, z), with_pattern);
+      size += parts[v].size();
+    }
+    Eigen::VectorXd all(size);
+    all.head(z.size()) = joint_.prior_residuals(z);
+    Eigen::Index row = z.size();
+    for (const Eigen::VectorXd& part : parts) {
+      all.segment(row, part.size()) = part;
+      row += part.size();
+    }
+    return all;
+  }
+
+  Eigen::MatrixXd jacobian(const Eigen::VectorXd& z, bool with_pattern) const {
+    Eigen::MatrixXd J(at(z, with_pattern).size(), z.size());
+    tbb::parallel_for(Eigen::Index{0}, z.size(), [&](Eigen::Index i) {
+      Eigen::VectorXd up = z, down = z;
+      up[i] += kNudge;
+      down[i] -= kNudge;
+      J.col(i) = (at(up, with_pattern) - at(down, with_pattern)) / (2 * kNudge);
+    });
+    return J;
+  }
+
+  /// What the views' residuals count as.
+  double observations(bool with_pattern) const {
+    double count = 0;
+    for (const ViewMatch* view : views_) count += view->observations(with_pattern);
+    return count;
+  }
+
+ private:
+  const std::vector<const ViewMatch*>& views_;
+  const Joint& joint_;
+};
+
+class PoseCost : public ceres::CostFunction {
+ public:
+  PoseCost(const Residuals& residuals, const Eigen::VectorXd& z, bool with_pattern)
+      : residuals_(residuals), with_pattern_(with_pattern) {
+    set_num_residuals(static_cast<int>(residuals.at(z, with_pattern).size()));
+    mutable_parameter_block_sizes()->push_back(static_cast<int>(z.size()));
+  }
+  bool Evaluate(double const* const* parameters, double* residuals,
+                double** jacobians) const override {
+    using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+    const Eigen::Map<const Eigen::VectorXd> z(parameters[0], parameter_block_sizes()[0]);
+    Eigen::Map<Eigen::VectorXd>(residuals, num_residuals()) = residuals_.at(z, with_pattern_);
+    if (jacobians && jacobians[0])
+      Eigen::Map<RowMajor>(jacobians[0], num_residuals(), z.size()) =
+          residuals_.jacobian(z, with_pattern_);
+    return true;
+  }
+
+ private:
+  const Residuals& residuals_;
+  bool with_pattern_;
+};
+
 class Search {
  public:
   Search(const std::vector<const ViewMatch*>& views, bool only_rigid)
-      : views_(views), joint_(views.size(), only_rigid) {}
+      : joint_(views.size(), only_rigid), residuals_(views, joint_), views_(views.size()) {}
 
   PoseEstimate run(const std::vector<ViewState>& start, bool only_rigid) {
     Eigen::VectorXd z = joined(start);
     PoseEstimate estimate;
-    for (const bool with_pattern : {false, true}) {
-      if (with_pattern && only_rigid) break;
-      descend(with_pattern, z, estimate);
-    }
+    estimate.iterations = descend(false, z);
+    if (!only_rigid) estimate.iterations += descend(true, z);
     describe(z, !only_rigid, estimate);
     return estimate;
   }
@@ -95,89 +171,47 @@ class Search {
  private:
   Eigen::VectorXd joined(const std::vector<ViewState>& states) const {
     Eigen::VectorXd z = Eigen::VectorXd::Zero(joint_.size());
-    for (std::size_t v = 0; v < views_.size(); ++v) joint_.set(v, states[v], z);
+    for (std::size_t v = 0; v < views_; ++v) joint_.set(v, states[v], z);
     return z;
   }
 
   void describe(const Eigen::VectorXd& z, bool with_pattern, PoseEstimate& estimate) const {
-    const Eigen::VectorXd r = residuals(z, with_pattern);
+    const Eigen::VectorXd r = residuals_.at(z, with_pattern);
     estimate.cost = 0.5 * r.squaredNorm();
-    const Eigen::MatrixXd J = jacobian(z, with_pattern);
+    const Eigen::MatrixXd J = residuals_.jacobian(z, with_pattern);
     const auto prior_rows = J.topRows(z.size());
     const Eigen::MatrixXd prior = prior_rows.transpose() * prior_rows;
     const Eigen::MatrixXd evidence = J.transpose() * J - prior;
     const double found = (evidence + prior).ldlt().solve(evidence).trace();  // numbers
-    estimate.evidence_variance =
-        std::max(1.0, (kOwnObservations + r.tail(r.size() - z.size()).squaredNorm()) /
-                          (kOwnObservations + std::max(0.0, observations(with_pattern) - found)));
+    estimate.evidence_variance = std::max(
+        1.0, (kOwnObservations + r.tail(r.size() - z.size()).squaredNorm()) /
+                 (kOwnObservations + std::max(0.0, residuals_.observations(with_pattern) - found)));
     const Eigen::MatrixXd left = (evidence / estimate.evidence_variance + prior).inverse();
-    for (std::size_t v = 0; v < views_.size(); ++v) {
+    for (std::size_t v = 0; v < views_; ++v) {
       estimate.states.push_back(joint_.state(v, z));
       estimate.covariances.push_back(joint_.covariance(v, left));
     }
   }
 
-  double observations(bool with_pattern) const {
-    double count = 0;
-    for (const ViewMatch* view : views_) count += view->observations(with_pattern);
-    return count;
+  /// To the nearest minimum; returns the number of iterations.
+  int descend(bool with_pattern, Eigen::VectorXd& z) const {
+    ceres::Problem problem;
+    problem.AddResidualBlock(new PoseCost(residuals_, z, with_pattern), nullptr, z.data());
+    joint_.bound(problem, z.data());
+    ceres::Solver::Options options;
+    options.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
+    options.max_num_iterations = kMostIterations;
+    options.function_tolerance = kGain;
+    options.initial_trust_region_radius = kFirstRadius;
+    options.logging_type = ceres::SILENT;
+    ceres::Solver::Summary summary;
+    ceres::Solve(options, &problem, &summary);
+    return summary.num_successful_steps;
   }
 
-  Eigen::VectorXd residuals(const Eigen::VectorXd& z, bool with_pattern) const {
-    std::vector<Eigen::VectorXd> parts(views_.size());
-    Eigen::Index size = z.size();
-    for (std::size_t v = 0; v < views_.size(); ++v) {
-      parts[v] = views_[v]->residuals(joint_.state(v, z), with_pattern);
-      size += parts[v].size();
-    }
-    Eigen::VectorXd all(size);
-    all.head(z.size()) = joint_.prior_residuals(z);
-    Eigen::Index at = z.size();
-    for (const Eigen::VectorXd& part : parts) {
-      all.segment(at, part.size()) = part;
-      at += part.size();
-    }
-    return all;
-  }
-
-  Eigen::MatrixXd jacobian(const Eigen::VectorXd& z, bool with_pattern) const {
-    Eigen::MatrixXd J(residuals(z, with_pattern).size(), z.size());
-    tbb::parallel_for(Eigen::Index{0}, z.size(), [&](Eigen::Index i) {
-      Eigen::VectorXd up = z, down = z;
-      up[i] += kNudge;
-      down[i] -= kNudge;
-      J.col(i) = (residuals(up, with_pattern) - residuals(down, with_pattern)) / (2 * kNudge);
-    });
-    return J;
-  }
-
-  void descend(bool with_pattern, Eigen::VectorXd& z, PoseEstimate& estimate) const {
-    double damping = 1e-2;
-    Eigen::VectorXd r = residuals(z, with_pattern);
-    for (int i = 0; i < kMostIterations; ++i, ++estimate.iterations) {
-      const Eigen::MatrixXd J = jacobian(z, with_pattern);
-      const Eigen::MatrixXd normal = J.transpose() * J;
-      const double before = r.squaredNorm();
-      bool better = false;
-      for (int tries = 0; tries < 8 && !better; ++tries) {
-        Eigen::MatrixXd damped = normal;
-        damped.diagonal() *= 1 + damping;
-        Eigen::VectorXd trial = z - damped.ldlt().solve(J.transpose() * r);
-        joint_.bound(trial);
-        const Eigen::VectorXd there = residuals(trial, with_pattern);
-        better = there.squaredNorm() < before;
-        damping *= better ? 0.3 : 4;
-        if (better) {
-          z = trial;
-          r = there;
-        }
-      }
-      if (!better || before - r.squaredNorm() < kGain * before) break;
-    }
-  }
-
-  const std::vector<const ViewMatch*>& views_;
   Joint joint_;
+  Residuals residuals_;
+  std::size_t views_;
 };
 
 }  // namespace
