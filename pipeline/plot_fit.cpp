@@ -65,7 +65,7 @@ int run(const Arguments& args) {
   const Course course(iterations);
   Chart chart({"iterations of Ceres, refused steps included", 0, iterations.size() - 1.0},
               {"cost [mm²] and distance of the skin, RMS [mm]", course.least() / 1.2,
-               course.most() * 2, true});
+               course.most() * 8, true});
   chart.line(course.cost, palette::nipple, "cost (its weights change from stage to stage)");
   chart.line(course.rms, palette::lesion, "skin to mesh, RMS");
   chart.marks(course.refused_by_proof, palette::baseline, "step refused by the proof of det > 0");
