@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <cstdlib>
 #include <fstream>
 #include <memory>
 #include <stdexcept>
@@ -43,11 +44,15 @@ std::vector<std::string> texts_of(DcmItem& item, const DcmTagKey& tag) {
   return values;
 }
 
+/// Of any representation: texts, binary integers of either sign, reals.
 std::vector<double> numbers_of(DcmItem& item, const DcmTagKey& tag) {
   std::vector<double> values;
-  Float64 value;
-  for (unsigned long n = 0; item.findAndGetFloat64(tag, value, n).good(); ++n)
+  for (const std::string& text : texts_of(item, tag)) {
+    char* end = nullptr;
+    const double value = std::strtod(text.c_str(), &end);
+    if (end == text.c_str()) break;
     values.push_back(value);
+  }
   return values;
 }
 
@@ -58,13 +63,9 @@ std::optional<double> number_of(DcmItem& item, const DcmTagKey& tag) {
 }
 
 std::optional<int> count_of(DcmItem& item, const DcmTagKey& tag) {
-  long value = 0;
-  Uint16 small = 0;
-  if (item.findAndGetUint16(tag, small).good()) return small;
-  OFString text;
-  if (item.findAndGetOFString(tag, text).bad()) return std::nullopt;
-  value = std::strtol(text.c_str(), nullptr, 10);
-  return static_cast<int>(value);
+  const auto value = number_of(item, tag);
+  if (!value) return std::nullopt;
+  return static_cast<int>(*value);
 }
 
 void read_view_code(DcmItem& dataset, MammogramHeader& header) {

@@ -301,5 +301,21 @@ TEST_F(Header, PixelsAreBrightWhereTissueIsDense) {
   EXPECT_LT(inverted.at(0, 0), inverted.at(1, 0));
 }
 
+TEST_F(Header, PaddingIsAir) {
+  write([](DcmDataset& d) {
+    std::vector<Uint16> pixels(40 * 60, 100);
+    pixels[0] = 4000;
+    pixels[1] = 3000;
+    pixels[2] = 2900;
+    d.putAndInsertUint16Array(DCM_PixelData, pixels.data(), pixels.size());
+    d.putAndInsertUint16(DCM_PixelPaddingValue, 3000);
+    d.putAndInsertUint16(DCM_PixelPaddingRangeLimit, 2800);
+  });
+  const MammogramImage image = read_mammogram_dicom(path_);
+  EXPECT_EQ(image.at(0, 0), 4000);
+  EXPECT_EQ(image.at(1, 0), 100);
+  EXPECT_EQ(image.at(2, 0), 100);
+}
+
 }  // namespace
 }  // namespace mammotwin
