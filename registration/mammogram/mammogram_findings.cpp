@@ -144,7 +144,10 @@ class Reading {
         doubt("view", "a pectoral edge crosses this CC as it does an MLO; is it one?");
       return;
     }
-    if (!edge) return doubt("pectoral", "no pectoral edge is seen in this MLO; is it one?");
+    if (!edge) {
+      found_.unsure.push_back("pectoral");
+      return doubt("view", "no pectoral edge is seen in this MLO; is it one?");
+    }
     found_.pectoral = {upright_.stored_pixel(edge->top), upright_.stored_pixel(edge->end)};
     for (const Eigen::Vector2d& x : edge->points)
       found_.pectoral_curve.push_back(upright_.stored_pixel(x));

@@ -113,7 +113,11 @@ TEST(MammogramFindings, PectoralEdgeOfADrawnMuscle) {
 
 TEST(MammogramFindings, MuscleInAViewCalledCcIsDoubtAndItsAbsenceInAnMloToo) {
   EXPECT_TRUE(unsure(find_breast(drawn({.muscle = true}), kPixel_mm, false), "view"));
-  EXPECT_TRUE(unsure(find_breast(drawn({}), kPixel_mm, true), "pectoral"));
+  const MammogramFindings bare = find_breast(drawn({}), kPixel_mm, true);
+  EXPECT_TRUE(unsure(bare, "pectoral"));
+  EXPECT_TRUE(unsure(bare, "view"));
+  EXPECT_FALSE(unsure(find_breast(drawn({.muscle = true}), kPixel_mm, true), "view"));
+  EXPECT_FALSE(unsure(find_breast(drawn({}), kPixel_mm, false), "view"));
 }
 
 TEST(MammogramFindings, WhatIsSaidGoesBeforeWhatIsSeen) {
