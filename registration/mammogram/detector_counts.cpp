@@ -4,33 +4,22 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <stdexcept>
 #include <vector>
 
 #include "registration/mammogram/breast_mask.h"
-#include "registration/mammogram/mammogram_masks.h"
 
 namespace mammotwin {
 namespace {
 
 constexpr int kStride = 8;  // of the pixels that are enough for statistics
 
-float percentile(const MammogramImage& image, double share) {
-  std::vector<float> values;
-  for (std::size_t i = 0; i < image.grey.size(); i += kStride) values.push_back(image.grey[i]);
+/// A value below which that share of all lies; `values` must not be empty.
+double quantile(std::vector<float>& values, double share) {
   const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * (values.size() - 1));
   std::nth_element(values.begin(), at, values.end());
   return *at;
-}
-
-/// Median absolute deviation; of logarithms, since counts scatter with their size.
-double spread(std::vector<float> values) {
-  for (float& v : values) v = std::log(std::max(1.f, v));
-  const auto middle = values.begin() + values.size() / 2;
-  std::nth_element(values.begin(), middle, values.end());
-  const float median = *middle;
-  for (float& v : values) v = std::abs(v - median);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 /// Every stride-th pixel of every stride-th row.
@@ -43,68 +32,199 @@ MammogramImage sparse(const MammogramImage& image) {
   return few;
 }
 
-bool is_flat(const MammogramImage& image) {
-  const auto [low, high] = std::minmax_element(image.grey.begin(), image.grey.end());
-  return !(*high > *low);
+/// Values against the open field's, in nepers (of logarithms, in what they are stored in).
+MammogramImage absorption(MammogramImage image, const CountsEncoding& encoding,
+                          bool brighter_is_more) {
+  constexpr double kOpen = 0.999, kFloor = 5e-4;  // of the open field: darker is not told apart
+  const double scale =
+      encoding.full_scale.value_or(*std::max_element(image.grey.begin(), image.grey.end()));
+  if (!brighter_is_more)
+    for (float& grey : image.grey) grey = static_cast<float>(scale - grey);
+  std::vector<float> values = sparse(image).grey;
+  const double open = std::max(1., quantile(values, kOpen));
+  for (float& grey : image.grey) {
+    const double counts = std::clamp<double>(grey, 0, open);
+    grey = static_cast<float>(encoding.logarithmic
+                                  ? open - counts
+                                  : std::log((open + kFloor * open) / (counts + kFloor * open)));
+  }
+  return image;
 }
 
-/// Of the bands a tenth of the width from either side, air's varies less along the rows: the other
-/// holds the breast, or its border. Air is what Otsu's threshold leaves that band on.
-bool air_is_bright(const MammogramImage& image) {
-  const MammogramImage few = sparse(image);
-  if (is_flat(few)) return true;
+/// A tenth of each column absorbs no more than this; or of each row.
+std::vector<double> clearest(const MammogramImage& image, bool columns) {
+  constexpr double kTenth = 0.1;
+  const int lines = columns ? image.columns : image.rows;
+  const int length = columns ? image.rows : image.columns;
+  std::vector<double> clear(lines);
+  std::vector<float> line;
+  for (int l = 0; l < lines; ++l) {
+    line.clear();
+    for (int i = 0; i < length; i += kStride)
+      line.push_back(columns ? image.at(l, i) : image.at(i, l));
+    clear[l] = quantile(line, kTenth);
+  }
+  return clear;
+}
+
+/// How many lines from the first on a collimator covers, its shadow's edge included: dark over all
+/// of their length, as no breast is, up to a step.
+int covered_lines(const std::vector<double>& clear, double dark) {
+  constexpr double kMost = 0.35, kStep = 0.02, kShadow = 0.02;  // of all lines
+  constexpr double kNearlyDark = 0.75, kLess = 0.2;             // of what is dark; of it, a step
+  const int size = static_cast<int>(clear.size());
+  const int step = std::max(1, static_cast<int>(kStep * size));
+  int n = 0;
+  while (n < size && clear[n] >= kNearlyDark * dark) ++n;
+  if (n == 0 || n > kMost * size || clear[n + step] > clear[n - 1] - kLess * dark) return 0;
+  // The shadow's edge is left where the next lines are no clearer by much.
+  constexpr double kFlat = 0.004;
+  const int last = n + static_cast<int>(kShadow * size);
+  const int ahead = std::max(1, step / 8);
+  while (n < last && clear[n] - clear[n + ahead] > kFlat * dark) ++n;
+  return n;
+}
+
+/// What a collimator leaves open: all of the image where nothing is as dark as behind one.
+ExposedField exposed_field(const MammogramImage& image, const CountsEncoding& encoding) {
+  // Breasts absorb less all along a line: 1 % of the open field is left; or in shares of the scale.
+  constexpr double kDark = 4.5, kDarkShare = 0.45;
+  std::vector<double> columns = clearest(image, true), rows = clearest(image, false);
+  const double dark = std::max(*std::max_element(columns.begin(), columns.end()),
+                               *std::max_element(rows.begin(), rows.end()));
+  ExposedField field{0, image.columns - 1, 0, image.rows - 1};
+  if (dark < (encoding.logarithmic ? kDarkShare * encoding.full_scale.value_or(dark) : kDark))
+    return field;
+  field.first_column = covered_lines(columns, dark);
+  field.first_row = covered_lines(rows, dark);
+  std::reverse(columns.begin(), columns.end());
+  std::reverse(rows.begin(), rows.end());
+  field.last_column -= covered_lines(columns, dark);
+  field.last_row -= covered_lines(rows, dark);
+  return field;
+}
+
+/// How much like a breast before air it looks: of the bands a tenth of the field from either side
+/// air's varies less, and the other absorbs more than it by many times that.
+double likeness(const MammogramImage& image, const ExposedField& f) {
+  constexpr double kFirst = 0.1, kLast = 0.2, kLow = 0.1, kHigh = 0.9;
+  const int wide = f.last_column - f.first_column;
   std::vector<float> left, right;
-  for (int row = 0; row < few.rows; ++row)
-    for (int i = few.columns / 10; i <= few.columns / 5; ++i) {
-      left.push_back(few.at(i, row));
-      right.push_back(few.at(few.columns - 1 - i, row));
+  for (int row = f.first_row; row <= f.last_row; row += kStride)
+    for (int i = static_cast<int>(kFirst * wide); i <= kLast * wide; i += kStride) {
+      left.push_back(image.at(f.first_column + i, row));
+      right.push_back(image.at(f.last_column - i, row));
     }
-  std::vector<float>& air = spread(left) < spread(right) ? left : right;
-  const auto middle = air.begin() + air.size() / 2;
-  std::nth_element(air.begin(), middle, air.end());
-  return *middle > otsu_threshold(few);
+  const auto width = [](std::vector<float>& band) {
+    return quantile(band, kHigh) - quantile(band, kLow);
+  };
+  if (width(right) > width(left)) std::swap(left, right);
+  const double air = quantile(right, 0.5);
+  const double more = quantile(left, kHigh) - air, less = air - quantile(left, kLow);
+  return (more - less) / std::max(1e-6, width(right));
 }
 
-/// Takes out the plane through what is dark, twice: the second time without what the plane parts
-/// from air.
-void take_out_heel(MammogramImage& image) {
-  for (int round = 0; round < 2; ++round) {
-    const MammogramImage few = sparse(image);
-    if (is_flat(few)) return;
-    const float otsu = otsu_threshold(few);
-    Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
-    Eigen::Vector3d right = Eigen::Vector3d::Zero();
-    const auto place = [&](int column, int row) {
-      return Eigen::Vector3d(1, double(column) / image.columns, double(row) / image.rows);
-    };
+/// What the collimator covers goes on as the field ends.
+void repeat_border(MammogramImage& image, const ExposedField& f) {
+  if (f.last_column - f.first_column + 1 == image.columns &&
+      f.last_row - f.first_row + 1 == image.rows)
+    return;
+  for (int row = 0; row < image.rows; ++row)
+    for (int column = 0; column < image.columns; ++column)
+      image.at(column, row) = image.at(std::clamp(column, f.first_column, f.last_column),
+                                       std::clamp(row, f.first_row, f.last_row));
+}
+
+/// A parabola over the image.
+class Surface {
+ public:
+  static constexpr int kTerms = 6;
+  using Terms = Eigen::Matrix<double, kTerms, 1>;
+
+  Surface(int columns, int rows) : columns_(columns), rows_(rows) {}
+
+  Terms terms(int column, int row) const {
+    const double x = 2. * column / columns_ - 1, y = 2. * row / rows_ - 1;
+    Terms t;
+    t << 1, x, y, x * x, x * y, y * y;
+    return t;
+  }
+  double at(int column, int row) const { return factors_.dot(terms(column, row)); }
+
+  /// Least squares over those pixels for which `is_air` says so; `curved`, or a plane.
+  template <class IsAir>
+  bool fit(const MammogramImage& image, bool curved, IsAir is_air) {
+    Eigen::Matrix<double, kTerms, kTerms> normal = Eigen::Matrix<double, kTerms, kTerms>::Zero();
+    Terms right = Terms::Zero();
     for (int row = 0; row < image.rows; row += kStride)
       for (int column = 0; column < image.columns; column += kStride) {
-        if (image.at(column, row) > otsu) continue;
-        const Eigen::Vector3d x = place(column, row);
-        normal += x * x.transpose();
-        right += x * image.at(column, row);
+        if (!is_air(column, row)) continue;
+        const Terms t = terms(column, row);
+        normal += t * t.transpose();
+        right += t * image.at(column, row);
       }
-    if (normal(0, 0) < 3) return;  // no plane without three pixels
-    const Eigen::Vector3d plane = normal.ldlt().solve(right);
-    for (int row = 0; row < image.rows; ++row)
-      for (int column = 0; column < image.columns; ++column)
-        image.at(column, row) -= static_cast<float>(plane.dot(place(column, row)));
+    const double count = normal(0, 0);
+    if (count < kTerms) return false;
+    constexpr double kStiff = 1e-3;  // where air says nothing of a term, it is nought
+    for (int i = 1; i < kTerms; ++i) normal(i, i) += (i > 2 && !curved ? 1e9 : kStiff) * count;
+    factors_ = normal.ldlt().solve(right);
+    return true;
   }
+
+ private:
+  int columns_, rows_;
+  Terms factors_ = Terms::Zero();
+};
+
+/// Fits the open field through air: first through what is dark, a plane; then through what lies
+/// within three spreads of the last fit, curved.
+void take_out_heel(MammogramImage& image) {
+  constexpr int kRounds = 8, kPlanes = 2;
+  constexpr double kWithin = 3, kSdOfMad = 1.4826;  // of a normal distribution
+  double most = 0;
+  try {
+    most = air_level(sparse(image), -std::numeric_limits<float>::infinity(), kSkinShare).threshold;
+  } catch (const std::runtime_error&) {  // one grey: nothing to take out
+    return;
+  }
+  Surface open(image.columns, image.rows), last = open;
+  double within = std::numeric_limits<double>::infinity();
+  for (int round = 0; round < kRounds; ++round) {
+    const auto is_air = [&](int column, int row) {
+      const float grey = image.at(column, row);
+      return round == 0 ? grey <= most : std::abs(grey - last.at(column, row)) <= within;
+    };
+    if (!open.fit(image, round >= kPlanes, is_air)) return;
+    std::vector<float> off;
+    for (int row = 0; row < image.rows; row += kStride)
+      for (int column = 0; column < image.columns; column += kStride)
+        if (is_air(column, row))
+          off.push_back(static_cast<float>(image.at(column, row) - open.at(column, row)));
+    const double middle = quantile(off, 0.5);
+    for (float& v : off) v = static_cast<float>(std::abs(v - middle));
+    within = kWithin * kSdOfMad * quantile(off, 0.5);
+    last = open;
+  }
+  for (int row = 0; row < image.rows; ++row)
+    for (int column = 0; column < image.columns; ++column)
+      image.at(column, row) -= static_cast<float>(open.at(column, row));
 }
 
 }  // namespace
 
 void absorption_from_counts(MammogramImage& image, const CountsEncoding& encoding) {
-  constexpr double kAir = 0.999, kNothing = 0.001;
-  const float most = percentile(image, kAir), least = percentile(image, kNothing);
-  const bool bright_air = encoding.brighter_is_more.value_or(air_is_bright(image));
-  for (float& grey : image.grey) {
-    const float counts =
-        bright_air ? std::min(grey, most) : most + least - std::clamp(grey, least, most);
-    grey = encoding.logarithmic ? most - counts
-                                : std::log(std::max(1.f, most) / std::max(1.f, counts));
+  const auto taken = [&](bool brighter_is_more) {
+    MammogramImage absorbed = absorption(image, encoding, brighter_is_more);
+    absorbed.field = exposed_field(absorbed, encoding);
+    return absorbed;
+  };
+  if (encoding.brighter_is_more) {
+    image = taken(*encoding.brighter_is_more);
+  } else {
+    MammogramImage more = taken(true), less = taken(false);
+    image = likeness(more, *more.field) >= likeness(less, *less.field) ? more : less;
   }
-  blacken_borders(image);  // what no X-rays reach is no tissue
+  repeat_border(image, *image.field);
   take_out_heel(image);
 }
 

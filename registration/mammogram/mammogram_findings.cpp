@@ -97,9 +97,24 @@ class Reading {
     upright_.hang(found_.chest_wall);
     mask_ = hung(mask, found_.chest_wall);
     skin_ = skin_line(mask_, upright_.pixel_mm(), oblique_);
+    keep_exposed(skin_.points);
     for (const Eigen::Vector2d& x : skin_.points)
       found_.outline.push_back(upright_.stored_pixel(x));
     found_.remarks = skin_.remarks;
+  }
+
+  /// Beyond the exposed field an image repeats its border: an end of the skin there is none.
+  void keep_exposed(std::vector<Eigen::Vector2d>& line) const {
+    if (!image_.field) return;
+    const auto hidden = [&](const Eigen::Vector2d& x) {
+      const Eigen::Vector2d pixel = upright_.stored_pixel(x);
+      const ExposedField& f = *image_.field;
+      return pixel.x() < f.first_column || pixel.x() > f.last_column || pixel.y() < f.first_row ||
+             pixel.y() > f.last_row;
+    };
+    while (!line.empty() && hidden(line.back())) line.pop_back();
+    line.erase(line.begin(), std::find_if_not(line.begin(), line.end(), hidden));
+    if (line.size() < 2) throw std::runtime_error("no skin line is seen: the collimator covers it");
   }
 
   MammogramImage said_mask() const {
@@ -179,9 +194,9 @@ class Reading {
   /// A nipple in profile that is fainter than any skin, as film readers leave it.
   std::optional<NippleFinding> faint_nipple() const {
     try {
-      const SkinLine line =
-          skin_line(breast_mask(upright_.image(), upright_.pixel_mm(), kFaintShare),
-                    upright_.pixel_mm(), oblique_);
+      SkinLine line = skin_line(breast_mask(upright_.image(), upright_.pixel_mm(), kFaintShare),
+                                upright_.pixel_mm(), oblique_);
+      keep_exposed(line.points);
       const NippleFinding nipple = find_nipple(nipple_profile(line, *smooth_), oblique_);
       if (nipple.candidates.front().bulge_mm > kFaintBulge_mm && nipple.sd_mm < kUnsureNipple_mm)
         return nipple;

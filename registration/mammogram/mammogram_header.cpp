@@ -215,6 +215,8 @@ CountsEncoding counts_encoding(DcmDataset& dataset) {
   encoding.logarithmic = text_of(dataset, DCM_PixelIntensityRelationship) == "LOG";
   const auto sign = number_of(dataset, DCM_PixelIntensityRelationshipSign);
   if (sign) encoding.brighter_is_more = *sign > 0;
+  if (const auto bits = number_of(dataset, DCM_BitsStored))
+    encoding.full_scale = std::pow(2, *bits) - 1;
   return encoding;
 }
 
