@@ -108,8 +108,11 @@ Outcome outcome_of(const Inputs& inputs, const RegisteredViews& registered,
                    const std::vector<PredictedView>& views, json quality) {
   std::vector<std::string> reasons = inputs.remarks;
   reasons.insert(reasons.end(), registered.remarks.begin(), registered.remarks.end());
-  for (const PredictedView& view : views)
-    reasons.insert(reasons.end(), view.findings.remarks.begin(), view.findings.remarks.end());
+  for (const PredictedView& view : views) {
+    const std::vector<std::string> remarks =
+        edge_remarks(view.findings, view.ellipses, view.registered.projection.view().name);
+    reasons.insert(reasons.end(), remarks.begin(), remarks.end());
+  }
   if (inputs.segmentation.lesions.empty())
     reasons.push_back("patient.toml names no lesion, so there is nothing to predict");
   return {reasons.empty() ? Status::ok : Status::look, reasons, std::move(quality)};

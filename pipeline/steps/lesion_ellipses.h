@@ -18,4 +18,10 @@ struct LesionEllipse {
 std::vector<LesionEllipse> lesion_ellipses(const ProjectedFindings& findings,
                                            const RegisteredView& view, bool has_mammogram);
 
+/// For a person: which lesions are predicted behind the detector's edge in `view`, and whether that
+/// mammogram may show them all the same, as their ellipses reach in front of it.
+std::vector<std::string> edge_remarks(const ProjectedFindings& findings,
+                                      const std::vector<LesionEllipse>& ellipses,
+                                      const std::string& view);
+
 }  // namespace mammotwin

@@ -27,13 +27,10 @@ Findings findings_of(const Segmentation& segmentation) {
 }
 
 ProjectedFindings project(const Findings& findings, const ViewProjection& view) {
-  ProjectedFindings projected{{}, view.project(findings.nipple), {}};
+  ProjectedFindings projected{{}, view.project(findings.nipple)};
   for (const Landmark& landmark : findings.lesions) {
     projected.lesions.push_back(view.project(landmark));
     require_inside(projected.lesions.back());
-    if (projected.lesions.back().on_detector.x() < 0)
-      projected.remarks.push_back("lesion " + landmark.id + " lies behind the detector's edge in " +
-                                  view.view().name + ": that mammogram would not show it");
   }
   return projected;
 }

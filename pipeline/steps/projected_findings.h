@@ -19,7 +19,6 @@ Findings findings_of(const Segmentation& segmentation);
 struct ProjectedFindings {
   std::vector<ProjectedLandmark> lesions;  ///< in the order of Findings
   ProjectedLandmark nipple;
-  std::vector<std::string> remarks;  ///< for a person: what that mammogram would not show
 };
 
 /// Throws std::runtime_error where a lesion lies too far outside the mesh to be carried.

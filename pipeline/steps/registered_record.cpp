@@ -10,6 +10,8 @@ namespace {
 constexpr const char* kBaseline = "baseline";
 constexpr const char* kSd = "state_sd";
 constexpr const char* kCovariance = "state_covariance";
+constexpr const char* kDiscrepancy = "discrepancy_mm";
+constexpr const char* kEnd = "search_end";
 constexpr const char* kVaried = "varied_";
 
 // The field `baseline`, number by number.
@@ -48,10 +50,12 @@ std::optional<ViewUncertainty> read_uncertainty(const MeshFile& file, const std:
   const std::vector<double>* sd = find_field(file.metadata, name, kSd, kStates);
   const std::vector<double>* covariance =
       find_field(file.metadata, name, kCovariance, kStates * kStates);
-  if (!sd || !covariance) return std::nullopt;
+  const std::vector<double>* discrepancy = find_field(file.metadata, name, kDiscrepancy, 1);
+  if (!sd || !covariance || !discrepancy) return std::nullopt;
   ViewUncertainty uncertainty;
   uncertainty.sd = ViewState::Map(sd->data());
   uncertainty.covariance = Eigen::Matrix<double, kStates, kStates>::Map(covariance->data());
+  uncertainty.discrepancy_mm = discrepancy->front();
   for (int i = 0; i < kMechanical; ++i)
     if (const auto varied = file.configurations.find(std::string(kVaried) + kStateNames[i]);
         varied != file.configurations.end())
@@ -59,10 +63,21 @@ std::optional<ViewUncertainty> read_uncertainty(const MeshFile& file, const std:
   return uncertainty;
 }
 
+SearchEnd read_end(const MeshFile& file, const std::string& name) {
+  const std::vector<double>* number = find_field(file.metadata, name, kEnd, 1);
+  if (!number) return SearchEnd::none;
+  for (const SearchEnd end :
+       {SearchEnd::none, SearchEnd::ok, SearchEnd::look, SearchEnd::no_registration})
+    if (number->front() == static_cast<double>(end)) return end;
+  throw std::runtime_error(name + ": the field " + kEnd + " is " + std::to_string(number->front()) +
+                           "; expected 0 to 3");
+}
+
 void write_uncertainty(const ViewUncertainty& uncertainty, MeshFile& file) {
   file.metadata[kSd] = {uncertainty.sd.begin(), uncertainty.sd.end()};
   const auto& c = uncertainty.covariance;
   file.metadata[kCovariance] = {c.data(), c.data() + c.size()};
+  file.metadata[kDiscrepancy] = {uncertainty.discrepancy_mm};
   for (int i = 0; i < kMechanical; ++i)
     if (!uncertainty.varied[i].empty())
       file.configurations[std::string(kVaried) + kStateNames[i]] = uncertainty.varied[i];
@@ -86,6 +101,7 @@ AffineBaseline baseline_of(const RegisteredRecord::Baseline& record, const Hermi
 void write_registered(const RegisteredRecord& record, MeshFile& file) {
   if (record.uncertainty) write_uncertainty(*record.uncertainty, file);
   if (record.baseline) file.metadata[kBaseline] = numbers_of(*record.baseline);
+  file.metadata[kEnd] = {static_cast<double>(record.end)};
 }
 
 RegisteredRecord read_registered(const MeshFile& file, const std::string& name) {
@@ -93,6 +109,7 @@ RegisteredRecord read_registered(const MeshFile& file, const std::string& name) 
   if (const auto* n = find_field(file.metadata, name, kBaseline, kBaselineNumbers))
     record.baseline = baseline_from(*n);
   record.uncertainty = read_uncertainty(file, name);
+  record.end = read_end(file, name);
   return record;
 }
 

@@ -6,6 +6,7 @@
 #include "fitting/mesh/mesh_file.h"
 #include "registration/search/affine_baseline.h"
 #include "registration/search/search_ellipse.h"
+#include "registration/search/search_verdict.h"
 
 namespace mammotwin {
 
@@ -21,6 +22,7 @@ struct RegisteredRecord {
   };
   std::optional<Baseline> baseline;
   std::optional<ViewUncertainty> uncertainty;  ///< of a view whose sensitivities were solved for
+  SearchEnd end = SearchEnd::none;             ///< of the search against its mammogram
 };
 
 RegisteredRecord::Baseline record_of(const AffineBaseline& baseline);
@@ -29,8 +31,9 @@ RegisteredRecord::Baseline record_of(const AffineBaseline& baseline);
 AffineBaseline baseline_of(const RegisteredRecord::Baseline& record, const HermiteMesh& prone,
                            CompressedView view);
 
-/// As fields `baseline`, `state_sd` and `state_covariance`, and as the breast with each state's
-/// number varied, "varied_roll_deg" and so on, among the configurations.
+/// As fields `baseline`, `state_sd`, `state_covariance`, `discrepancy_mm` and `search_end`, and as
+/// the breast with each state's number varied, "varied_roll_deg" and so on, among the
+/// configurations.
 void write_registered(const RegisteredRecord& record, MeshFile& file);
 
 /// Throws std::runtime_error naming `name` and the field that is damaged.

@@ -32,7 +32,8 @@ RegisteredView read_registered_view(const std::string& name, const std::filesyst
           file.mesh,
           std::move(projection),
           std::move(states),
-          record.uncertainty};
+          record.uncertainty,
+          record.end};
 }
 
 void write_registered_view(const std::filesystem::path& path, const RegisteredView& view) {
@@ -40,7 +41,7 @@ void write_registered_view(const std::filesystem::path& path, const RegisteredVi
   file.mesh = view.compressed;
   file.fields.clear();  // stresses are those of the state before the search
   write_view(view.projection.view(), file.metadata);
-  write_registered({record_of(view.projection.baseline()), view.uncertainty}, file);
+  write_registered({record_of(view.projection.baseline()), view.uncertainty, view.end}, file);
   erase_solution(file);
   write_mesh_file(path, file);
 }

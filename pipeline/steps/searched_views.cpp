@@ -1,6 +1,5 @@
 #include "pipeline/steps/searched_views.h"
 
-#include <cstdio>
 #include <stdexcept>
 
 #include "pipeline/steps/breast_problem.h"
@@ -13,9 +12,6 @@ namespace mammotwin {
 namespace {
 
 using nlohmann::json;
-
-// What is worth a look after a search.
-constexpr double kPoorOutline_mm = 5, kPoorNipple_mm = 10, kFarState = 2;
 
 ViewEvidence evidence_of(const Patient& patient, const RegisteredView& view) {
   const CompressedView& geometry = view.projection.view();
@@ -46,14 +42,23 @@ ViewEvidence evidence_of(const Patient& patient, const RegisteredView& view) {
 json figures_json(const MatchFigures& f) {
   return {{"outline_rms_mm", f.outline_rms_mm},
           {"nipple_mm", f.nipple_mm ? json(*f.nipple_mm) : json()},
-          {"pattern_correlation", f.pattern_correlation}};
+          {"nipple_sd_mm", f.nipple_sd_mm},
+          {"pattern_correlation", f.pattern_correlation ? json(*f.pattern_correlation) : json()}};
 }
 
 json search_json(const SearchedView& view) {
   json state = json::object();
   for (int i = 0; i < kStates; ++i)
     state[kStateNames[i]] = {{"value", view.state[i]}, {"sd", view.state_sd[i]}};
-  return {{"state", state},
+  const ModelDiscrepancy& d = view.discrepancy;
+  return {{"end", name_of(view.verdict.end)},
+          {"reasons", view.verdict.reasons},
+          {"discrepancy_mm",
+           {{"outline", d.outline_mm},
+            {"nipple", d.nipple_mm},
+            {"pattern", d.pattern_mm},
+            {"views", d.views_mm}}},
+          {"state", state},
           {"before", figures_json(*view.before)},
           {"after", figures_json(*view.after)},
           {"evidence_variance", view.evidence_variance},
@@ -61,41 +66,12 @@ json search_json(const SearchedView& view) {
           {"failed_solves", view.failed_solves}};
 }
 
-std::string sentence(const std::string& view, const char* format, double value) {
-  char text[160];
-  std::snprintf(text, sizeof text, format, value);
-  return view + ": " + text;
-}
-
 void judge(const SearchedView& view, std::vector<std::string>& reasons) {
-  const std::string& name = view.view.name;
   if (view.failed_solves == 2 * kMechanical)
-    reasons.push_back(name +
+    reasons.push_back(view.view.name +
                       ": no solve near the compressed state succeeded, so neither a search "
                       "nor ellipses that know the mechanics; run compress again");
-  if (!view.after) return;
-  if (view.after->outline_rms_mm > kPoorOutline_mm)
-    reasons.push_back(sentence(name,
-                               "after the search the model's outline still lies %.1f mm (RMS) "
-                               "off the mammogram's",
-                               view.after->outline_rms_mm));
-  if (view.after->nipple_mm && *view.after->nipple_mm > kPoorNipple_mm)
-    reasons.push_back(sentence(name,
-                               "after the search the model's nipple still lies %.1f mm off the "
-                               "mammogram's",
-                               *view.after->nipple_mm));
-  if (!view.complete)
-    reasons.push_back(name +
-                      ": the search stopped where no equilibrium was found, with the best state "
-                      "that it had solved");
-  const ViewState sd = view.uncertainty.sd;
-  for (const int i : {kThickness, kRoll, kTurn})
-    if (std::abs(view.state[i]) > kFarState * sd[i])
-      reasons.push_back(sentence(name,
-                                 (std::string("the mammogram asks for another ") + kStateNames[i] +
-                                  " by %.1f; is the header right?")
-                                     .c_str(),
-                                 view.state[i]));
+  reasons.insert(reasons.end(), view.verdict.reasons.begin(), view.verdict.reasons.end());
 }
 
 SearchInput search_input(const Patient& patient, const Segmentation& segmentation,
@@ -114,6 +90,7 @@ SearchInput search_input(const Patient& patient, const Segmentation& segmentatio
 RegisteredView registered(RegisteredView view, const SearchedView& searched) {
   view.compressed = searched.compressed;
   view.uncertainty = searched.uncertainty;
+  view.end = searched.verdict.end;
   view.projection = ViewProjection(view.prone, view.compressed, searched.view,
                                    view.projection.detector(), searched.baseline);
   return view;

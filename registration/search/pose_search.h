@@ -29,9 +29,8 @@ PoseEstimate search_pose(const std::vector<const ViewMatch*>& views,
 PoseEstimate pose_at(const std::vector<const ViewMatch*>& views,
                      const std::vector<ViewState>& states);
 
-/// Before any mammogram: the prior, without turn and lateral shift, as sideways only the breast's
-/// own frame is spoken of then; depth is from the detector's edge, and nobody knows where that
-/// stands.
-Eigen::Matrix<double, kStates, kStates> prior_covariance();
+/// Before any mammogram: the prior. Without one to lay the breast on, nothing is said of where it
+/// lies sideways, only of places in its own frame: then the lateral shift has no variance.
+Eigen::Matrix<double, kStates, kStates> prior_covariance(bool sideways = false);
 
 }  // namespace mammotwin

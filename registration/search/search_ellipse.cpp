@@ -42,8 +42,9 @@ Eigen::Matrix2d detector_covariance(const ViewUncertainty& uncertainty,
   }
   for (int i = kMechanical; i < kStates; ++i)
     J.col(i) = detector.project(placed(x, uncertainty.sd, i)) - here;
-  return J * uncertainty.covariance * J.transpose() +
-         kModelSd_mm * kModelSd_mm * Eigen::Matrix2d::Identity();
+  const double unexplained =
+      kModelSd_mm * kModelSd_mm + uncertainty.discrepancy_mm * uncertainty.discrepancy_mm;
+  return J * uncertainty.covariance * J.transpose() + unexplained * Eigen::Matrix2d::Identity();
 }
 
 ViewUncertainty without_placement(ViewUncertainty uncertainty) {

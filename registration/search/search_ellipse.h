@@ -23,10 +23,13 @@ struct ViewUncertainty {
   std::array<Nodes, kMechanical> varied;
   ViewState sd = prior_sd();
   Eigen::Matrix<double, kStates, kStates> covariance = prior_covariance();  ///< of z [-]
+  /// What is left unexplained besides kModelSd_mm, on the detector, the same in each direction
+  /// [mm]; model_discrepancy.h.
+  double discrepancy_mm = 0;
 };
 
-/// Covariance on the detector [mm^2] of a material point: J C J^T + kModelSd_mm^2, J being the
-/// slopes times a standard deviation.
+/// Covariance on the detector [mm^2] of a material point: J C J^T + kModelSd_mm^2 +
+/// discrepancy_mm^2, J being the slopes times a standard deviation.
 Eigen::Matrix2d detector_covariance(const ViewUncertainty& uncertainty,
                                     const HermiteMesh& compressed, const CompressedView& view,
                                     const Detector& detector, const MeshPoint& point);

@@ -10,14 +10,11 @@
 namespace mammotwin {
 namespace {
 
-constexpr double kOutlineSd_mm = 2;    // of the model's outline, found over synthetic patients
 constexpr double kPiece_mm = 30;       // of outline that counts as one observation
 constexpr double kBehind_mm = 8;       // nearer to the detector's edge no outline is compared
 constexpr double kBorder_mm = 3;       // of the image: an outline there is the image's end
 constexpr double kLeastNipple_mm = 3;  // sd: what the model knows of its own
-constexpr double kPatternSd = 0.7;     // of normalised patterns of the same breast
-constexpr double kPatternPiece_mm = 15;
-constexpr double kHuber = 2;  // standard deviations beyond which outliers count less
+constexpr double kHuber = 2;           // standard deviations beyond which outliers count less
 
 /// Share of an independent piece of outline that lies between two rays.
 double piece(double radius_mm) {
@@ -156,6 +153,7 @@ MatchFigures ViewMatch::figures(const ViewState& z) const {
       ++count;
     }
   figures.outline_rms_mm = std::sqrt(figures.outline_rms_mm / std::max(1, count));
+  figures.nipple_sd_mm = evidence_.nipple_sd_mm;
   if (evidence_.nipple)
     figures.nipple_mm = (detector_.project(nipple_.at(view_, z).col(0)) - *evidence_.nipple).norm();
   if (tissue_ && evidence_.pattern.size() > 0)

@@ -22,10 +22,17 @@ struct ViewEvidence {
 ViewEvidence view_evidence(const MammogramImage& image, const MammogramFindings& findings,
                            const Detector& detector);
 
+/// What a search takes for the standard deviation of a model's outline, and of patterns of the same
+/// breast, which are normalised; the latter correlate as 1 - sd^2 / 2 where the breast is in place.
+inline constexpr double kOutlineSd_mm = 2, kPatternSd = 0.7;
+inline constexpr double kCorrelationInPlace = 1 - kPatternSd * kPatternSd / 2;
+inline constexpr double kPatternPiece_mm = 15;  ///< square of pattern that is one observation
+
 struct MatchFigures {
   double outline_rms_mm = 0;
-  std::optional<double> nipple_mm;
-  double pattern_correlation = 0;
+  std::optional<double> nipple_mm;  ///< absent: the mammogram's was not looked for
+  double nipple_sd_mm = 0;
+  std::optional<double> pattern_correlation;  ///< absent: none to compare
 };
 
 /// How far a view in state z is from its mammogram.

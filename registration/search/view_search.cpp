@@ -2,8 +2,10 @@
 
 #include <utility>
 
+#include "registration/carry/point_carrier.h"
 #include "registration/search/placed_baseline.h"
 #include "registration/search/solved_search.h"
+#include "registration/search/view_disagreement.h"
 
 namespace mammotwin {
 namespace {
@@ -36,7 +38,7 @@ ReducedView unsolved(const SearchInput& input) {
 ReducedView reduced_view(const SearchInput& input) {
   ReducedView view = !input.solver    ? unsolved(input)
                      : input.evidence ? reduce_view(*input.solver, prior_sd())
-                                      : linear_view(*input.solver, unseen_sd());
+                                      : linear_view(*input.solver, prior_sd());
   view.elements = input.file.mesh.elements();
   return view;
 }
@@ -51,20 +53,40 @@ ViewUncertainty uncertainty(const ReducedView& reduced, const ViewState& z,
   return result;
 }
 
-AffineBaseline baseline_of(const SearchInput& input, double thickness_mm,
+AffineBaseline baseline_of(const SearchInput& input, const CompressedView& view,
                            const Eigen::Vector3d& nipple_in_lps) {
-  return placed_baseline(input.file, input.view, thickness_mm, nipple_in_lps, input.detector,
+  return placed_baseline(input.file, view, view.thickness_mm, nipple_in_lps, input.detector,
                          input.evidence);
 }
 
-/// As it was computed, with no mammogram to bring it to.
-SearchedView unmatched(const SearchInput& input, const ReducedView& reduced,
+EdgePrior edge_of(const SearchInput& input, const Eigen::Vector3d& nipple_in_lps) {
+  const PointCarrier carrier(prone_of(input.file), input.file.mesh);
+  return edge_prior(input.file, input.view, carrier.carry(nipple_in_lps).in_lps);
+}
+
+/// As it was computed, its detector where edges are expected, with no mammogram to bring it to.
+SearchedView unmatched(const SearchInput& input, const ReducedView& reduced, const EdgePrior& edge,
                        const Eigen::Vector3d& nipple_in_lps) {
-  SearchedView result{input.view, input.file.mesh,
-                      baseline_of(input, input.view.thickness_mm, nipple_in_lps)};
+  const CompressedView view = laid_on_detector(input.view, edge.mean);
+  SearchedView result{view, input.file.mesh,
+                      baseline_of(input, input.evidence ? input.view : view, nipple_in_lps)};
   result.uncertainty = uncertainty(reduced, ViewState::Zero(), input.view.frame);
+  result.uncertainty.sd = edge.sd;
+  result.uncertainty.covariance = prior_covariance(input.evidence.has_value());
+  result.uncertainty.discrepancy_mm = kUncorrectedSd_mm;
   result.failed_solves = reduced.failed_solves;
   return result;
+}
+
+CompressedView with_thickness(CompressedView view, double thickness_mm) {
+  view.thickness_mm = thickness_mm;
+  return view;
+}
+
+double disagreement(const ViewMatch& match, const SolvedSearch& end, std::size_t number) {
+  const PoseEstimate alone = search_pose({&match}, {end.states[number]});
+  return view_disagreement(match, {end.states[number], end.pose.covariances[number]},
+                           {alone.states.front(), alone.covariances.front()});
 }
 
 /// As it lies on its mammogram, view `number` of those that were searched.
@@ -74,9 +96,10 @@ SearchedView matched(const SearchInput& input, const ViewToSearch& found, const 
   const ViewState& z = end.states[number];
   const ViewState state = z.cwiseProduct(reduced.sd);
   const CompressedView& view = found.solved.view;
-  SearchedView result{laid_on_detector(view, state),
-                      HermiteMesh(in_lps(reduced.nodes_at(z), view.frame), reduced.elements),
-                      baseline_of(input, view.thickness_mm, nipple_in_lps)};
+  SearchedView result{
+      laid_on_detector(view, state),
+      HermiteMesh(in_lps(reduced.nodes_at(z), view.frame), reduced.elements),
+      baseline_of(input, with_thickness(input.view, view.thickness_mm), nipple_in_lps)};
   result.uncertainty = uncertainty(reduced, z, view.frame);
   result.uncertainty.covariance = end.pose.covariances[number];
   result.state = state;
@@ -85,7 +108,19 @@ SearchedView matched(const SearchInput& input, const ViewToSearch& found, const 
   result.evidence_variance = end.pose.evidence_variance;
   result.complete = end.complete;
   result.failed_solves = reduced.failed_solves;
+  result.discrepancy = model_discrepancy(*result.after);
+  if (end.states.size() > 1) result.discrepancy.views_mm = disagreement(found.match, end, number);
+  result.uncertainty.discrepancy_mm = result.discrepancy.sd_mm();
   return result;
+}
+
+/// What is shown where the search came to nothing: the prediction without it.
+SearchedView given_up(SearchedView found, const SearchedView& unsearched) {
+  found.view = unsearched.view;
+  found.compressed = unsearched.compressed;
+  found.baseline = unsearched.baseline;
+  found.uncertainty = unsearched.uncertainty;
+  return found;
 }
 
 }  // namespace
@@ -98,11 +133,13 @@ std::vector<SearchedView> search_views(const std::vector<SearchInput>& inputs,
   std::vector<ViewToSearch> searched;
   std::vector<std::size_t> places;  // of the searched among all
   std::vector<MatchFigures> before;
+  std::vector<EdgePrior> edges;
   for (std::size_t v = 0; v < inputs.size(); ++v) {
     const SearchInput& input = inputs[v];
     if (progress) progress(0.3 * v, "sensitivities of " + input.view.name);
     const ReducedView reduced = reduced_view(input);
-    result.push_back(unmatched(input, reduced, nipple_in_lps));
+    edges.push_back(edge_of(input, nipple_in_lps));
+    result.push_back(unmatched(input, reduced, edges.back(), nipple_in_lps));
     if (!input.evidence || !input.solver) continue;
     searched.push_back({ViewMatch(reduced, input.file.faces, prone_of(input.file), &fractions,
                                   nipple_in_lps, input.detector, *input.evidence),
@@ -113,9 +150,14 @@ std::vector<SearchedView> search_views(const std::vector<SearchInput>& inputs,
   }
   const SolvedSearch end = search_and_solve(searched, progress);
   for (std::size_t m = 0; m < searched.size(); ++m) {
-    SearchedView& view = result[places[m]];
-    view = matched(inputs[places[m]], searched[m], end, m, nipple_in_lps);
-    view.before = before[m];
+    const std::size_t v = places[m];
+    SearchedView found = matched(inputs[v], searched[m], end, m, nipple_in_lps);
+    found.before = before[m];
+    found.verdict =
+        judge_search(inputs[v].view.name, *found.after, found.state, edges[v], found.complete);
+    result[v] = found.verdict.end == SearchEnd::no_registration
+                    ? given_up(std::move(found), result[v])
+                    : std::move(found);
   }
   return result;
 }

@@ -1,7 +1,9 @@
 #pragma once
 
 #include "registration/search/affine_baseline.h"
+#include "registration/search/model_discrepancy.h"
 #include "registration/search/search_ellipse.h"
+#include "registration/search/search_verdict.h"
 
 namespace mammotwin {
 
@@ -14,15 +16,18 @@ struct SearchInput {
   std::optional<ViewEvidence> evidence;  ///< absent: there is no mammogram
 };
 
-/// What the search made of it.
+/// What the search made of it. After `no_registration`, shape, frame and uncertainty are those of a
+/// view without a mammogram; state and figures say where the search had ended.
 struct SearchedView {
-  CompressedView view;  ///< with the frame that lays the breast on its mammogram
+  CompressedView view;  ///< with the frame that lays the breast on its detector
   HermiteMesh compressed;
   AffineBaseline baseline;  ///< brought to the same outline and nipple by turn and shifts
   ViewUncertainty uncertainty{};
   ViewState state = ViewState::Zero(), state_sd = ViewState::Zero();  ///< physical units
   std::optional<MatchFigures> before{}, after{};
-  double evidence_variance = 1;  ///< PoseEstimate's
+  SearchVerdict verdict{};
+  ModelDiscrepancy discrepancy{};  ///< of a view that was searched
+  double evidence_variance = 1;    ///< PoseEstimate's
   bool complete = true;  ///< false: it stopped where no equilibrium was found, at its best so far
   int failed_solves = 0;
 };

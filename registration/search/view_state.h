@@ -42,17 +42,4 @@ inline ViewState prior_sd() {
   return sd;
 }
 
-/// The same of a view without a mammogram, of which nobody knows where the detector's edge stands.
-/// Of 2,688 pairs of CC views 24.5 % show the pectoral muscle (Strohbach, Wilkinson, Spuur 2020),
-/// and in 24.5 % of 200 MLO views it reaches down to the nipple (Spuur, Poulos, Rickard 2008): so
-/// the edge stands behind the chest wall in a quarter of both. With a mean of 10 mm in front of it
-/// (PlateOptions::wall_clearance) that is a standard deviation of 10 / 0.69 = 14.5 mm: 4 of the
-/// plates' clearance, 14 of a shift of the detector, which the mechanics do not feel, as plates
-/// cannot stand behind the wall that the mesh ends at.
-inline ViewState unseen_sd() {
-  ViewState sd = prior_sd();
-  sd[kShiftDepth] = 14;
-  return sd;
-}
-
 }  // namespace mammotwin

@@ -51,7 +51,8 @@ TEST_F(MeshRecords, WhatRegisterKnowsComesBack) {
   uncertainty.sd[kRoll] = 7;
   uncertainty.covariance(kTilt, kRoll) = 0.25;
   uncertainty.varied[kRoll] = file.mesh.nodes();
-  write_registered({baseline, uncertainty}, file);
+  uncertainty.discrepancy_mm = 4.5;
+  write_registered({baseline, uncertainty, SearchEnd::look}, file);
   EXPECT_TRUE(is_varied(file.configurations.begin()->first));
 
   const RegisteredRecord found = read_registered(file, "cc_registered.vtu");
@@ -63,6 +64,8 @@ TEST_F(MeshRecords, WhatRegisterKnowsComesBack) {
   EXPECT_EQ(found.baseline->shift_mm, baseline.shift_mm);
   EXPECT_EQ(found.uncertainty->sd, uncertainty.sd);
   EXPECT_EQ(found.uncertainty->covariance, uncertainty.covariance);
+  EXPECT_EQ(found.uncertainty->discrepancy_mm, 4.5);
+  EXPECT_EQ(found.end, SearchEnd::look);
   EXPECT_EQ(found.uncertainty->varied[kRoll].size(), file.mesh.nodes().size());
   EXPECT_TRUE(found.uncertainty->varied[kTilt].empty());
 }

@@ -8,6 +8,7 @@
 
 #include "registration/carry/point_carrier.h"
 #include "registration/search/search_ellipse.h"
+#include "registration/search/view_disagreement.h"
 #include "tests/registration/squeezed_box.h"
 
 namespace mammotwin {
@@ -97,6 +98,25 @@ TEST(PoseSearch, FindsAMechanicalNumberAndKnowsWhatItDoesNot) {
             0.5 * match.figures(ViewState::Zero()).outline_rms_mm);
 }
 
+// Thickness moves a point by 5 % of its place in the view a standard deviation. A state known
+// exactly that alone is 2 off leaves that; a covariance that expects it leaves nothing.
+TEST(ViewDisagreement, IsWhatCovariancesDoNotExpect) {
+  const BoxView box;
+  const ViewMatch match = box.match(ViewState::Zero());
+  KnownState together{ViewState::Zero(), {}}, alone{2 * ViewState::Unit(kThickness), {}};
+  together.covariance.setZero();
+  alone.covariance.setZero();
+  double squared = 0;
+  const HermiteMesh here(box.view.base, box.view.elements);
+  for (int e = 0; e < here.num_elements(); ++e)
+    squared += (0.1 * box.detector.project(here.position({e, {0.5, 0.5, 0.5}}))).squaredNorm();
+  EXPECT_NEAR(view_disagreement(match, together, alone),
+              std::sqrt(squared / here.num_elements() / 2), 1e-6);
+  EXPECT_EQ(view_disagreement(match, together, together), 0);
+  alone.covariance(kThickness, kThickness) = 4.01;
+  EXPECT_EQ(view_disagreement(match, together, alone), 0);
+}
+
 // Variances 4 and 1 along axes turned by 30 degrees; chi-square with 2 degrees of freedom reaches
 // -2 ln(1 - p) with probability p.
 TEST(SearchEllipse, HoldsTheProbabilityThatItStates) {
@@ -153,6 +173,8 @@ TEST(SearchEllipse, GrowsWithWhatIsNotKnown) {
   EXPECT_GT(thickness, 2 * kModelSd_mm * kModelSd_mm + 0.1);
   uncertainty = without_placement(uncertainty);
   EXPECT_EQ(at().trace(), thickness);
+  uncertainty.discrepancy_mm = 6;
+  EXPECT_NEAR(at().trace(), thickness + 2 * 36, 1e-9);
 }
 
 }  // namespace

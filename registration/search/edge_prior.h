@@ -1,0 +1,43 @@
+#pragma once
+
+#include "fitting/mesh/mesh_file.h"
+#include "registration/search/view_state.h"
+#include "registration/view/compressed_view.h"
+
+namespace mammotwin {
+
+/// The front of the chest wall as a view sees it near the nipple: a line in the detector's plane.
+struct WallLine {
+  double depth_mm = 0;   ///< at the nipple's lateral place, in the view's frame
+  double slope_deg = 0;  ///< towards depth where lateral grows
+};
+
+/// Least squares through the front of the wall's faces, every 5 mm within 40 mm of the nipple
+/// sideways. `nipple_in_lps` is in the compressed breast. Throws std::invalid_argument where the
+/// wall is not seen there in two places.
+WallLine wall_line(const MeshFile& compressed, const CompressedView& view,
+                   const Eigen::Vector3d& nipple_in_lps);
+
+/// Where a detector's edge is expected to stand, before the mammogram says, against the plates'
+/// own.
+///
+/// CC: of 2,688 pairs 24.5 % show the pectoral muscle (Strohbach, Wilkinson, Spuur 2020), so the
+/// edge stands behind the wall in a quarter; with a mean of 10 mm in front of it, which is the
+/// plates' (PlateOptions::wall_clearance), that is a standard deviation of 10 / 0.69 = 14.5 mm.
+/// Pairs of views agree better than that (from nipple to edge in CC 3.6 +- 7.2 mm less than from
+/// nipple to muscle in MLO, 1,463 pairs, published labels), but where that muscle's edge lies
+/// against our wall is not known.
+///
+/// MLO: body and muscle are pulled onto the detector until the muscle's edge stands 22 +- 6 degrees
+/// to the image's (published labels), wide above: the breast is turned. The muscle reaches down to
+/// the nipple's level in 24.5 % of 200 views (Spuur, Poulos, Rickard 2008), and in four of five
+/// where it is trained for; taken as half of them, ending 30 mm higher or lower. By 22 degrees that
+/// is 12 mm of depth.
+struct EdgePrior {
+  ViewState mean = ViewState::Zero();  ///< turn and shift in depth; all else 0 [deg, mm]
+  ViewState sd = prior_sd();
+};
+EdgePrior edge_prior(const MeshFile& compressed, const CompressedView& view,
+                     const Eigen::Vector3d& nipple_in_lps);
+
+}  // namespace mammotwin

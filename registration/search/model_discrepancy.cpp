@@ -1,0 +1,34 @@
+#include "registration/search/model_discrepancy.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "registration/search/search_verdict.h"
+
+namespace mammotwin {
+namespace {
+
+const double kNinety = std::sqrt(2 * std::log(10));  // 90 % ellipse over sd
+// Independent pieces of pattern are kPatternPiece_mm wide: that is pi l^2 for this autocorrelation.
+const double kPatternLength_mm = kPatternPiece_mm / std::sqrt(M_PI);
+
+double root_beyond(double squared, double expected) {
+  return std::sqrt(std::max(0.0, squared - expected * expected));
+}
+
+}  // namespace
+
+ModelDiscrepancy model_discrepancy(const MatchFigures& left) {
+  ModelDiscrepancy d;
+  const double r = left.outline_rms_mm;
+  d.outline_mm = std::max(root_beyond(r * r, kOutlineSd_mm), r / kNinety);
+  if (left.nipple_mm)
+    d.nipple_mm = root_beyond(*left.nipple_mm * *left.nipple_mm / 2, left.nipple_sd_mm);
+  if (left.pattern_correlation) {
+    const double c = std::max(no_registration::kCorrelation, *left.pattern_correlation);
+    d.pattern_mm = kPatternLength_mm * std::sqrt(std::max(0.0, kCorrelationInPlace / c - 1));
+  }
+  return d;
+}
+
+}  // namespace mammotwin

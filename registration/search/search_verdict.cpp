@@ -1,0 +1,123 @@
+#include "registration/search/search_verdict.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace mammotwin {
+namespace {
+
+// What is worth a look. Half of the correlation in place: errors are as large as the pattern's
+// length.
+constexpr double kPoorOutline_mm = 5, kPoorNipple_mm = 10;
+constexpr double kPoorCorrelation = kCorrelationInPlace / 2;
+
+/// What a number of the state is called, and in what it is counted; of logarithms, the factor.
+struct Words {
+  const char *what, *unit;
+};
+constexpr std::array<Words, kStates> kWords = {{{"thickness", "mm"},
+                                                {"roll", "degrees"},
+                                                {"lift of the plates", "mm"},
+                                                {"clearance of the plates from the wall", "mm"},
+                                                {"tilt of the paddle", "degrees"},
+                                                {"stiffness of gland over fat", ""},
+                                                {"stiffness of the chest wall's springs", ""},
+                                                {"turn on the detector", "degrees"},
+                                                {"place in depth", "mm"},
+                                                {"place sideways", "mm"}}};
+
+template <class... Numbers>
+std::string text_of(const char* format, Numbers... numbers) {
+  char text[240];
+  std::snprintf(text, sizeof text, format, numbers...);
+  return text;
+}
+
+std::string outline_sentence(double rms_mm) {
+  return text_of(
+      "after the search the model's outline still lies %.1f mm (RMS) off the mammogram's", rms_mm);
+}
+
+std::string state_sentence(int number, double value, double limit) {
+  const Words& words = kWords[number];
+  if (shared_by_views(number))
+    return text_of("the mammogram asks for %.2f times the %s; beyond %.2f is not believed",
+                   std::exp(value), words.what, std::exp(limit));
+  return text_of("the mammogram asks for another %s, by %.1f %s; beyond %.1f is not believed",
+                 words.what, value, words.unit, limit);
+}
+
+std::vector<std::string> why_none(const MatchFigures& left, const ViewState& state,
+                                  const EdgePrior& edge) {
+  std::vector<std::string> why;
+  if (left.outline_rms_mm > no_registration::kOutline_mm)
+    why.push_back(outline_sentence(left.outline_rms_mm) +
+                  text_of(", more than %.0f mm", no_registration::kOutline_mm));
+  if (left.pattern_correlation && *left.pattern_correlation < no_registration::kCorrelation)
+    why.push_back(text_of("the patterns of dense tissue correlate by %.2f only, less than %.1f",
+                          *left.pattern_correlation, no_registration::kCorrelation));
+  for (int i = 0; i < kStates; ++i) {
+    const double reach = no_registration::kStateDeviations * edge.sd[i];
+    const double low = std::min(0.0, edge.mean[i]) - reach;
+    const double high = std::max(0.0, edge.mean[i]) + reach;
+    if (state[i] < low || state[i] > high)
+      why.push_back(state_sentence(i, state[i], state[i] < low ? low : high));
+  }
+  return why;
+}
+
+std::vector<std::string> why_look(const MatchFigures& left, bool complete) {
+  std::vector<std::string> why;
+  if (left.outline_rms_mm > kPoorOutline_mm) why.push_back(outline_sentence(left.outline_rms_mm));
+  if (left.nipple_mm && *left.nipple_mm > std::max(kPoorNipple_mm, 2 * left.nipple_sd_mm))
+    why.push_back(
+        text_of("after the search the model's nipple still lies %.1f mm off the "
+                "mammogram's",
+                *left.nipple_mm));
+  if (left.pattern_correlation && *left.pattern_correlation < kPoorCorrelation)
+    why.push_back(
+        text_of("the patterns of dense tissue correlate by %.2f only", *left.pattern_correlation));
+  if (!complete)
+    why.push_back(
+        "the search stopped where no equilibrium was found, with the best state that it "
+        "had solved");
+  return why;
+}
+
+}  // namespace
+
+const char* name_of(SearchEnd end) {
+  switch (end) {
+    case SearchEnd::none:
+      return "none";
+    case SearchEnd::ok:
+      return "ok";
+    case SearchEnd::look:
+      return "look";
+    case SearchEnd::no_registration:
+      break;
+  }
+  return "no registration";
+}
+
+SearchVerdict judge_search(const std::string& view, const MatchFigures& left,
+                           const ViewState& state, const EdgePrior& edge, bool complete) {
+  SearchVerdict verdict{SearchEnd::no_registration, {}};
+  std::string prefix = view + ": no registration: ";
+  std::vector<std::string> why = why_none(left, state, edge);
+  if (why.empty()) {
+    why = why_look(left, complete);
+    verdict.end = why.empty() ? SearchEnd::ok : SearchEnd::look;
+    prefix = view + ": ";
+  }
+  for (const std::string& reason : why) verdict.reasons.push_back(prefix + reason);
+  if (verdict.end == SearchEnd::no_registration)
+    verdict.reasons.push_back(view +
+                              ": what is shown is the prediction without the mammogram, "
+                              "with its wide ellipse; is it this breast, this view, and its header "
+                              "right?");
+  return verdict;
+}
+
+}  // namespace mammotwin

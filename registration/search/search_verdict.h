@@ -1,0 +1,41 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "registration/search/edge_prior.h"
+#include "registration/search/view_match.h"
+
+namespace mammotwin {
+
+/// How the search against a view's mammogram ended.
+enum class SearchEnd {
+  none,            ///< there was none to search against
+  ok,              ///< the breast lies on its mammogram
+  look,            ///< it does, and a person should see how
+  no_registration  ///< it does not: the prediction is the one without the mammogram
+};
+
+/// As it stands in sidecars: "none", "ok", "look", "no registration".
+const char* name_of(SearchEnd end);
+
+struct SearchVerdict {
+  SearchEnd end = SearchEnd::none;
+  std::vector<std::string> reasons;  ///< sentences with numbers and units
+};
+
+/// Beyond these a model lies on no mammogram, or on another breast's.
+namespace no_registration {
+inline constexpr double kOutline_mm = 8;       ///< RMS
+inline constexpr double kCorrelation = 0.2;    ///< of the pattern of dense tissue, at least
+inline constexpr double kStateDeviations = 2;  ///< of a number's prior
+}  // namespace no_registration
+
+/// Judges what a search of `view` left: differences, and the state in physical units. A state's
+/// number is held against its prior; the place on the detector and the turn may lie anywhere
+/// between where the plates are (0) and where the edge is expected, or the prior's two standard
+/// deviations beyond.
+SearchVerdict judge_search(const std::string& view, const MatchFigures& left,
+                           const ViewState& state, const EdgePrior& edge, bool complete);
+
+}  // namespace mammotwin

@@ -1,0 +1,84 @@
+#include "registration/search/edge_prior.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+#include "fitting/mesh/block_mesh.h"
+
+namespace mammotwin {
+namespace {
+
+double tan_deg(double degrees) { return std::tan(degrees * M_PI / 180); }
+
+/// A box whose wall recedes by 20 degrees towards lateral, 10 mm behind the plates' edge at the
+/// nipple, which stands 50 mm in front of that edge. The view's axes are those of a left CC.
+struct SlantedBox {
+  MeshFile file{block_mesh({20, -60, -40}, {120, 0, 40}, {4, 1, 2}), {}, {}, {}, {}, {}};
+  CompressedView view{"cc", Side::left, 0, 40, {}};
+  Eigen::Vector3d nipple{70, -60, 0};
+
+  SlantedBox() {
+    std::vector<HermiteMesh::Node> nodes = file.mesh.nodes();
+    for (HermiteMesh::Node& node : nodes) {
+      node.row(1) += tan_deg(20) * node.row(0);
+      node(1, 0) -= tan_deg(20) * 70;
+    }
+    file.mesh = HermiteMesh(nodes, file.mesh.elements());
+    FaceLabels faces;
+    faces.fill(FaceLabel::skin);
+    faces[3] = FaceLabel::chest_wall;  // y = 0
+    file.faces.assign(file.mesh.num_elements(), faces);
+    view.frame = {{70, -10, -20}, view_axes(Side::left, 0)};
+  }
+  /// A point of the detector's plane where the prior's mean puts it.
+  static Eigen::Vector2d laid(const Eigen::Vector2d& x, const EdgePrior& prior) {
+    return Eigen::Rotation2Dd(prior.mean[kTurn] * M_PI / 180) * x +
+           Eigen::Vector2d(prior.mean[kShiftDepth], 0);
+  }
+};
+
+TEST(EdgePrior, FindsTheWallsLine) {
+  const SlantedBox box;
+  const WallLine wall = wall_line(box.file, box.view, box.nipple);
+  EXPECT_NEAR(wall.slope_deg, -20, 0.5);  // samples of a band lie up to 2.5 mm off its middle
+  EXPECT_NEAR(wall.depth_mm, -10, 0.5);
+}
+
+// 14.5 mm, of which the plates' clearance of 4 mm is there already.
+TEST(EdgePrior, LeavesItInCcToThePlatesWithinCentimetres) {
+  const SlantedBox box;
+  const EdgePrior prior = edge_prior(box.file, box.view, box.nipple);
+  EXPECT_EQ(prior.mean, ViewState::Zero());
+  EXPECT_NEAR(prior.sd[kShiftDepth], std::sqrt(14.5 * 14.5 - 16), 1e-9);
+}
+
+TEST(EdgePrior, ShowsInMloTheMuscleDownToTheNipple) {
+  SlantedBox box;
+  box.view.angle_deg = 45;
+  const EdgePrior prior = edge_prior(box.file, box.view, box.nipple);
+  const WallLine wall = wall_line(box.file, box.view, box.nipple);
+  const double slope = tan_deg(wall.slope_deg);
+  const Eigen::Vector2d low = SlantedBox::laid({wall.depth_mm, 0}, prior),
+                        high = SlantedBox::laid({wall.depth_mm + 30 * slope, 30}, prior);
+  const Eigen::Vector2d way = high - low;
+  EXPECT_NEAR(std::atan2(way.x(), way.y()) * 180 / M_PI, 22, 1e-9);  // wide above
+  const Eigen::Vector2d nipple = SlantedBox::laid({50, 0}, prior);
+  EXPECT_NEAR(low.x() + way.x() / way.y() * (nipple.y() - low.y()), 0, 1e-9);
+  EXPECT_EQ(prior.sd[kTurn], 6);
+}
+
+TEST(EdgePrior, NamesAViewWithoutAWallNearTheNipple) {
+  SlantedBox box;
+  box.view = {"mlo", Side::left, 45, 40, box.view.frame};
+  try {
+    edge_prior(box.file, box.view, {700, -60, 0});
+    FAIL() << "no wall, and nothing was thrown";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string(error.what()).find("mlo: no chest wall"), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace mammotwin

@@ -1,0 +1,122 @@
+#include "registration/search/search_verdict.h"
+
+#include <gtest/gtest.h>
+
+#include "registration/search/model_discrepancy.h"
+#include "registration/search/search_ellipse.h"
+
+namespace mammotwin {
+namespace {
+
+/// What a good search leaves.
+MatchFigures good() { return {1.2, 3.0, 3.0, 0.8}; }
+
+SearchVerdict judged(const MatchFigures& left, const ViewState& state = ViewState::Zero(),
+                     const EdgePrior& edge = {}) {
+  return judge_search("mlo", left, state, edge, true);
+}
+
+bool says(const SearchVerdict& verdict, const std::string& part) {
+  for (const std::string& reason : verdict.reasons)
+    if (reason.find(part) != std::string::npos) return true;
+  return false;
+}
+
+TEST(SearchVerdict, IsOkWhereNothingIsWrong) {
+  EXPECT_EQ(judged(good()).end, SearchEnd::ok);
+  EXPECT_TRUE(judged(good()).reasons.empty());
+}
+
+TEST(SearchVerdict, AsksToLookAtAMiddlingFit) {
+  MatchFigures left = good();
+  left.outline_rms_mm = 6.04;
+  EXPECT_EQ(judged(left).end, SearchEnd::look);
+  EXPECT_TRUE(says(judged(left), "mlo: after the search the model's outline still lies 6.0 mm"));
+  left = good();
+  left.nipple_mm = 12;
+  EXPECT_EQ(judged(left).end, SearchEnd::look);
+  left.nipple_sd_mm = 15;  // nobody knew where it was
+  EXPECT_EQ(judged(left).end, SearchEnd::ok);
+  EXPECT_EQ(judge_search("cc", good(), ViewState::Zero(), {}, false).end, SearchEnd::look);
+}
+
+TEST(SearchVerdict, IsNoRegistrationWithAnOutlineElsewhere) {
+  MatchFigures left = good();
+  left.outline_rms_mm = 9.6;
+  const SearchVerdict verdict = judged(left);
+  EXPECT_EQ(verdict.end, SearchEnd::no_registration);
+  EXPECT_TRUE(says(verdict, "9.6 mm (RMS) off the mammogram's, more than 8 mm"));
+  EXPECT_TRUE(says(verdict, "the prediction without the mammogram"));
+}
+
+TEST(SearchVerdict, IsNoRegistrationWithAnotherPattern) {
+  MatchFigures left = good();
+  left.pattern_correlation = 0.07;
+  EXPECT_EQ(judged(left).end, SearchEnd::no_registration);
+  EXPECT_TRUE(says(judged(left), "correlate by 0.07 only, less than 0.2"));
+  left.pattern_correlation.reset();  // none to compare tells nothing
+  EXPECT_EQ(judged(left).end, SearchEnd::ok);
+}
+
+TEST(SearchVerdict, IsNoRegistrationWithAStateBeyondTwoDeviations) {
+  ViewState state = ViewState::Zero();
+  state[kRoll] = 7.9;  // of 4 degrees
+  EXPECT_EQ(judged(good(), state).end, SearchEnd::ok);
+  state[kRoll] = -8.1;
+  EXPECT_EQ(judged(good(), state).end, SearchEnd::no_registration);
+  EXPECT_TRUE(says(judged(good(), state), "another roll, by -8.1 degrees; beyond -8.0"));
+  state = ViewState::Zero();
+  state[kStiffnessRatio] = 1.5;  // ln; e^1.5 = 4.48, e^1.4 = 4.06
+  EXPECT_TRUE(says(judged(good(), state), "4.48 times the stiffness of gland over fat"));
+}
+
+TEST(SearchVerdict, LetsADetectorStandWhereDetectorsDo) {
+  EdgePrior edge;
+  edge.mean[kShiftDepth] = 30, edge.sd[kShiftDepth] = 6;
+  ViewState state = ViewState::Zero();
+  for (const double shift : {-11.0, 20.0, 41.0}) {
+    state[kShiftDepth] = shift;
+    EXPECT_EQ(judged(good(), state, edge).end, SearchEnd::ok) << shift;
+  }
+  for (const double shift : {-13.0, 43.0}) {
+    state[kShiftDepth] = shift;
+    EXPECT_EQ(judged(good(), state, edge).end, SearchEnd::no_registration) << shift;
+  }
+}
+
+TEST(ModelDiscrepancy, LeavesNoEllipseSmallerThanTheOutlineIsOff) {
+  for (const double rms : {0.5, 1.9, 2.1, 5.0, 9.6}) {
+    MatchFigures left = good();
+    left.outline_rms_mm = rms;
+    const double sd = model_discrepancy(left).sd_mm();
+    const Eigen::Matrix2d covariance = sd * sd * Eigen::Matrix2d::Identity();
+    EXPECT_GE(search_ellipse(covariance, 0.9).minor_mm, rms * (1 - 1e-12)) << rms;
+    if (rms > 5) {
+      EXPECT_GE(search_ellipse(covariance, 0.5).minor_mm, rms);
+    }
+  }
+}
+
+// sqrt(20^2 / 2 - 3^2) = 13.8; within 3 mm each way nothing is left to explain.
+TEST(ModelDiscrepancy, CountsANippleBeyondWhatIsKnownOfIt) {
+  MatchFigures left = good();
+  EXPECT_EQ(model_discrepancy(left).nipple_mm, 0);
+  left.nipple_mm = 20;
+  EXPECT_NEAR(model_discrepancy(left).nipple_mm, std::sqrt(191), 1e-12);
+  left.nipple_sd_mm = 15;
+  EXPECT_EQ(model_discrepancy(left).nipple_mm, 0);
+}
+
+// At half of the correlation in place, errors are as large as the pattern's length, 15 / sqrt(pi).
+TEST(ModelDiscrepancy, GrowsAsThePatternFades) {
+  MatchFigures left = good();
+  EXPECT_EQ(model_discrepancy(left).pattern_mm, 0);  // 0.8 is more than 0.755
+  left.pattern_correlation = 0.755 / 2;
+  EXPECT_NEAR(model_discrepancy(left).pattern_mm, 15 / std::sqrt(M_PI), 1e-9);
+  left.pattern_correlation = -0.3;
+  EXPECT_NEAR(model_discrepancy(left).pattern_mm, 15 / std::sqrt(M_PI) * std::sqrt(0.755 / 0.2 - 1),
+              1e-9);
+}
+
+}  // namespace
+}  // namespace mammotwin
