@@ -74,6 +74,11 @@ json list_of(const Eigen::VectorXd& x) { return std::vector<double>(x.begin(), x
 
 MarkCurve curve_of(const MarkedView& marked, const MarkedView& other) {
   if (!marked.mark) return {};
+  if (marked.rays.curve(*marked.mark, 2).empty())
+    throw std::runtime_error(
+        "the mark on " + marked.registered.projection.view().name +
+        " lies off the breast: no ray through it meets tissue; expected column "
+        "and row in the image, or u and v in mm with --mm");
   const auto& uncertainty = other.registered.uncertainty;
   return mark_curve(marked.rays, *marked.mark, other.rays, uncertainty ? &*uncertainty : nullptr);
 }

@@ -44,8 +44,11 @@ paraview() {
 for stage in segment fit unload compress register report; do
   "$stage" "$@" || {
     status=$?
-    [ "$stage" = report ] || report "$@"
-    echo "$P stopped at $stage; what is known is in $out/report.html" >&2
+    if [ "$stage" != report ] && report "$@"; then
+      echo "$P stopped at $stage; what is known is in $out/report.html" >&2
+    else
+      echo "$P stopped at $stage, and there is no page of it: mend what is said above first" >&2
+    fi
     exit "$status"
   }
   [ "$stage" != "$last" ] || exit 0

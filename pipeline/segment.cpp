@@ -23,6 +23,7 @@ void declare(StageDeclaration& stage, Arguments& args) {
 }
 
 StagePlan plan(const Arguments&, const Patient& patient) {
+  patient.require_files();
   return {patient.segment_files(),
           {"side", "mri.", "labels.", "scan.", "nipple.", "segment.", "lesions."}};
 }

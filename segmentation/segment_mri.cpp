@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <sstream>
 #include <stdexcept>
 
@@ -88,6 +89,25 @@ void judge_symmetry(const BodyStage& body, const WallStage& wall, SegmentQuality
     quality.doubt(SegmentStatus::look, "the two breasts differ in volume by more than 2.5 times");
 }
 
+/// Why no voxel is a lesion's: what lies where it was said to be.
+std::string why_absent(const Volume<std::uint8_t>& labels, const PlacedSeed& seed) {
+  const Eigen::Vector3i v = labels.index(seed.point_in_lps).array().round().cast<int>();
+  const std::uint8_t here =
+      labels.contains(v.x(), v.y(), v.z()) ? labels(v.x(), v.y(), v.z()) : label::air;
+  if (label::is_lesion(here))
+    return "lesion " + seed.id +
+           " is covered by another one; expected lesions apart from each other, in patient LPS and "
+           "mm (is their place in cm?)";
+  char place[80];
+  std::snprintf(place, sizeof place, "[%.1f, %.1f, %.1f]", seed.point_in_lps.x(),
+                seed.point_in_lps.y(), seed.point_in_lps.z());
+  return "lesion " + seed.id + " at " + place + " lies in " +
+         (here == label::muscle ? "muscle"
+          : here == label::air  ? "air"
+                                : "skin or beside it") +
+         ", not in the breast; expected patient LPS in mm (is it in cm, or RAS?)";
+}
+
 std::vector<Lesion> named_lesions(const Volume<std::uint8_t>& labels,
                                   const std::vector<PlacedSeed>& seeds) {
   std::vector<Lesion> lesions;
@@ -96,10 +116,7 @@ std::vector<Lesion> named_lesions(const Volume<std::uint8_t>& labels,
     for (std::uint8_t& value : only.values)
       value = value == label::lesion + n ? label::lesion : label::air;
     const std::vector<Lesion> found = measure_lesions(only);
-    if (found.empty())
-      throw std::runtime_error(
-          "lesion " + seeds[n].id +
-          " is covered by another one; expected lesions apart from each other");
+    if (found.empty()) throw std::runtime_error(why_absent(labels, seeds[n]));
     lesions.push_back(found.front());
     lesions.back().id = seeds[n].id;
   }

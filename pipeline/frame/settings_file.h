@@ -24,6 +24,9 @@ class SettingsFile {
   /// Reads the file. Throws std::runtime_error naming file and key where it cannot serve.
   virtual void read(const std::filesystem::path& file, const Settings& settings) = 0;
 
+  /// Keys of tables that may stand any number of times, for the table of settings: "lesions[].id".
+  virtual Settings list_settings() const = 0;
+
   /// Parameters that come in lists below these prefixes, in the sidecar's form.
   virtual nlohmann::json list_parameters(const std::vector<std::string>& prefixes) const = 0;
 };

@@ -15,13 +15,17 @@ std::string default_of(const Setting& setting) {
   return value.is_string() ? value.get<std::string>() : value.dump();
 }
 
+std::string row_of(const Setting& s) {
+  return "| `" + s.key + "` | " + escaped(s.type) + " | " + s.range_text() + " | " + default_of(s) +
+         " | " + escaped(s.help) + " |\n";
+}
+
 }  // namespace
 
-std::string settings_table(const std::vector<Setting>& settings) {
+std::string settings_table(const Settings& once, const Settings& in_lists) {
   std::string table = "| key | type | range | default | meaning |\n|---|---|---|---|---|\n";
-  for (const Setting& s : settings)
-    table += "| `" + s.key + "` | " + escaped(s.type) + " | " + s.range_text() + " | " +
-             default_of(s) + " | " + escaped(s.help) + " |\n";
+  for (const Settings* settings : {&once, &in_lists})
+    for (const Setting& s : settings->all()) table += row_of(s);
   return table;
 }
 

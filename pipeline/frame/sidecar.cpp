@@ -1,6 +1,7 @@
 #include "pipeline/frame/sidecar.h"
 
 #include <fstream>
+#include <regex>
 #include <stdexcept>
 
 #include "pipeline/frame/checksum.h"
@@ -25,6 +26,13 @@ bool outputs_are_intact(const json& sidecar, const fs::path& folder) {
     if (!fs::exists(path) || sha256_of_path(path) != output.at("sha256")) return false;
   }
   return true;
+}
+
+/// Sidecars and pages travel: a file is named by its folder and name, not by where it lies here.
+std::string without_places(const std::string& reason) {
+  static const std::regex absolute(
+      R"re((^|[\s"'(])/(?:[^\s/:"'();,]+/)*([^\s/:"'();,]+/[^\s/:"'();,]+))re");
+  return std::regex_replace(reason, absolute, "$1$2");
 }
 
 json read_json(const fs::path& path) {
@@ -110,7 +118,9 @@ json make_sidecar(const fs::path& product, const Provenance& provenance, const O
                   const std::vector<std::string>& outputs, const Usage& usage) {
   json sidecar = provenance_json(provenance);
   sidecar["status"] = name_of(outcome.status);
-  sidecar["reasons"] = outcome.reasons;
+  sidecar["reasons"] = json::array();
+  for (const std::string& reason : outcome.reasons)
+    sidecar["reasons"].push_back(without_places(reason));
   sidecar["quality"] = outcome.quality;
   sidecar["command"] = usage.command;
   sidecar["seconds"] = usage.seconds;

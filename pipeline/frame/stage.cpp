@@ -20,13 +20,14 @@ struct CommonArguments {
   bool force = false;
 };
 
-void declare_common(CommandLine& command, const std::string& subject, const Settings& settings,
+void declare_common(CommandLine& command, const SettingsFile& file, const Settings& settings,
                     CommonArguments& common) {
+  const std::string subject = file.subject();
   command.option("--" + subject, common.settings_file,
                  subject + ".toml with this " + subject + "'s settings");
   command.flag("--force", common.force, "run even if the product is current");
   command.text_flag(
-      "--list-settings", [&settings] { return settings_table(settings.all()); },
+      "--list-settings", [&] { return settings_table(settings, file.list_settings()); },
       "print every key of " + subject + ".toml as a table");
 }
 
@@ -160,7 +161,7 @@ int run_stage(int argc, char** argv, SettingsFile& file, const Stage& stage) {
   CommonArguments common;
   StageDeclaration declaration(command, settings);
   stage.declare(declaration);
-  declare_common(command, file.subject(), settings, common);
+  declare_common(command, file, settings, common);
   if (const auto code = command.parse(argc, argv)) return *code;
   const fs::path product = declaration.product_path();
   try {

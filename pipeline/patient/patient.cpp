@@ -141,6 +141,10 @@ const ViewSettings& Patient::view(const std::string& name) const {
 void Patient::read(const fs::path& file, const Settings& settings) {
   file_ = file;
   for (const auto& [key, value] : read_toml(file)) {
+    if (key.starts_with("lesions."))
+      throw std::runtime_error(file.string() +
+                               ": [lesions] is one table; expected [[lesions]] with two brackets, "
+                               "once for each lesion");
     if (key == "lesions") {
       read_lesions(file.string(), value);
       continue;
@@ -166,6 +170,39 @@ void Patient::read_lesions(const std::string& file, const json& list) {
     if (entry.id) require_plain_id(file + ": " + where, *entry.id);
     if (!entry.id) entry.id = "L" + std::to_string(lesions_.size());
   }
+}
+
+void Patient::require_files() const {
+  const auto require = [&](const std::string& key, const std::optional<fs::path>& path) {
+    if (path && !fs::exists(resolve(*path)))
+      throw std::runtime_error(file_.string() + ": " + key + ": " + path->string() +
+                               ": no such file or folder (paths are absolute, or relative to " +
+                               file_.filename().string() + ")");
+  };
+  require("mri.path", mri_);
+  require("mri.pre", pre_);
+  require("labels.path", labels_);
+  require("nipple.markups", nipple_markups_);
+  require("scan.path", scan_);
+  require("unload.second_state", gravity.second_state);
+  require("compress.paddle_stl", compression.paddle_stl);
+  require("compress.support_stl", compression.support_stl);
+  for (const char* name : {"cc", "mlo"}) {
+    require("views." + std::string(name) + ".mammogram", view(name).mammogram);
+    require("views." + std::string(name) + ".outline", view(name).outline);
+  }
+  for (std::size_t n = 0; n < lesions_.size(); ++n) {
+    const std::string key = "lesions[" + std::to_string(n) + "]";
+    require(key + ".markups", lesions_[n].markups);
+    require(key + ".labels", lesions_[n].labels);
+  }
+}
+
+Settings Patient::list_settings() const {
+  static LesionEntry nobody;
+  Settings settings;
+  declare_lesion(settings, "lesions[].", nobody);
+  return settings;
 }
 
 std::string Patient::name() const {

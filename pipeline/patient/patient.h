@@ -67,6 +67,12 @@ class Patient : public SettingsFile {
   /// "cc" or "mlo"; std::logic_error otherwise.
   const ViewSettings& view(const std::string& name) const;
 
+  /// Throws std::runtime_error naming the key of the first file or folder that is named and is not
+  /// there, so that nothing runs before all of them are.
+  void require_files() const;
+
+  Settings list_settings() const override;
+
   /// Parameters that come in lists (lesions) below these prefixes, in the sidecar's form.
   nlohmann::json list_parameters(const std::vector<std::string>& prefixes) const override;
 

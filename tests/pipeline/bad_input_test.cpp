@@ -148,6 +148,28 @@ TEST_F(BadInput, ALesionOutsideTheBreastIsRefused) {
   expect_refused("a", {"L1", "outside"}, "segment");
 }
 
+// Lesions 2 cm from each other, in cm: two spheres 0.2 mm apart, of which the larger stays.
+TEST_F(BadInput, PointsInCentimetresAreAskedAbout) {
+  patient("a", "side = \"left\"\n[mri]\npath = \"" MAMMOTWIN_SOURCE_DIR
+               "/sample_data/042/mri.nrrd\"\n"
+               "[[lesions]]\npoint_lps_mm = [56.2, -23.1, -14.9]\nradius_mm = 3\n"
+               "[[lesions]]\npoint_lps_mm = [56.4, -23.1, -14.9]\nradius_mm = 8\n");
+  expect_refused("a", {"lesion L1 is covered by another one", "is their place in cm?"}, "segment");
+}
+
+TEST_F(BadInput, AMammogramThatIsNotThereIsNamedBeforeAnythingRuns) {
+  dome("a", "[views.cc]\nmammogram = \"cc.dcm\"\n");
+  expect_refused("a", {"views.cc.mammogram: cc.dcm: no such file"});
+  EXPECT_FALSE(fs::exists(results() / "a" / "segmentation.seg.nrrd"));
+}
+
+TEST_F(BadInput, APageThatCannotBeMadeIsNotPointedTo) {
+  dome("a", "[views.cc]\nthickness_mm = 5,5\n");
+  const CommandResult result = run("patient", "a");
+  EXPECT_NE(result.text.find("there is no page of it"), std::string::npos) << result.text;
+  EXPECT_EQ(result.text.find("report.html"), std::string::npos) << result.text;
+}
+
 TEST_F(BadInput, ATruncatedImageIsNamed) {
   const std::string whole = dome_nrrd();
   const auto folder = patient("a", "[mri]\npath = \"cut.nrrd\"\n");

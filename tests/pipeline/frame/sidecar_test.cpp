@@ -78,6 +78,17 @@ TEST_F(SidecarTest, PathsAreRelative) {
   EXPECT_EQ(p.inputs[0]["path"], "in");
 }
 
+TEST_F(SidecarTest, ReasonsNameFilesByTheirFolderAndName) {
+  const auto reason = [&](const std::string& text) {
+    const Outcome outcome{Status::refused, {text}, nlohmann::json::object()};
+    return make_sidecar(product_, provenance(), outcome, {}, {})["reasons"][0].get<std::string>();
+  };
+  EXPECT_EQ(reason("/home/anna/patients/042/patient.toml: side is 3"),
+            "042/patient.toml: side is 3");
+  EXPECT_EQ(reason("the file \"/a/b/c.nrrd\" ends early"), "the file \"b/c.nrrd\" ends early");
+  EXPECT_EQ(reason("12 N/mm, CC/MLO and 042/x.nrrd stay"), "12 N/mm, CC/MLO and 042/x.nrrd stay");
+}
+
 TEST_F(SidecarTest, PathsAreTheSameBeforeTheResultsFolderExists) {
   const auto here = std::filesystem::current_path();
   std::filesystem::current_path(folder_);

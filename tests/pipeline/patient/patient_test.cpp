@@ -87,6 +87,29 @@ TEST_F(PatientTest, ReadsLesionsInEveryForm) {
   EXPECT_EQ(input.lesions[2].label_value, 5);
 }
 
+TEST_F(PatientTest, NamesEveryPathThatLeadsNowhere) {
+  for (const Setting& setting : settings_.all()) {
+    if (setting.type != "path") continue;
+    Patient patient;
+    Settings settings;
+    patient.declare(settings);
+    patient.read(write("patient.toml", setting.key + " = \"absent.file\"\n"), settings);
+    const std::string message = message_of([&] { patient.require_files(); });
+    EXPECT_NE(message.find(setting.key + ": absent.file: no such file"), std::string::npos)
+        << setting.key << message;
+  }
+  write("there.nii", "");
+  read("[mri]\npath = \"there.nii\"\n[[lesions]]\nmarkups = \"absent.mrk.json\"\n");
+  EXPECT_NE(message_of([&] {
+              patient_.require_files();
+            }).find("lesions[0].markups: absent.mrk.json: no such file"),
+            std::string::npos);
+}
+
+TEST_F(PatientTest, AsksForTwoBracketsRoundLesions) {
+  expect_message("[lesions]\npoint_lps_mm = [1, 2, 3]\n", "expected [[lesions]] with two brackets");
+}
+
 TEST_F(PatientTest, NamesTheNearestKnownKey) {
   expect_message("[mri]\npaht = \"x\"\n",
                  "unknown key mri.paht; the nearest known one is mri.path");
