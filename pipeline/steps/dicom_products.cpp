@@ -40,8 +40,8 @@ void write_dicom_products(const PredictedView& view, const DetectorImage& shown,
   write_presentation_state(file("_gsps.dcm"), mammogram, projection.detector(), marks,
                            geometry.name);
   write_measurement_report(file("_sr.dcm"), mammogram, marks, geometry.name);
-  write_simulated_mammogram(file("_simulated.dcm"), mammogram, hung_pixels(shown, geometry.side),
-                            shown.spacing_mm, orientation_of(geometry), geometry.name);
+  write_simulated_view(file("_simulated.dcm"), mammogram, hung_pixels(shown, geometry.side),
+                       shown.spacing_mm, orientation_of(geometry), geometry.name);
 }
 
 }  // namespace mammotwin

@@ -5,11 +5,16 @@
 #include <dcmtk/dcmsr/cmr/tid1500.h>
 #include <dcmtk/dcmsr/dsrdoc.h>
 
+#include <cctype>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <cstdlib>
+#include <ctime>
 #include <numbers>
 #include <stdexcept>
+
+#include "registration/export/burned_words.h"
 
 namespace mammotwin {
 namespace {
@@ -18,17 +23,11 @@ namespace fs = std::filesystem;
 
 constexpr const char* kMaker = "Mammotwin";
 /// What an object shares with the image that it speaks of.
-const DcmTagKey kShared[] = {DCM_SpecificCharacterSet,
-                             DCM_PatientName,
-                             DCM_PatientID,
-                             DCM_PatientBirthDate,
-                             DCM_PatientSex,
-                             DCM_StudyInstanceUID,
-                             DCM_StudyDate,
-                             DCM_StudyTime,
-                             DCM_StudyID,
-                             DCM_AccessionNumber,
-                             DCM_ReferringPhysicianName};
+const DcmTagKey kShared[] = {DCM_PatientName,      DCM_PatientID,
+                             DCM_PatientBirthDate, DCM_PatientSex,
+                             DCM_StudyInstanceUID, DCM_StudyDate,
+                             DCM_StudyTime,        DCM_StudyID,
+                             DCM_AccessionNumber,  DCM_ReferringPhysicianName};
 
 DcmFileFormat load(const fs::path& path) {
   DcmFileFormat file;
@@ -73,17 +72,47 @@ DcmItem& new_item(DcmItem& parent, const DcmTagKey& sequence) {
   return *item;
 }
 
+std::string upper(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  return text;
+}
+
 std::string number(double value) {
   char text[20];
   std::snprintf(text, sizeof text, "%.3f", value);
   return text;
 }
 
-/// Patient, study, equipment and the object's own identity.
+/// Date and time of an object's making, as DICOM writes them: those of the clock, or of
+/// SOURCE_DATE_EPOCH (reproducible-builds.org), then in UTC.
+struct Moment {
+  std::string date, time;
+};
+
+Moment moment_of_making() {
+  const char* given = std::getenv("SOURCE_DATE_EPOCH");
+  const std::time_t now = given ? std::strtoll(given, nullptr, 10) : std::time(nullptr);
+  std::tm parts{};
+  given ? gmtime_r(&now, &parts) : localtime_r(&now, &parts);
+  char date[16], time[16];
+  std::strftime(date, sizeof date, "%Y%m%d", &parts);
+  std::strftime(time, sizeof time, "%H%M%S", &parts);
+  return {date, time};
+}
+
+/// Patient, study, equipment and the object's own identity: another at each making, as an archive
+/// keeps the first object of a name.
 void begin(DcmItem& source, const char* sop_class, const char* modality, const std::string& key,
-           DcmItem& object) {
+           const Moment& made, DcmItem& object) {
   for (const DcmTagKey& tag : kShared) put(object, tag, text_of(source, tag));
-  const std::string seed = text_of(source, DCM_SOPInstanceUID) + modality + key;
+  if (source.tagExistsWithValue(DCM_SpecificCharacterSet))
+    put(object, DCM_SpecificCharacterSet, text_of(source, DCM_SpecificCharacterSet));
+  const std::string seed =
+      text_of(source, DCM_SOPInstanceUID) + modality + key + made.date + made.time;
+  put(object, DCM_InstanceCreationDate, made.date);
+  put(object, DCM_InstanceCreationTime, made.time);
+  put(object, DCM_SeriesDate, made.date);
+  put(object, DCM_SeriesTime, made.time);
   put(object, DCM_SOPClassUID, sop_class);
   put(object, DCM_SOPInstanceUID, derived_uid(seed));
   put(object, DCM_SeriesInstanceUID, derived_uid(seed + "series"));
@@ -197,11 +226,14 @@ void write_presentation_state(const fs::path& path, const fs::path& mammogram,
                               const std::string& key) {
   DcmFileFormat source_file = load(mammogram), file;
   DcmItem &source = *source_file.getDataset(), &object = *file.getDataset();
-  begin(source, UID_GrayscaleSoftcopyPresentationStateStorage, "PR", key, object);
+  const Moment made = moment_of_making();
+  begin(source, UID_GrayscaleSoftcopyPresentationStateStorage, "PR", key, made, object);
+  put(object, DCM_SeriesDescription, "Predicted places of MRI lesions, " + key);
+  put(object, DCM_Laterality, text_of(source, DCM_ImageLaterality));
   put(object, DCM_ContentLabel, "MAMMOTWIN");
   put(object, DCM_ContentDescription, "Predicted places of lesions seen in MRI");
-  put(object, DCM_PresentationCreationDate, text_of(source, DCM_StudyDate, "19000101"));
-  put(object, DCM_PresentationCreationTime, text_of(source, DCM_StudyTime, "000000"));
+  put(object, DCM_PresentationCreationDate, made.date);
+  put(object, DCM_PresentationCreationTime, made.time);
   put(object, DCM_ContentCreatorName, kMaker);
   refer(source, object);
   show_whole(*detector.pixels, object);
@@ -241,33 +273,32 @@ void write_measurement_report(const fs::path& path, const fs::path& mammogram,
         "evidence");
   check(document.write(*file.getDataset()), "writing");
   const std::string sop_class = text_of(*file.getDataset(), DCM_SOPClassUID);
-  begin(source, sop_class.c_str(), "SR", key, *file.getDataset());
-  for (const auto& [date, time] : {std::pair(DCM_ContentDate, DCM_ContentTime),
-                                   std::pair(DCM_InstanceCreationDate, DCM_InstanceCreationTime)}) {
-    put(*file.getDataset(), date, text_of(source, DCM_StudyDate, "19000101"));
-    put(*file.getDataset(), time, text_of(source, DCM_StudyTime, "000000"));
-  }
+  const Moment made = moment_of_making();
+  begin(source, sop_class.c_str(), "SR", key, made, *file.getDataset());
+  put(*file.getDataset(), DCM_ContentDate, made.date);
+  put(*file.getDataset(), DCM_ContentTime, made.time);
+  put(*file.getDataset(), DCM_SeriesDescription, "Predicted places of MRI lesions, " + key);
   save(file, path);
 }
 
-void write_simulated_mammogram(const fs::path& path, const fs::path& mammogram,
-                               const GreyPixels& pixels, double spacing_mm,
-                               const std::string& orientation, const std::string& key) {
+void write_simulated_view(const fs::path& path, const fs::path& mammogram, const GreyPixels& bare,
+                          double spacing_mm, const std::string& orientation,
+                          const std::string& key) {
+  const GreyPixels pixels = with_words(bare, "SIMULATED");
   DcmFileFormat source_file = load(mammogram), file;
   DcmItem &source = *source_file.getDataset(), &object = *file.getDataset();
-  begin(source, UID_DigitalMammographyXRayImageStorageForPresentation, "MG", key, object);
-  for (const DcmTagKey& tag :
-       {DCM_ViewPosition, DCM_ImageLaterality, DCM_PositionerPrimaryAngle, DCM_BodyPartThickness,
-        DCM_DistanceSourceToDetector, DCM_BodyPartExamined})
-    if (source.tagExists(tag)) put(object, tag, text_of(source, tag));
+  begin(source, UID_SecondaryCaptureImageStorage, "OT", key, moment_of_making(), object);
+  put(object, DCM_SeriesDescription, "SIMULATED " + upper(key) + " from MRI, no exposure");
+  put(object, DCM_BodyPartExamined, "BREAST");
+  put(object, DCM_Laterality, text_of(source, DCM_ImageLaterality));
+  put(object, DCM_ConversionType, "WSD");
   put(object, DCM_PatientOrientation, orientation);
   put(object, DCM_ImageType, "DERIVED\\SECONDARY");
   put(object, DCM_DerivationDescription, "Simulated from the compressed model of the breast's MRI");
-  put(object, DCM_PresentationIntentType, "FOR PRESENTATION");
-  put(object, DCM_PositionerType, "MAMMOGRAPHIC");
-  put(object, DCM_BurnedInAnnotation, "NO");
+  put(object, DCM_ImageComments, "Simulated, not an X-ray exposure");
+  put(object, DCM_BurnedInAnnotation, "YES");
   const std::string spacing = number(spacing_mm) + "\\" + number(spacing_mm);
-  put(object, DCM_ImagerPixelSpacing, spacing);
+  put(object, DCM_PixelSpacing, spacing);
   object.putAndInsertUint16(DCM_Rows, static_cast<Uint16>(pixels.rows));
   object.putAndInsertUint16(DCM_Columns, static_cast<Uint16>(pixels.columns));
   object.putAndInsertUint16(DCM_SamplesPerPixel, 1);
@@ -276,7 +307,6 @@ void write_simulated_mammogram(const fs::path& path, const fs::path& mammogram,
   object.putAndInsertUint16(DCM_BitsStored, 16);
   object.putAndInsertUint16(DCM_HighBit, 15);
   object.putAndInsertUint16(DCM_PixelRepresentation, 0);
-  put(object, DCM_PresentationLUTShape, "IDENTITY");
   object.putAndInsertUint16Array(DCM_PixelData, pixels.grey.data(), pixels.grey.size());
   save(file, path);
 }

@@ -20,9 +20,10 @@ struct AnnotatedMark {
 };
 
 /// The three write a DICOM object of the study of `mammogram` (a DICOM file with pixels laid out as
-/// `detector.pixels` says), whose patient and study attributes they take. Unique identifiers derive
-/// from `mammogram`, the kind of object and `key`, dates and times from `mammogram`: a rerun is
-/// equal. Throw std::runtime_error naming the file that cannot be read or written.
+/// `detector.pixels` says), whose patient and study attributes they take. Dates and times of the
+/// object are those of its making (of SOURCE_DATE_EPOCH where the environment has it); its unique
+/// identifiers derive from them, `mammogram`, the kind of object and `key` ("cc").
+/// Throw std::runtime_error naming the file that cannot be read or written.
 
 /// Grayscale softcopy presentation state: each mark's ellipse and name drawn on the mammogram.
 void write_presentation_state(const std::filesystem::path& path,
@@ -35,11 +36,11 @@ void write_measurement_report(const std::filesystem::path& path,
                               const std::filesystem::path& mammogram,
                               const std::vector<AnnotatedMark>& marks, const std::string& key);
 
-/// The simulated view as a mammogram for presentation, DERIVED, of the same view and side.
-/// `orientation` is its PatientOrientation ("A\\F").
-void write_simulated_mammogram(const std::filesystem::path& path,
-                               const std::filesystem::path& mammogram, const GreyPixels& pixels,
-                               double spacing_mm, const std::string& orientation,
-                               const std::string& key);
+/// The simulated view as a secondary capture with SIMULATED burned in above it, so that nobody
+/// takes it for an exposure. `orientation` is its PatientOrientation ("A\\F"). Throws
+/// std::invalid_argument for a picture too narrow for the word.
+void write_simulated_view(const std::filesystem::path& path, const std::filesystem::path& mammogram,
+                          const GreyPixels& bare, double spacing_mm, const std::string& orientation,
+                          const std::string& key);
 
 }  // namespace mammotwin

@@ -9,7 +9,6 @@
 #include <fstream>
 #include <iterator>
 
-#include "registration/mammogram/header_geometry.h"
 #include "tests/registration/mammogram_dicom.h"
 
 namespace mammotwin {
@@ -90,22 +89,69 @@ TEST_F(DicomExport, ReportIsReadByDcmtk) {
   EXPECT_NE(text.find("\"1.500\""), std::string::npos) << text;
 }
 
-TEST_F(DicomExport, SimulatedViewIsAMammogramOfTheSameView) {
-  GreyPixels pixels{3, 2, {0, 1, 2, 3, 4, 60000}};
-  write_simulated_mammogram(out("mg_out.dcm"), mammogram(), pixels, 0.5, "A\\F", "mlo");
-  const MammogramHeader header = read_mammogram_header(out("mg_out.dcm"));
-  const HeaderGeometry geometry = header_geometry(header, "mlo", Side::left);
-  EXPECT_EQ(geometry.detector.pixels->spacing_mm, 0.5);
-  EXPECT_EQ(geometry.angle_deg, 48);
-  const MammogramImage image = read_mammogram_dicom(out("mg_out.dcm"));
-  EXPECT_EQ(image.columns, 3);
-  EXPECT_EQ(image.at(2, 1), 60000);
+std::string text_in(const fs::path& path, const DcmTagKey& tag) {
+  DcmFileFormat file;
+  OFString text;
+  if (file.loadFile(path.c_str()).bad()) return "unreadable";
+  file.getDataset()->findAndGetOFStringArray(tag, text);
+  return text.c_str();
 }
 
-TEST_F(DicomExport, IsEqualAgain) {
+/// 120 x 40 pixels of one grey.
+GreyPixels plain_picture() { return {120, 40, std::vector<std::uint16_t>(120 * 40, 1000)}; }
+
+// A letter's squares are 120 / (2 * 55) = 1 pixel: a band of 9 rows above the picture.
+TEST_F(DicomExport, SimulatedViewSaysThatItIsOne) {
+  write_simulated_view(out("sc.dcm"), mammogram(), plain_picture(), 0.5, "A\\F", "mlo");
+  EXPECT_EQ(text_in(out("sc.dcm"), DCM_SOPClassUID), UID_SecondaryCaptureImageStorage);
+  EXPECT_EQ(text_in(out("sc.dcm"), DCM_SeriesDescription), "SIMULATED MLO from MRI, no exposure");
+  EXPECT_EQ(text_in(out("sc.dcm"), DCM_BurnedInAnnotation), "YES");
+  EXPECT_EQ(text_in(out("sc.dcm"), DCM_StudyInstanceUID), "1.2.3");
+  DcmFileFormat file;
+  ASSERT_TRUE(file.loadFile(out("sc.dcm").c_str()).good());
+  Uint16 rows = 0, pixel = 0;
+  file.getDataset()->findAndGetUint16(DCM_Rows, rows);
+  EXPECT_EQ(rows, 49);
+  const auto at = [&](int column, int row) {
+    file.getDataset()->findAndGetUint16(DCM_PixelData, pixel, row * 120 + column);
+    return pixel;
+  };
+  EXPECT_EQ(at(1, 1), 0);      // the S begins with a gap
+  EXPECT_EQ(at(2, 1), 65535);  // and goes on
+  EXPECT_EQ(at(0, 9), 1000);   // the picture below the band is as it was
+  EXPECT_EQ(at(119, 48), 1000);
+  GreyPixels narrow{54, 1, std::vector<std::uint16_t>(54)};
+  EXPECT_THROW(write_simulated_view(out("no.dcm"), mammogram(), narrow, 0.5, "A\\F", "mlo"),
+               std::invalid_argument);
+}
+
+// dciodvfy (dicom3tools) knows what each kind of object must hold.
+TEST_F(DicomExport, ObjectsAreWholeForAnArchive) {
+  write_presentation_state(out("pr.dcm"), mammogram(), detector_, {mark_}, "mlo");
+  write_measurement_report(out("sr.dcm"), mammogram(), {mark_}, "mlo");
+  write_simulated_view(out("sc.dcm"), mammogram(), plain_picture(), 0.5, "A\\F", "mlo");
+  ASSERT_NE(said_by("dciodvfy " + mammogram().string()).find("Error"), std::string::npos)
+      << "it finds what our plain mammogram lacks";
+  for (const char* name : {"pr.dcm", "sr.dcm", "sc.dcm"}) {
+    const std::string said = said_by("dciodvfy " + out(name).string());
+    EXPECT_EQ(said.find("Error"), std::string::npos) << name << "\n" << said;
+    EXPECT_NE(said.find("exit 0"), std::string::npos) << name << "\n" << said;
+  }
+}
+
+// 1577934672 s after 1970 is 2020-01-02 03:11:12 UTC.
+TEST_F(DicomExport, CarriesTheTimeOfItsOwnMaking) {
+  setenv("SOURCE_DATE_EPOCH", "1577934672", 1);
   for (const char* name : {"a.dcm", "b.dcm"})
     write_measurement_report(out(name), mammogram(), {mark_}, "mlo");
+  setenv("SOURCE_DATE_EPOCH", "1577934673", 1);
+  write_measurement_report(out("c.dcm"), mammogram(), {mark_}, "mlo");
+  unsetenv("SOURCE_DATE_EPOCH");
+  EXPECT_EQ(text_in(out("a.dcm"), DCM_InstanceCreationDate), "20200102");
+  EXPECT_EQ(text_in(out("a.dcm"), DCM_InstanceCreationTime), "031112");
+  EXPECT_EQ(text_in(out("a.dcm"), DCM_StudyTime), "101112");  // the mammogram's
   EXPECT_EQ(bytes_of(out("a.dcm")), bytes_of(out("b.dcm")));
+  EXPECT_NE(text_in(out("a.dcm"), DCM_SOPInstanceUID), text_in(out("c.dcm"), DCM_SOPInstanceUID));
 }
 
 }  // namespace
