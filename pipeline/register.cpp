@@ -137,8 +137,10 @@ Outcome run(const Arguments& args, const Patient& patient, StageRun& stage) {
     write_view_products(patient, inputs, view, stage.products, quality);
     done += (1 - kSearchShare) / views.size();
   }
-  write_lesion_table(stage.products.write_main(),
-                     lesion_rows(patient.name(), inputs.segmentation.region.side, findings, views));
+  std::vector<LesionRow> rows =
+      lesion_rows(patient.name(), inputs.segmentation.region.side, findings, views);
+  add_extent(inputs.segmentation, rows);
+  write_lesion_table(stage.products.write_main(), rows);
   if (!args.landmarks.empty())
     std::cout << landmark_errors(args.landmarks, registered.views[0], registered.views[1]);
   return outcome_of(inputs, registered, views, std::move(quality));

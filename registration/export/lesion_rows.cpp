@@ -16,6 +16,7 @@ LesionRow row_of(const std::string& patient, Side side, const Landmark& lesion,
   LesionRow row;
   row.patient = patient;
   row.lesion = lesion.id;
+  row.side = side == Side::left ? "left" : "right";
   row.mri_l_mm = lesion.prone_in_lps.x();
   row.mri_p_mm = lesion.prone_in_lps.y();
   row.mri_s_mm = lesion.prone_in_lps.z();
@@ -59,6 +60,15 @@ LesionRow view_row(const std::string& patient, const CompressedView& view,
   (cranio_caudal ? row.lateral_of_nipple_mm : row.above_nipple_mm) = offset.y();
   row.nipple_distance_mm = offset.norm();
   return row;
+}
+
+void add_extent(const Segmentation& segmentation, std::vector<LesionRow>& rows) {
+  for (LesionRow& row : rows)
+    for (const Lesion& lesion : segmentation.lesions) {
+      if (lesion.id != row.lesion) continue;
+      if (lesion.volume_ml > 0) row.volume_ml = lesion.volume_ml;
+      row.third = depth_third(segmentation, lesion.centroid_in_lps);
+    }
 }
 
 }  // namespace mammotwin

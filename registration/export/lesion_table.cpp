@@ -26,6 +26,8 @@ const std::array kLesionColumns = {
     MAMMOTWIN_COLUMN(patient),
     MAMMOTWIN_COLUMN(lesion),
     MAMMOTWIN_COLUMN(view),
+    MAMMOTWIN_COLUMN(side),
+    MAMMOTWIN_COLUMN(volume_ml),
     MAMMOTWIN_COLUMN(mri_l_mm),
     MAMMOTWIN_COLUMN(mri_p_mm),
     MAMMOTWIN_COLUMN(mri_s_mm),
@@ -50,6 +52,7 @@ const std::array kLesionColumns = {
     MAMMOTWIN_COLUMN(nipple_distance_mm),
     MAMMOTWIN_COLUMN(quadrant),
     MAMMOTWIN_COLUMN(clock),
+    MAMMOTWIN_COLUMN(third),
 };
 #undef MAMMOTWIN_COLUMN
 

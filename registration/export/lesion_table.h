@@ -11,9 +11,10 @@
 namespace mammotwin {
 
 /// One row of `lesions.csv`: a lesion in one view ("cc", "mlo", ...), or in the prone MRI itself
-/// (view "mri"). What is not known is empty. Columns and their units: registration/README.md.
+/// (view "mri"). What is not known is empty. What each column holds: docs/lesions_table.md.
 struct LesionRow {
-  std::string patient, lesion, view;
+  std::string patient, lesion, view, side;
+  std::optional<double> volume_ml;
   std::optional<double> mri_l_mm, mri_p_mm, mri_s_mm;
   std::optional<double> depth_mm, lateral_mm, height_mm;
   std::optional<double> detector_u_mm, detector_v_mm, pixel_column, pixel_row;
@@ -22,7 +23,7 @@ struct LesionRow {
       picture_ellipse_angle_deg;
   std::optional<double> baseline_u_mm, baseline_v_mm;
   std::optional<double> behind_nipple_mm, lateral_of_nipple_mm, above_nipple_mm, nipple_distance_mm;
-  std::string quadrant, clock;
+  std::string quadrant, clock, third;
 };
 
 /// In the MRI: nipple distances along the patient's axes, quadrant and hour.
@@ -34,6 +35,9 @@ LesionRow mri_row(const std::string& patient, Side side, const Landmark& lesion,
 /// of the MRI.
 LesionRow view_row(const std::string& patient, const CompressedView& view,
                    const ProjectedLandmark& lesion, const ProjectedLandmark& nipple);
+
+/// Gives each row its lesion's volume and third of the breast's depth.
+void add_extent(const Segmentation& segmentation, std::vector<LesionRow>& rows);
 
 /// RFC 4180 with a header line; lengths to 0.001.
 void write_lesion_table(const std::filesystem::path& path, const std::vector<LesionRow>& rows);

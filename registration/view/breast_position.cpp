@@ -1,5 +1,6 @@
 #include "registration/view/breast_position.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -12,6 +13,18 @@ std::string hour_of(double left, double up) {
   return std::to_string(hour == 0 ? 12 : hour);
 }
 
+/// Where the breast ends straight behind the nipple [mm, LPS y]; the nipple's own place if nowhere.
+double back_behind_nipple(const Segmentation& s) {
+  Eigen::Vector3i v = s.labels.index(s.nipple_in_lps).array().round().cast<int>();
+  double back = s.nipple_in_lps.y();
+  for (v.y() = std::max(v.y(), 0); s.labels.contains(v.x(), v.y(), v.z()); ++v.y()) {
+    const std::uint8_t value = s.labels(v.x(), v.y(), v.z());
+    if (value == label::muscle) break;
+    if (label::is_breast(value)) back = s.labels.position(v.x(), v.y(), v.z()).y();
+  }
+  return back;
+}
+
 }  // namespace
 
 BreastPosition breast_position(Side side, const Eigen::Vector3d& x_in_lps,
@@ -22,6 +35,14 @@ BreastPosition breast_position(Side side, const Eigen::Vector3d& x_in_lps,
   const bool outer = (side == Side::left) == (left > 0);
   return {std::string(up > 0 ? "upper" : "lower") + (outer ? " outer" : " inner"),
           hour_of(left, up)};
+}
+
+std::string depth_third(const Segmentation& segmentation, const Eigen::Vector3d& x_in_lps) {
+  const double front = segmentation.nipple_in_lps.y();
+  const double depth = back_behind_nipple(segmentation) - front;
+  if (depth <= 0) return "";
+  const double share = (x_in_lps.y() - front) / depth;
+  return share < 1.0 / 3 ? "anterior" : share < 2.0 / 3 ? "middle" : "posterior";
 }
 
 }  // namespace mammotwin

@@ -22,4 +22,10 @@ inline constexpr double kCentralRadius_mm = 10;
 BreastPosition breast_position(Side side, const Eigen::Vector3d& x_in_lps,
                                const Eigen::Vector3d& nipple_in_lps);
 
+/// "anterior", "middle" or "posterior": the third of the breast's depth, from the nipple straight
+/// back to the last voxel in front of the muscle, that a point lies in; points in front of the
+/// nipple are anterior, behind that voxel posterior. Empty where the labels show no breast behind
+/// the nipple.
+std::string depth_third(const Segmentation& segmentation, const Eigen::Vector3d& x_in_lps);
+
 }  // namespace mammotwin

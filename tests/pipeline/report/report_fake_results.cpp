@@ -176,6 +176,7 @@ PatientResults fake_results(Side side) {
       r.rows.push_back(view_row(r.patient, v.view, p.project(lesion), p.project(nipple)));
     }
   }
+  add_extent(*r.segmentation, r.rows);
   r.stages = {{"segmentation.seg.nrrd",
                sidecar("segment", {{"side", "left"}, {"breast_volume_ml", 512.3}})},
               {"prone.vtu", sidecar("fit", {{"skin_rms_mesh_to_data_mm", 0.22},

@@ -36,6 +36,23 @@ TEST(BreastPosition, ReadsTheClockFacingThePatient) {
   EXPECT_EQ(at(Side::left, 3, 4), "central ");
 }
 
+// Nipple at y = -60, 1 mm voxels of fat from there to y = 0, then muscle.
+TEST(DepthThird, CountsFromTheNippleToTheMuscle) {
+  Segmentation s;
+  s.labels = Volume<std::uint8_t>({3, 80, 3}, {1, 1, 1}, {-1, -70, -1}, label::air);
+  s.nipple_in_lps = {0, -60, 0};
+  for (int k = 0; k < 3; ++k)
+    for (int j = 10; j < 80; ++j)
+      for (int i = 0; i < 3; ++i) s.labels(i, j, k) = j <= 70 ? label::fat : label::muscle;
+  EXPECT_EQ(depth_third(s, {5, -62, 0}), "anterior");
+  EXPECT_EQ(depth_third(s, {5, -40.1, 0}), "anterior");
+  EXPECT_EQ(depth_third(s, {5, -39.9, 0}), "middle");
+  EXPECT_EQ(depth_third(s, {5, -20.1, 0}), "middle");
+  EXPECT_EQ(depth_third(s, {5, -19.9, 0}), "posterior");
+  s.nipple_in_lps.x() = 30;  // beside the image
+  EXPECT_EQ(depth_third(s, {5, -40, 0}), "");
+}
+
 TEST(PredictionsText, KeepsANameWithACommaTogether) {
   LesionRow mri, view;
   mri.lesion = view.lesion = "a, \"b\"";
@@ -56,12 +73,13 @@ TEST(PredictionsText, KeepsANameWithACommaTogether) {
 TEST(LesionTable, HasTheColumnsThatOthersRead) {
   const auto path = scratch_file("columns.csv");
   write_lesion_table(path, {});
-  EXPECT_EQ(text_of(path),
-            "patient,lesion,view,mri_l_mm,mri_p_mm,mri_s_mm,depth_mm,lateral_mm,height_mm,"
-            "detector_u_mm,detector_v_mm,pixel_column,pixel_row,ellipse_major_mm,ellipse_minor_mm,"
-            "ellipse_angle_deg,picture_ellipse_major_mm,picture_ellipse_minor_mm,"
-            "picture_ellipse_angle_deg,baseline_u_mm,baseline_v_mm,behind_nipple_mm,"
-            "lateral_of_nipple_mm,above_nipple_mm,nipple_distance_mm,quadrant,clock\n");
+  EXPECT_EQ(
+      text_of(path),
+      "patient,lesion,view,side,volume_ml,mri_l_mm,mri_p_mm,mri_s_mm,depth_mm,lateral_mm,height_mm,"
+      "detector_u_mm,detector_v_mm,pixel_column,pixel_row,ellipse_major_mm,ellipse_minor_mm,"
+      "ellipse_angle_deg,picture_ellipse_major_mm,picture_ellipse_minor_mm,"
+      "picture_ellipse_angle_deg,baseline_u_mm,baseline_v_mm,behind_nipple_mm,"
+      "lateral_of_nipple_mm,above_nipple_mm,nipple_distance_mm,quadrant,clock,third\n");
 }
 
 TEST(LesionTable, ComesBackAsItWasWritten) {
@@ -73,7 +91,8 @@ TEST(LesionTable, ComesBackAsItWasWritten) {
   row.height_mm = -1e-9;  // must not become -0.000
   const auto path = scratch_file("round.csv");
   write_lesion_table(path, {row});
-  EXPECT_NE(text_of(path).find("042,\"mass, \"\"A\"\"\",cc,-12.346,,,,,0.000,"), std::string::npos);
+  EXPECT_NE(text_of(path).find("042,\"mass, \"\"A\"\"\",cc,,,-12.346,,,,,0.000,"),
+            std::string::npos);
   const LesionRow read = read_lesion_table(path).at(0);
   EXPECT_EQ(read.lesion, row.lesion);
   EXPECT_EQ(read.mri_l_mm, -12.346);
@@ -83,7 +102,7 @@ TEST(LesionTable, ComesBackAsItWasWritten) {
 TEST(LesionTable, NamesTheCellThatCannotBeRead) {
   const auto path = scratch_file("bad.csv");
   write_lesion_table(path, {});
-  std::ofstream(path, std::ios::app) << "042,1,cc,twelve" << std::string(23, ',') << "\n";
+  std::ofstream(path, std::ios::app) << "042,1,cc,left,,twelve" << std::string(24, ',') << "\n";
   try {
     read_lesion_table(path);
     FAIL();
