@@ -25,7 +25,7 @@ unexport MAKEFLAGS MAKEOVERRIDES
 
 .PHONY: help patient segment fit unload compress register report slicer paraview synthesize cohort verify-results \
         evaluate-segmentation evaluate-fitting evaluate-compression evaluate-unload evaluate-registration \
-        evaluate-outlines evaluate-mammograms evaluate-niftysim evaluate-victre measured validate bench chain programs configured \
+        evaluate-outlines evaluate-mammograms evaluate-real-pairs evaluate-niftysim evaluate-victre measured validate bench chain programs configured \
         configured_to_test install docs test clean
 .NOTPARALLEL:  # ninja itself uses all cores
 .DEFAULT_GOAL := help
@@ -48,6 +48,8 @@ help:
 	@echo '                       both views: RESULTS/evaluation/compression.json; JOBS=2 at a time'
 	@echo 'make evaluate-registration  registers SYNTHETIC=10 patients with mammograms of another model:'
 	@echo '                       RESULTS/evaluation/registration.json; JOBS=2 at a time'
+	@echo 'make evaluate-real-pairs CASES=folder   patients with lesions marked on mammograms (marks.csv):'
+	@echo '                       RESULTS/evaluation/real_pairs.json'
 	@echo 'make evaluate-mammograms CASES=folder   reads mammograms whose landmarks somebody read (landmarks.csv):'
 	@echo '                       RESULTS/evaluation/mammograms.json and a contact sheet beside it'
 	@echo 'make evaluate-outlines   outlines of what RESULTS holds compressed in CC against those of real patients:'
@@ -98,6 +100,9 @@ evaluate-compression: mammotwin-evaluate-compression
 evaluate-registration: mammotwin-evaluate-registration
 	@"$$BIN/mammotwin-evaluate-registration" "$$RESULTS/evaluation/registration.json" \
 	  $${SYNTHETIC:+--synthetic "$$SYNTHETIC"} $${JOBS:+--jobs "$$JOBS"}
+
+evaluate-real-pairs: mammotwin-evaluate-real-pairs
+	@"$$BIN/mammotwin-evaluate-real-pairs" "$$CASES" "$$RESULTS/evaluation/real_pairs.json"
 
 evaluate-mammograms: mammotwin-evaluate-mammograms
 	@"$$BIN/mammotwin-evaluate-mammograms" "$$(test -f "$$CASES/landmarks.csv" && echo "$$CASES" || echo "$$CASES/real_mammograms")" \

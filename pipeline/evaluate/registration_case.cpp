@@ -6,7 +6,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "pipeline/evaluate/stage_command.h"
+#include "pipeline/evaluate/patient_chain.h"
 #include "pipeline/evaluate/true_mammogram.h"
 #include "pipeline/frame/products.h"
 #include "pipeline/synthesize/counter_random.h"
@@ -110,23 +110,6 @@ json drawn_json(const DrawnPatient& drawn, const std::vector<TrueView>& views) {
   return all;
 }
 
-void run_on_files(const fs::path& folder, const std::string& stage, std::vector<std::string> files,
-                  const std::string& view = "") {
-  const std::string product = files.back();
-  for (std::string& file : files) file = (folder / file).string();
-  if (!view.empty()) files.insert(files.begin(), view);
-  files.insert(files.end(), {"--patient", (folder / "patient.toml").string()});
-  const StageEnd end =
-      run_stage_command(stage, files, folder / (stage + view + ".log"), kMostStageCpuSeconds);
-  if (end.exit_code == 0) return;
-  std::ifstream in(folder / (product + ".json"));
-  const json sidecar = in ? json::parse(in) : json::object();
-  const json reasons = sidecar.value("reasons", json::array());
-  throw std::runtime_error(stage + view + ": " +
-                           (reasons.empty() ? "ended with code " + std::to_string(end.exit_code)
-                                            : reasons.front().get<std::string>()));
-}
-
 }  // namespace
 
 void make_registration_case(int number, bool coarse, const fs::path& folder) {
@@ -148,17 +131,7 @@ void make_registration_case(int number, bool coarse, const fs::path& folder) {
 }
 
 void run_registration_case(const fs::path& folder) {
-  run_on_files(folder, "segment", {"segmentation.seg.nrrd"});
-  run_on_files(folder, "fit", {"segmentation.seg.nrrd", "fractions.nrrd", "prone.vtu"});
-  run_on_files(folder, "unload",
-               {"segmentation.seg.nrrd", "fractions.nrrd", "prone.vtu", "unloaded.vtu"});
-  for (const char* view : {"cc", "mlo"})
-    run_on_files(
-        folder, "compress",
-        {"segmentation.seg.nrrd", "fractions.nrrd", "unloaded.vtu", std::string(view) + ".vtu"},
-        view);
-  run_on_files(folder, "register",
-               {"segmentation.seg.nrrd", "fractions.nrrd", "cc.vtu", "mlo.vtu", "lesions.csv"});
+  run_patient_chain(folder / "patient.toml", folder);
 }
 
 }  // namespace mammotwin
