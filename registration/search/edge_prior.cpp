@@ -54,19 +54,28 @@ EdgePrior cc_prior() {
   return prior;
 }
 
+/// Another turn leaves the nipple's depth, so that it goes with a shift of `lateral` by its angle.
+void turn_about(double lateral_mm, EdgePrior& prior) {
+  const double shift = lateral_mm * radians(prior.sd[kTurn]) / prior.sd[kShiftDepth];
+  prior.covariance(kTurn, kShiftDepth) = prior.covariance(kShiftDepth, kTurn) = shift;
+  prior.covariance(kShiftDepth, kShiftDepth) += shift * shift;
+}
+
 /// The wall turned to the muscle's slope, and so far in that it meets the edge at the nipple's
 /// level.
 EdgePrior mlo_prior(const WallLine& wall, const Eigen::Vector2d& nipple) {
   EdgePrior prior;
-  const double turn = wall.slope_deg - kMuscle_deg;
+  const double half_slope = wall.slope_deg / 2;
+  const double turn = half_slope - kMuscle_deg;
   const double from_wall =
       (nipple.x() - wall.depth_mm) * std::cos(radians(wall.slope_deg));  // squarely
-  const double turned_depth = (Eigen::Rotation2Dd(radians(turn)) * nipple).x();
+  const Eigen::Vector2d turned = Eigen::Rotation2Dd(radians(turn)) * nipple;
   prior.mean[kTurn] = turn;
-  prior.mean[kShiftDepth] = from_wall / std::cos(radians(kMuscle_deg)) - turned_depth;
-  prior.sd[kTurn] = kMuscleSd_deg;
+  prior.mean[kShiftDepth] = from_wall / std::cos(radians(kMuscle_deg)) - turned.x();
+  prior.sd[kTurn] = std::hypot(kMuscleSd_deg, half_slope);
   prior.sd[kShiftDepth] =
       depth_sd_beside(kMuscleEndSd_mm * std::tan(radians(kMuscle_deg)), prior.sd);
+  turn_about(turned.y(), prior);
   return prior;
 }
 

@@ -29,13 +29,17 @@ WallLine wall_line(const MeshFile& compressed, const CompressedView& view,
 /// against our wall is not known.
 ///
 /// MLO: body and muscle are pulled onto the detector until the muscle's edge stands 22 +- 6 degrees
-/// to the image's (published labels), wide above: the breast is turned. The muscle reaches down to
-/// the nipple's level in 24.5 % of 200 views (Spuur, Poulos, Rickard 2008), and in four of five
-/// where it is trained for; taken as half of them, ending 30 mm higher or lower. By 22 degrees that
-/// is 12 mm of depth.
+/// to the image's (published labels), wide above: the breast is turned. How far our wall then keeps
+/// the slope that it has in the view is not known: half of it, give or take that half. The muscle
+/// reaches down to the nipple's level in 24.5 % of 200 views (Spuur, Poulos, Rickard 2008), and in
+/// four of five where it is trained for; taken as half of them, ending 30 mm higher or lower. By 22
+/// degrees that is 12 mm of depth.
 struct EdgePrior {
   ViewState mean = ViewState::Zero();  ///< turn and shift in depth; all else 0 [deg, mm]
   ViewState sd = prior_sd();
+  /// Of the numbers over `sd`: a turn is about the nipple, and so goes with a shift.
+  Eigen::Matrix<double, kStates, kStates> covariance =
+      Eigen::Matrix<double, kStates, kStates>::Identity();
 };
 EdgePrior edge_prior(const MeshFile& compressed, const CompressedView& view,
                      const Eigen::Vector3d& nipple_in_lps);

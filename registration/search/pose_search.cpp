@@ -226,9 +226,9 @@ PoseEstimate pose_at(const std::vector<const ViewMatch*>& views,
   return Search(views, false).at(states);
 }
 
-Eigen::Matrix<double, kStates, kStates> prior_covariance(bool sideways) {
+Eigen::Matrix<double, kStates, kStates> prior_covariance() {
   Eigen::Matrix<double, kStates, kStates> c = Eigen::Matrix<double, kStates, kStates>::Identity();
-  if (!sideways) c(kShiftLateral, kShiftLateral) = 0;
+  c(kShiftLateral, kShiftLateral) = 0;
   return c;
 }
 

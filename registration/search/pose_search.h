@@ -31,6 +31,6 @@ PoseEstimate pose_at(const std::vector<const ViewMatch*>& views,
 
 /// Before any mammogram: the prior. Without one to lay the breast on, nothing is said of where it
 /// lies sideways, only of places in its own frame: then the lateral shift has no variance.
-Eigen::Matrix<double, kStates, kStates> prior_covariance(bool sideways = false);
+Eigen::Matrix<double, kStates, kStates> prior_covariance();
 
 }  // namespace mammotwin

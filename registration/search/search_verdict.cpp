@@ -85,6 +85,12 @@ std::vector<std::string> why_look(const MatchFigures& left, bool complete) {
   return why;
 }
 
+std::string what_is_shown(const std::string& view) {
+  return view +
+         ": what is shown is the prediction without the mammogram, with its wide ellipse; is it "
+         "this breast, this view, and its header right?";
+}
+
 }  // namespace
 
 const char* name_of(SearchEnd end) {
@@ -112,12 +118,24 @@ SearchVerdict judge_search(const std::string& view, const MatchFigures& left,
     prefix = view + ": ";
   }
   for (const std::string& reason : why) verdict.reasons.push_back(prefix + reason);
-  if (verdict.end == SearchEnd::no_registration)
-    verdict.reasons.push_back(view +
-                              ": what is shown is the prediction without the mammogram, "
-                              "with its wide ellipse; is it this breast, this view, and its header "
-                              "right?");
+  if (verdict.end == SearchEnd::no_registration) verdict.reasons.push_back(what_is_shown(view));
   return verdict;
+}
+
+void judge_together(const std::vector<std::string>& views, std::vector<SearchVerdict>& verdicts) {
+  const auto failed = [](const SearchVerdict& v) { return v.end == SearchEnd::no_registration; };
+  const auto first = std::find_if(verdicts.begin(), verdicts.end(), failed);
+  if (first == verdicts.end()) return;
+  const std::string beside = views[first - verdicts.begin()] + ", searched with it, has none";
+  for (std::size_t v = 0; v < verdicts.size(); ++v) {
+    SearchVerdict& verdict = verdicts[v];
+    if (failed(verdict)) continue;
+    const bool doubtful = verdict.end == SearchEnd::look;
+    verdict.end = doubtful ? SearchEnd::no_registration : SearchEnd::look;
+    verdict.reasons.push_back(views[v] + (doubtful ? ": no registration: " : ": registered, but ") +
+                              beside);
+    if (doubtful) verdict.reasons.push_back(what_is_shown(views[v]));
+  }
 }
 
 }  // namespace mammotwin

@@ -38,4 +38,8 @@ inline constexpr double kStateDeviations = 2;  ///< of a number's prior
 SearchVerdict judge_search(const std::string& view, const MatchFigures& left,
                            const ViewState& state, const EdgePrior& edge, bool complete);
 
+/// Views are searched together, and their mammograms are of one breast: beside one with no
+/// registration, `ok` becomes `look` and `look` no registration. `views` are their names.
+void judge_together(const std::vector<std::string>& views, std::vector<SearchVerdict>& verdicts);
+
 }  // namespace mammotwin

@@ -72,7 +72,8 @@ SearchedView unmatched(const SearchInput& input, const ReducedView& reduced, con
                       baseline_of(input, input.evidence ? input.view : view, nipple_in_lps)};
   result.uncertainty = uncertainty(reduced, ViewState::Zero(), input.view.frame);
   result.uncertainty.sd = edge.sd;
-  result.uncertainty.covariance = prior_covariance(input.evidence.has_value());
+  result.uncertainty.covariance = edge.covariance;
+  if (!input.evidence) result.uncertainty.covariance(kShiftLateral, kShiftLateral) = 0;
   result.uncertainty.discrepancy_mm = kUncorrectedSd_mm;
   result.failed_solves = reduced.failed_solves;
   return result;
@@ -149,15 +150,23 @@ std::vector<SearchedView> search_views(const std::vector<SearchInput>& inputs,
     before.push_back(searched.back().match.figures(ViewState::Zero()));
   }
   const SolvedSearch end = search_and_solve(searched, progress);
+  std::vector<SearchedView> found;
+  std::vector<SearchVerdict> verdicts;
+  std::vector<std::string> names;
   for (std::size_t m = 0; m < searched.size(); ++m) {
     const std::size_t v = places[m];
-    SearchedView found = matched(inputs[v], searched[m], end, m, nipple_in_lps);
-    found.before = before[m];
-    found.verdict =
-        judge_search(inputs[v].view.name, *found.after, found.state, edges[v], found.complete);
-    result[v] = found.verdict.end == SearchEnd::no_registration
-                    ? given_up(std::move(found), result[v])
-                    : std::move(found);
+    found.push_back(matched(inputs[v], searched[m], end, m, nipple_in_lps));
+    found[m].before = before[m];
+    names.push_back(inputs[v].view.name);
+    verdicts.push_back(
+        judge_search(names[m], *found[m].after, found[m].state, edges[v], found[m].complete));
+  }
+  judge_together(names, verdicts);
+  for (std::size_t m = 0; m < searched.size(); ++m) {
+    SearchedView& view = result[places[m]];
+    found[m].verdict = verdicts[m];
+    view = verdicts[m].end == SearchEnd::no_registration ? given_up(std::move(found[m]), view)
+                                                         : std::move(found[m]);
   }
   return result;
 }

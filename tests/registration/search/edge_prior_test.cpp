@@ -54,19 +54,36 @@ TEST(EdgePrior, LeavesItInCcToThePlatesWithinCentimetres) {
   EXPECT_NEAR(prior.sd[kShiftDepth], std::sqrt(14.5 * 14.5 - 16), 1e-9);
 }
 
+// Half of the wall's slope of -20 degrees is taken off, so that it stands at 22 - 10.
 TEST(EdgePrior, ShowsInMloTheMuscleDownToTheNipple) {
   SlantedBox box;
   box.view.angle_deg = 45;
   const EdgePrior prior = edge_prior(box.file, box.view, box.nipple);
   const WallLine wall = wall_line(box.file, box.view, box.nipple);
-  const double slope = tan_deg(wall.slope_deg);
-  const Eigen::Vector2d low = SlantedBox::laid({wall.depth_mm, 0}, prior),
-                        high = SlantedBox::laid({wall.depth_mm + 30 * slope, 30}, prior);
-  const Eigen::Vector2d way = high - low;
-  EXPECT_NEAR(std::atan2(way.x(), way.y()) * 180 / M_PI, 22, 1e-9);  // wide above
+  EXPECT_NEAR(prior.mean[kTurn], wall.slope_deg / 2 - 22, 1e-9);
+  EXPECT_NEAR(prior.sd[kTurn], std::hypot(6, wall.slope_deg / 2), 1e-9);
+  // A muscle's edge at 22 degrees that ends at the nipple's level is as far from the nipple as the
+  // wall.
   const Eigen::Vector2d nipple = SlantedBox::laid({50, 0}, prior);
-  EXPECT_NEAR(low.x() + way.x() / way.y() * (nipple.y() - low.y()), 0, 1e-9);
-  EXPECT_EQ(prior.sd[kTurn], 6);
+  EXPECT_NEAR(nipple.x() * std::cos(22 * M_PI / 180),
+              (50 - wall.depth_mm) * std::cos(wall.slope_deg * M_PI / 180), 1e-9);
+}
+
+// Two points on the detector, the nipple and one 60 mm higher up: by a turn the depth of the first
+// is no less sure, that of the other by 60 mm times the turn.
+TEST(EdgePrior, TurnsInMloAboutTheNipple) {
+  SlantedBox box;
+  box.view.angle_deg = 45;
+  const EdgePrior prior = edge_prior(box.file, box.view, box.nipple);
+  const Eigen::Vector2d nipple = SlantedBox::laid({50, 0}, prior);
+  const double turn = prior.sd[kTurn] * M_PI / 180, shift = prior.sd[kShiftDepth];
+  const auto depth_variance = [&](double lateral) {
+    const Eigen::Vector2d slope(-lateral * turn, shift);
+    const Eigen::Matrix2d c = prior.covariance.block<2, 2>(kTurn, kTurn);
+    return slope.dot(c * slope);
+  };
+  EXPECT_NEAR(depth_variance(nipple.y()), shift * shift, 1e-9);
+  EXPECT_NEAR(depth_variance(nipple.y() + 60), shift * shift + std::pow(60 * turn, 2), 1e-6);
 }
 
 TEST(EdgePrior, NamesAViewWithoutAWallNearTheNipple) {

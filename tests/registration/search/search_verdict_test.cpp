@@ -84,6 +84,24 @@ TEST(SearchVerdict, LetsADetectorStandWhereDetectorsDo) {
   }
 }
 
+TEST(SearchVerdict, DoubtsTheViewBesideOneWithoutARegistration) {
+  const auto beside = [](SearchEnd end) {
+    std::vector<SearchVerdict> verdicts{{SearchEnd::no_registration, {}}, {end, {}}};
+    judge_together({"cc", "mlo"}, verdicts);
+    EXPECT_TRUE(verdicts[0].reasons.empty());
+    return verdicts[1];
+  };
+  EXPECT_EQ(beside(SearchEnd::ok).end, SearchEnd::look);
+  EXPECT_TRUE(says(beside(SearchEnd::ok), "mlo: registered, but cc, searched with it, has none"));
+  EXPECT_EQ(beside(SearchEnd::look).end, SearchEnd::no_registration);
+  EXPECT_TRUE(says(beside(SearchEnd::look), "mlo: what is shown is the prediction without"));
+  EXPECT_TRUE(beside(SearchEnd::no_registration).reasons.empty());
+  std::vector<SearchVerdict> fine{{SearchEnd::ok, {}}, {SearchEnd::look, {}}};
+  judge_together({"cc", "mlo"}, fine);
+  EXPECT_EQ(fine[0].end, SearchEnd::ok);
+  EXPECT_EQ(fine[1].end, SearchEnd::look);
+}
+
 TEST(ModelDiscrepancy, LeavesNoEllipseSmallerThanTheOutlineIsOff) {
   for (const double rms : {0.5, 1.9, 2.1, 5.0, 9.6}) {
     MatchFigures left = good();
