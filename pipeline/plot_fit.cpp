@@ -68,7 +68,7 @@ int run(const Arguments& args) {
                course.most() * 8, true});
   chart.line(course.cost, palette::nipple, "cost (its weights change from stage to stage)");
   chart.line(course.rms, palette::lesion, "skin to mesh, RMS");
-  chart.marks(course.refused_by_proof, palette::baseline, "step refused by the proof of det > 0");
+  chart.marks(course.refused_by_proof, palette::third_line, "step refused by the proof of det > 0");
   chart.marks(course.refused_by_cost, palette::ink, "step refused by the cost");
   chart.picture().write_png(args.picture, kPixelsPerPoint);
   return 0;

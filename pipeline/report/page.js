@@ -1,7 +1,17 @@
-// Opens before printing what a page on paper must show, and closes it again.
 (function () {
   "use strict";
-  const stills = () => document.querySelectorAll("details.stills");
-  window.addEventListener("beforeprint", () => stills().forEach(d => { d.dataset.was = d.open; d.open = true; }));
-  window.addEventListener("afterprint", () => stills().forEach(d => { d.open = d.dataset.was === "true"; }));
+  // Opens before printing what a page on paper must show, and closes it again.
+  const folded = () => document.querySelectorAll("details.on-paper");
+  window.addEventListener("beforeprint", () => folded().forEach(d => { d.dataset.was = d.open; d.open = true; }));
+  window.addEventListener("afterprint", () => folded().forEach(d => { d.open = d.dataset.was === "true"; }));
+
+  // Marks on the views, shown or not.
+  const marks = document.getElementById("marks");
+  if (!marks) return;
+  marks.hidden = false;
+  marks.addEventListener("change", event => {
+    const box = event.target, shown = document.getElementById("lesions").classList;
+    if (box.value === "full-width") shown.toggle(box.value, box.checked);
+    else shown.toggle("without-" + box.value, !box.checked);
+  });
 })();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "pipeline/report/answer_data.h"
 #include "pipeline/report/base64.h"
 #include "pipeline/report/figures/convergence_figure.h"
 #include "pipeline/report/figures/fit_course_figure.h"
@@ -33,6 +34,24 @@ json figure_data(const Figure& figure) {
           {"height", std::to_string(static_cast<int>(figure.picture.height()))}};
 }
 
+/// A row of views at one scale, the tallest as high as the screen allows.
+json view_row_data(const std::vector<Figure>& figures) {
+  double width = 0, height = 0;
+  json list = json::array();
+  for (const Figure& figure : figures) {
+    json data = figure_data(figure);
+    for (const Layer& layer : figure.layers)
+      data["layers"].push_back(
+          {{"name", layer.name},
+           {"src", data_uri("image/svg+xml", layer.picture.svg(Ground::clear))}});
+    list.push_back(data);
+    width += figure.picture.width();
+    height = std::max(height, figure.picture.height());
+  }
+  return {
+      {"figures", list}, {"width", word::number(width, 0)}, {"height", word::number(height, 0)}};
+}
+
 void add_mri(const PatientResults& results, json& page) {
   page["mri"] = json::array();
   if (results.segmentation)
@@ -44,19 +63,24 @@ void add_mri(const PatientResults& results, json& page) {
 }
 
 void add_views(const PatientResults& results, json& page) {
-  for (const char* list : {"detectors", "renders", "cuts", "course"}) page[list] = json::array();
+  for (const char* list : {"hung", "simulated", "renders", "cuts", "course"})
+    page[list] = json::array();
   page["has_views"] = results.prone && !results.views.empty();
   page["has_scene"] = page["has_views"];
   if (!page["has_views"]) return;
   page["scene"] = scene_data(results).dump();
   for (const BreastShape& shape : breast_shapes(results))
     page["renders"].push_back(figure_data(render_figure(results, shape)));
+  std::vector<Figure> hung, simulated;  // own mammograms hang in front
   for (const ViewResult& view : results.views) {
-    for (const Figure& figure : detector_figures(results, view))
-      page["detectors"].push_back(figure_data(figure));
+    std::vector<Figure> figures = detector_figures(results, view);
+    if (figures.size() > 1) simulated.push_back(figures.back());
+    hung.push_back(std::move(figures.front()));
     for (const Landmark& lesion : results.lesions())
       page["cuts"].push_back(figure_data(compressed_figure(results, view, lesion)));
   }
+  page["hung"].push_back(view_row_data(hung));
+  if (!simulated.empty()) page["simulated"].push_back(view_row_data(simulated));
   if (const auto figure = force_figure(results)) page["course"].push_back(figure_data(*figure));
   if (const auto figure = convergence_figure(results))
     page["course"].push_back(figure_data(*figure));
@@ -64,24 +88,14 @@ void add_views(const PatientResults& results, json& page) {
 }
 
 void add_lesions(const PatientResults& results, json& page) {
+  page["answer"] = answer_data(results);
+  page["accuracy"] = kAccuracyWords;
   page["lesions"] = lesion_data(results.rows);
   page["has_rows"] = !results.rows.empty();
-  bool ellipses = false;
-  for (const LesionRow& row : results.rows) ellipses |= row.ellipse_major_mm.has_value();
-  page["marks"] =
-      ellipses
-          ? "Ring: lesion by the model; ellipse: holds it with 90 % probability; cross: without "
-            "physics; triangle: nipple."
-          : "Ring: lesion by the model; cross: without physics; triangle: nipple.";
+  page["has_ellipses"] =
+      std::any_of(results.rows.begin(), results.rows.end(),
+                  [](const LesionRow& row) { return row.ellipse_major_mm.has_value(); });
   page["frames"] = figure_data(frames_figure());
-  page["ellipse_note"] =
-      ellipses
-          ? "The ellipse holds the lesion with 90 % probability as far as pose, thickness and "
-            "stiffness "
-            "are uncertain, in a view without a mammogram in the simulated picture: where the real "
-            "detector's edge stands is not known. How it was made: registration/README.md."
-          : "No search ellipse is given yet: published methods of this kind err by 5 to 13 mm "
-            "on real patients, so look in a region and not at a point.";
 }
 
 json quality_row(const std::string& product, const QualityFigure& figure, const json& quality) {

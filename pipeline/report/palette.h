@@ -1,6 +1,7 @@
 #pragma once
 
 #include "pipeline/report/picture.h"
+#include "segmentation/files/label_colour.h"
 #include "segmentation/segmentation.h"
 
 namespace mammotwin::palette {
@@ -9,33 +10,29 @@ inline constexpr Colour ink{0.11, 0.14, 0.19};
 inline constexpr Colour quiet{0.36, 0.41, 0.47};
 inline constexpr Colour grid{0.87, 0.89, 0.91};
 inline constexpr Colour paper{1, 1, 1};
-inline constexpr Colour lesion{0.85, 0.07, 0.38};
-inline constexpr Colour nipple{0.00, 0.42, 0.58};
-inline constexpr Colour baseline{0.72, 0.42, 0.00};
-inline constexpr Colour baseline_label{1.00, 0.76, 0.35};  // read on black
-inline constexpr Colour mesh{0.15, 0.80, 0.95};
 inline constexpr Colour plate{0.45, 0.52, 0.60};
-inline constexpr Colour skin{0.93, 0.72, 0.60};
-inline constexpr Colour fat{0.99, 0.90, 0.65};
-inline constexpr Colour fibroglandular{0.36, 0.60, 0.85};
-inline constexpr Colour muscle{0.70, 0.25, 0.22};
 
 /// Colour of a label of `segmentation.seg.nrrd`; air is transparent.
-inline Colour of_label(std::uint8_t value) {
-  if (label::is_lesion(value)) return lesion;
-  switch (value) {
-    case label::skin:
-      return skin;
-    case label::fat:
-      return fat;
-    case label::fibroglandular:
-      return fibroglandular;
-    case label::muscle:
-      return muscle;
-    default:
-      return {0, 0, 0, 0};
-  }
+inline constexpr Colour of_label(std::uint8_t value) {
+  if (value == label::air) return {0, 0, 0, 0};
+  const auto c = label_colour(value);
+  return {c[0], c[1], c[2]};
 }
+inline constexpr Colour skin = of_label(label::skin);
+inline constexpr Colour fat = of_label(label::fat);
+inline constexpr Colour muscle = of_label(label::muscle);
+
+// Marks, of Okabe and Ito's hues, too (label_colour.h).
+inline constexpr Colour lesion = of_label(label::lesion);
+inline constexpr Colour nipple{0.000, 0.447, 0.698};      // blue
+inline constexpr Colour baseline{0.941, 0.894, 0.259};    // yellow
+inline constexpr Colour mesh = baseline;                  // on an MRI, where no baseline is drawn
+inline constexpr Colour third_line{0.800, 0.475, 0.655};  // in charts on paper
+
+/// A mark on an image is edged light, and dark outside that: on any grey one of the two has a
+/// contrast of 3 to 1 at least (WCAG 2.2, 1.4.11).
+inline constexpr Colour light_edge = paper;
+inline constexpr Colour dark_edge{0, 0, 0};
 
 inline Colour with_alpha(Colour colour, double alpha) {
   colour.alpha *= alpha;

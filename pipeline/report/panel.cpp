@@ -8,17 +8,24 @@ namespace mammotwin {
 namespace {
 
 constexpr double kSmall = 8;   // [pt] text beside marks
+constexpr double kLabel = 10;  // [pt] names on a view
 constexpr double kMark = 4.5;  // [pt] half size of a cross or triangle
+constexpr double kEdge = 1.0;  // [pt] light and dark edges of a mark
 
 }  // namespace
 
-void Panel::pieces(const std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>>& pieces,
-                   const Stroke& stroke) {
+void Panel::pieces(const Pieces& pieces, const Stroke& stroke) {
   std::vector<std::pair<Eigen::Vector2d, Eigen::Vector2d>> on_paper;
   for (const auto& [a, b] : pieces) on_paper.emplace_back(at(a), at(b));
   picture_.clip(x_, y_, width(), height());
   picture_.segments(on_paper, stroke);
   picture_.unclip();
+}
+
+void Panel::edged_pieces(const Pieces& line, const Colour& colour, double width) {
+  pieces(line, {palette::dark_edge, width + 4 * kEdge});
+  pieces(line, {palette::light_edge, width + 2 * kEdge});
+  pieces(line, {colour, width});
 }
 
 void Panel::edge_line(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
@@ -53,34 +60,46 @@ void Panel::title(const std::string& text) {
   picture_.text({x_, y_ - 5}, text, 9, palette::ink, Anchor::start, true);
 }
 
+void Panel::label(const Eigen::Vector3d& x, double away_mm, const std::string& text) {
+  const Eigen::Vector2d p = at(x);
+  picture_.text({p.x() + away_mm * scale_ + 3, p.y() + 3}, text, kLabel, palette::paper,
+                Anchor::start, true, true);
+}
+
 void Panel::lesion_mark(const Eigen::Vector3d& x, double radius_mm, const std::string& name,
                         bool on_image) {
   const Eigen::Vector2d p = at(x);
   const double radius = std::max(radius_mm * scale_, 4.0);
-  picture_.circle(p, radius, {palette::paper, 3});
+  picture_.circle(p, radius, {palette::dark_edge, 1.8 + 4 * kEdge});
+  picture_.circle(p, radius, {palette::light_edge, 1.8 + 2 * kEdge});
   picture_.circle(p, radius, {palette::lesion, 1.8});
-  picture_.text({p.x() + radius + 3, p.y() + 3}, name, kSmall,
+  if (name.empty()) return;
+  picture_.text({p.x() + radius + 4, p.y() + 3}, name, kSmall,
                 on_image ? palette::paper : palette::lesion, Anchor::start, true, on_image);
 }
 
-void Panel::nipple_mark(const Eigen::Vector3d& x, bool on_image) {
+void Panel::nipple_triangle(const Eigen::Vector3d& x) {
   const Eigen::Vector2d p = at(x);
   const Picture::Points triangle = {{p.x(), p.y() - kMark},
                                     {p.x() + kMark, p.y() + kMark * 0.8},
                                     {p.x() - kMark, p.y() + kMark * 0.8}};
+  picture_.outline(triangle, {palette::dark_edge, 4 * kEdge});
+  picture_.outline(triangle, {palette::light_edge, 2 * kEdge});
   picture_.polygon(triangle, palette::nipple);
-  picture_.outline(triangle, {palette::paper, 1});
-  picture_.text({p.x(), p.y() - kMark - 3}, "nipple", kSmall,
+}
+
+void Panel::nipple_mark(const Eigen::Vector3d& x, bool on_image) {
+  nipple_triangle(x);
+  const Eigen::Vector2d p = at(x);
+  picture_.text({p.x(), p.y() - kMark - 4}, "nipple", kSmall,
                 on_image ? palette::paper : palette::nipple, Anchor::middle, false, on_image);
 }
 
-void Panel::baseline_mark(const Eigen::Vector3d& x, const std::string& name) {
+void Panel::baseline_mark(const Eigen::Vector3d& x) {
   const Eigen::Vector2d p = at(x);
-  picture_.cross(p, kMark, {palette::paper, 3.5});
+  picture_.cross(p, kMark, {palette::dark_edge, 1.8 + 4 * kEdge});
+  picture_.cross(p, kMark, {palette::light_edge, 1.8 + 2 * kEdge});
   picture_.cross(p, kMark, {palette::baseline, 1.8});
-  if (!name.empty())
-    picture_.text({p.x() - kMark - 3, p.y() + 3}, name, kSmall, palette::baseline_label,
-                  Anchor::end, false, true);
 }
 
 }  // namespace mammotwin

@@ -24,8 +24,10 @@ class Panel {
   }
 
   void image(const Raster& raster) { picture_.image(raster, x_, y_, width(), height()); }
-  void pieces(const std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>>& pieces,
-              const Stroke& stroke);
+  using Pieces = std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>>;
+  void pieces(const Pieces& pieces, const Stroke& stroke);
+  /// A line that is seen on any grey: `width` [pt] of the colour between light and dark edges.
+  void edged_pieces(const Pieces& pieces, const Colour& colour, double width);
   void edge_line(const Eigen::Vector3d& from, const Eigen::Vector3d& to);  ///< the detector's edge
   void frame();
   /// Words at the middle of each side: left, right, top, bottom.
@@ -34,11 +36,14 @@ class Panel {
   void scale_bar(double mm, const Colour& colour);
   void title(const std::string& text);
 
+  /// Words beside a mark.
+  void label(const Eigen::Vector3d& x, double away_mm, const std::string& text);
   /// A lesion: a ring of the given radius and its name.
   void lesion_mark(const Eigen::Vector3d& x, double radius_mm, const std::string& name,
                    bool on_image);
-  void nipple_mark(const Eigen::Vector3d& x, bool on_image);
-  void baseline_mark(const Eigen::Vector3d& x, const std::string& name);
+  void nipple_triangle(const Eigen::Vector3d& x);
+  void nipple_mark(const Eigen::Vector3d& x, bool on_image);  ///< triangle and name
+  void baseline_mark(const Eigen::Vector3d& x);
 
  private:
   Picture& picture_;

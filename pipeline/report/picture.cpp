@@ -18,10 +18,13 @@ cairo_status_t append(void* text, const unsigned char* data, unsigned int length
   return CAIRO_STATUS_SUCCESS;
 }
 
-void replay(cairo_surface_t* recording, cairo_surface_t* target, double scale) {
+void replay(cairo_surface_t* recording, cairo_surface_t* target, double scale,
+            Ground ground = Ground::paper) {
   cairo_t* context = cairo_create(target);
-  cairo_set_source_rgb(context, 1, 1, 1);
-  cairo_paint(context);
+  if (ground == Ground::paper) {
+    cairo_set_source_rgb(context, 1, 1, 1);
+    cairo_paint(context);
+  }
   cairo_scale(context, scale, scale);
   cairo_set_source_surface(context, recording, 0, 0);
   cairo_paint(context);
@@ -195,10 +198,10 @@ std::string with_own_numbers(const std::string& svg) {
 
 }  // namespace
 
-std::string Picture::svg() const {
+std::string Picture::svg(Ground ground) const {
   std::string text;
   cairo_surface_t* target = cairo_svg_surface_create_for_stream(append, &text, width_, height_);
-  replay(surface_.get(), target, 1);
+  replay(surface_.get(), target, 1, ground);
   cairo_surface_finish(target);
   cairo_surface_destroy(target);
   return with_own_numbers(text);

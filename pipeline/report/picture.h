@@ -37,6 +37,7 @@ struct Stroke {
 };
 
 enum class Anchor { start, middle, end };
+enum class Ground { paper, clear };
 
 /// A drawing in points (1/72 inch), y downwards. It records what is drawn, so that one drawing
 /// gives an SVG for the page, a PNG for a README, and a part of a larger drawing.
@@ -67,7 +68,7 @@ class Picture {
   void clip(double x, double y, double width, double height);
   void unclip();
 
-  std::string svg() const;
+  std::string svg(Ground ground = Ground::paper) const;
   /// Throws std::runtime_error if the file cannot be written.
   void write_png(const std::filesystem::path& path, double pixels_per_point) const;
 

@@ -15,7 +15,7 @@
     { name: "Coronal", normal: 1, right: 0, down: 2, falls: true, ends: ["R", "L", "S", "I"] },
   ];
   const LETTERS = ["L", "P", "S"];
-  const LESION = "#ff5c9a", CROSS = "rgba(90, 210, 255, .75)";
+  const LESION = "rgb(" + volume.mark.join() + ")", CROSS = "rgba(255, 255, 255, .6)";
   const NEAR_MM = 6;  // a place is ringed on slices that pass this close
 
   const clamp = (value, low, high) => Math.min(Math.max(value, low), high);
@@ -76,8 +76,7 @@
 
   function drawPlaces(plane, context) {
     const scale = plane.canvas.width / (volume.size[plane.right] * volume.spacing[plane.right]);
-    context.strokeStyle = context.fillStyle = LESION;
-    context.lineWidth = 2 * devicePixelRatio;
+    context.fillStyle = "#fff";
     context.font = "600 " + 13 * devicePixelRatio + "px system-ui, sans-serif";
     context.textAlign = "start";
     for (const place of volume.places) {
@@ -87,9 +86,17 @@
       const x = across(plane, index[plane.right]), y = downwards(plane, index[plane.down]);
       context.beginPath();
       context.arc(x, y, 7 * scale, 0, 2 * Math.PI);
-      context.stroke();
+      for (const [colour, width] of [["#000", 6], ["#fff", 4], [LESION, 2]]) {
+        context.strokeStyle = colour;
+        context.lineWidth = width * devicePixelRatio;
+        context.stroke();
+      }
       const name = place.name.replace("Lesion ", ""), right = plane.canvas.width - context.measureText(name).width;
-      context.fillText(name, Math.min(x + 8 * scale, right), Math.max(y - 4 * scale, 13 * devicePixelRatio));
+      const left = Math.min(x + 8 * scale, right), base = Math.max(y - 4 * scale, 13 * devicePixelRatio);
+      context.lineWidth = 3 * devicePixelRatio;
+      context.strokeStyle = "#000";
+      context.strokeText(name, left, base);
+      context.fillText(name, left, base);
     }
   }
 

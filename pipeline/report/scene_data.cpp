@@ -52,8 +52,9 @@ std::string packed_colours(const FaceTriangles& surface, ColourOf colour_of) {
 
 Colour tissue_colour(FaceLabel label, int) {
   return label == FaceLabel::chest_wall ? palette::muscle
-         : label == FaceLabel::cut      ? palette::fat
-                                        : palette::skin;
+         : label == FaceLabel::cut
+             ? palette::fat
+             : palette::over(palette::with_alpha(palette::skin, 0.45), palette::paper);
 }
 
 /// The fit's error on the skin; the faces that have none keep a grey.

@@ -13,7 +13,7 @@ struct Grade {
 };
 /// From good to bad.
 constexpr Grade kGrades[] = {
-    {"ok", "ok", "OK: every stage passed its checks"},
+    {"ok", "ok", "Checks passed"},
     {"look", "look", "Look: done, but check what is said here first"},
     {"not_converged", "not converged", "Not converged: the computation did not come to an end"},
     {"refused", "refused", "Refused: the input cannot serve"},
@@ -67,6 +67,8 @@ json verdict_data(const PatientResults& results) {
           {"verdict", verdict},
           {"reasons", reasons},
           {"has_reasons", !reasons.empty()},
+          {"number_of_reasons",
+           std::to_string(reasons.size()) + (reasons.size() == 1 ? " remark" : " remarks")},
           {"stages", stages}};
 }
 

@@ -97,6 +97,7 @@ json volume_data(const PatientResults& results) {
                {"spacing", list_of(grid.spacing)},
                {"origin", list_of(grid.origin)},
                {"tissues", label_list(results.lesions())},
+               {"mark", colour_of(label::lesion)},
                {"places", place_list(results)}};
   data["labels"] = deflated(
       sampled(grid, [&](const Eigen::Vector3d& x) { return nearest(labels, x, label::air); }));

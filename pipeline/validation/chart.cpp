@@ -86,11 +86,11 @@ void Chart::name_in_legend(const std::string& name, const Colour& colour, bool r
 }
 
 void Chart::band(double low, double high, const std::string& name) {
-  const Colour tint = palette::with_alpha(palette::baseline, 0.25);
+  const Colour tint = palette::with_alpha(palette::third_line, 0.25);
   const Eigen::Vector2d corner = at({across_.first, high}), other = at({across_.last, low});
   picture_.rectangle(corner.x(), corner.y(), other.x() - corner.x(),
                      std::max(1.0, other.y() - corner.y()), tint);
-  picture_.text(other + Eigen::Vector2d(-4, 12), name, kText, palette::baseline, Anchor::end);
+  picture_.text(other + Eigen::Vector2d(-4, 12), name, kText, palette::third_line, Anchor::end);
 }
 
 void Chart::line(const Picture::Points& values, const Colour& colour, const std::string& name) {

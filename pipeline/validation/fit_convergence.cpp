@@ -153,7 +153,7 @@ Picture fit_convergence_picture(const std::vector<FitAccuracy>& accuracies) {
   Chart chart({"columns of elements along x and z", smooth.front().x() / 1.1,
                smooth.back().x() * 1.1, true},
               {"skin RMS [mm]", lowest / room, std::pow(room, 13) * highest, true});
-  chart.line(expected, palette::baseline, "fourth power of the element size");
+  chart.line(expected, palette::third_line, "fourth power of the element size");
   for (const auto& [skin, line] : points) chart.line(line, colour_of(skin), name_of(skin));
   return chart.picture();
 }

@@ -12,7 +12,7 @@ namespace {
 constexpr double kRoom = 1.1;  // an axis goes this far beyond what it shows
 
 Colour ours() { return palette::nipple; }
-Colour others() { return palette::baseline; }
+Colour others() { return palette::third_line; }
 
 }  // namespace
 

@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 
+#include "pipeline/report/lesion_outline.h"
 #include "pipeline/report/mammogram_raster.h"
 #include "pipeline/report/mesh_surface.h"
 #include "pipeline/report/palette.h"
@@ -16,6 +18,9 @@ namespace {
 constexpr double kScale = 2.0;  // [pt/mm]
 constexpr double kMargin_mm = 10;
 constexpr double kPixel_mm = 0.5;
+constexpr double kRing_mm = 5;       // where a lesion is but a point
+constexpr double kEllipse_pt = 1.4;  // 2 px at the page's usual size
+constexpr double kOutline_pt = 0.8;
 
 /// Detector coordinates in space: (u, v, 0).
 Eigen::Vector3d on_plane(const Eigen::Vector2d& uv) { return {uv.x(), uv.y(), 0}; }
@@ -83,13 +88,13 @@ Raster raster_of(const DetectorImage& image, const Section& section) {
 
 /// The lesion's 90 % ellipse of lesions.csv, as a closed line round its place; that in the model's
 /// own picture where there is one.
-void draw_ellipse(Panel& panel, const LesionRow& row) {
-  if (!row.ellipse_major_mm || !row.detector_u_mm) return;
+Panel::Pieces ellipse_pieces(const LesionRow& row) {
+  if (!row.ellipse_major_mm || !row.detector_u_mm) return {};
   const bool own = row.picture_ellipse_major_mm.has_value();
   const double major = own ? *row.picture_ellipse_major_mm : *row.ellipse_major_mm;
   const double minor = own ? *row.picture_ellipse_minor_mm : *row.ellipse_minor_mm;
   const double angle_deg = own ? *row.picture_ellipse_angle_deg : *row.ellipse_angle_deg;
-  constexpr int corners = 48;
+  constexpr int corners = 72;
   const double turn = angle_deg * std::numbers::pi / 180;
   const auto at = [&](int n) {
     const double t = 2 * std::numbers::pi * n / corners;
@@ -97,21 +102,64 @@ void draw_ellipse(Panel& panel, const LesionRow& row) {
     return on_plane({*row.detector_u_mm + std::cos(turn) * a - std::sin(turn) * b,
                      *row.detector_v_mm + std::sin(turn) * a + std::cos(turn) * b});
   };
-  std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>> pieces;
+  Panel::Pieces pieces;
   for (int n = 0; n < corners; ++n) pieces.push_back({at(n), at(n + 1)});
-  panel.pieces(pieces, {palette::lesion, 1});
+  return pieces;
 }
 
-void draw_landmarks(Panel& panel, const PatientResults& results, const ViewProjection& projection) {
-  for (const Landmark& lesion : results.lesions()) {
-    const ProjectedLandmark p = projection.project(lesion);
-    panel.baseline_mark(on_plane(baseline_of(results, projection.view().name, p)), lesion.id);
-    panel.lesion_mark(on_plane(p.on_detector), 5, lesion.id, true);
-  }
+/// How far a lesion's ellipse reaches along u [mm]; a ring's radius where there is none.
+double half_width(const PatientResults& results, const std::string& view,
+                  const std::string& lesion) {
   for (const LesionRow& row : results.rows)
-    if (row.view == projection.view().name) draw_ellipse(panel, row);
+    if (row.view == view && row.lesion == lesion && row.detector_u_mm) {
+      double reach = kRing_mm;
+      for (const auto& [from, to] : ellipse_pieces(row))
+        reach = std::max(reach, from.x() - *row.detector_u_mm);
+      return reach;
+    }
+  return kRing_mm;
+}
+
+/// The lesions' own shadows' edges; a ring where a lesion is but a point.
+void draw_lesions(Panel& panel, const PatientResults& results, const ViewProjection& projection) {
+  const std::vector<Landmark> lesions = results.lesions();
+  for (std::size_t n = 0; n < lesions.size(); ++n) {
+    Panel::Pieces outline;
+    if (results.segmentation)
+      for (const auto& [a, b] :
+           lesion_outline(results.segmentation->labels,
+                          static_cast<std::uint8_t>(label::lesion + n), projection))
+        outline.emplace_back(on_plane(a), on_plane(b));
+    if (outline.empty())
+      panel.lesion_mark(on_plane(projection.project(lesions[n]).on_detector), kRing_mm, "", true);
+    else
+      panel.edged_pieces(outline, palette::lesion, kOutline_pt);
+  }
   if (const auto nipple = results.nipple())
-    panel.nipple_mark(on_plane(projection.project({"nipple", *nipple}).on_detector), true);
+    panel.nipple_triangle(on_plane(projection.project({"nipple", *nipple}).on_detector));
+}
+
+void draw_ellipses(Panel& panel, const PatientResults& results, const ViewProjection& projection) {
+  for (const LesionRow& row : results.rows)
+    if (row.view == projection.view().name)
+      panel.edged_pieces(ellipse_pieces(row), palette::lesion, kEllipse_pt);
+}
+
+void draw_baseline(Panel& panel, const PatientResults& results, const ViewProjection& projection) {
+  for (const Landmark& lesion : results.lesions())
+    panel.baseline_mark(
+        on_plane(baseline_of(results, projection.view().name, projection.project(lesion))));
+}
+
+void draw_labels(Panel& panel, const PatientResults& results, const ViewProjection& projection,
+                 const std::string& name) {
+  for (const Landmark& lesion : results.lesions())
+    panel.label(on_plane(projection.project(lesion).on_detector),
+                half_width(results, projection.view().name, lesion.id), lesion.id);
+  const bool oblique = std::abs(projection.view().angle_deg) > 15;
+  panel.sides("", "", name + (oblique ? ", superior-lateral" : ", lateral"),
+              oblique ? "inferior-medial" : "medial", true);
+  panel.scale_bar(20, palette::paper);
 }
 
 std::string described(const PatientResults& results, const ViewProjection& projection) {
@@ -147,38 +195,47 @@ DetectorView detector_view(const PatientResults& results, const ViewResult& view
   return {std::move(projection), std::move(image), section, name, hidden};
 }
 
-Picture drawn(const PatientResults& results, const DetectorView& view, const Raster& background,
-              const std::string& title) {
+Figure drawn(const PatientResults& results, const DetectorView& view, const Raster& background,
+             const std::string& caption, const std::string& alt) {
   const Section& section = view.section;
-  Picture picture(section.width_mm() * kScale, section.height_mm() * kScale + 20);
-  Panel panel(picture, section, 0, 18, kScale);
-  panel.image(background);
-  panel.edge_line({0, section.window.min().y(), 0}, {0, section.window.max().y(), 0});
-  draw_landmarks(panel, results, view.projection);
-  const bool oblique = std::abs(view.projection.view().angle_deg) > 15;
-  panel.sides("", "", oblique ? "superior-lateral" : "lateral",
-              oblique ? "inferior-medial" : "medial", true);
-  panel.scale_bar(20, palette::paper);
-  panel.title(title);
-  return picture;
+  const auto layer = [&](const std::function<void(Panel&)>& draw) {
+    Picture picture(section.width_mm() * kScale, section.height_mm() * kScale);
+    Panel panel(picture, section, 0, 0, kScale);
+    draw(panel);
+    return picture;
+  };
+  const ViewProjection& projection = view.projection;
+  Figure figure{
+      layer([&](Panel& panel) {
+        panel.image(background);
+        panel.edge_line({0, section.window.min().y(), 0}, {0, section.window.max().y(), 0});
+      }),
+      caption, alt};
+  using Draw = void (*)(Panel&, const PatientResults&, const ViewProjection&);
+  for (const auto& [name, draw] : {std::pair<const char*, Draw>("baseline", draw_baseline),
+                                   std::pair<const char*, Draw>("ellipses", draw_ellipses),
+                                   std::pair<const char*, Draw>("lesions", draw_lesions)})
+    figure.layers.push_back({name, layer([&](Panel& panel) { draw(panel, results, projection); })});
+  figure.layers.push_back(
+      {"labels", layer([&](Panel& panel) { draw_labels(panel, results, projection, view.name); })});
+  return figure;
 }
 
 Figure simulated_figure(const PatientResults& results, const ViewResult& view,
                         const DetectorView& seen) {
-  return {
-      drawn(results, seen, raster_of(seen.simulated, seen.section), seen.name + ", simulated"),
-      seen.name + " on the detector, simulated from the compressed model (cone beam, source at " +
+  return drawn(
+      results, seen, raster_of(seen.simulated, seen.section),
+      seen.name + ", simulated from the compressed model (cone beam, source at " +
           word::number(view.detector.source_distance_mm, 0) + " mm)." + seen.hidden,
-      "Simulated " + seen.name + " mammogram." + described(results, seen.projection) + seen.hidden};
+      "Simulated " + seen.name + " mammogram." + described(results, seen.projection) + seen.hidden);
 }
 
 Figure own_figure(const PatientResults& results, const DetectorView& seen,
                   const RealMammogram& real) {
-  return {drawn(results, seen, mammogram_raster(real, seen.section, kPixel_mm),
-                seen.name + ", mammogram"),
-          "The patient's own " + seen.name + " mammogram with the predicted places." + seen.hidden,
-          "The patient's " + seen.name + " mammogram." + described(results, seen.projection) +
-              seen.hidden};
+  return drawn(results, seen, mammogram_raster(real, seen.section, kPixel_mm),
+               "The patient's own " + seen.name + " with the predicted places." + seen.hidden,
+               "The patient's " + seen.name + " mammogram." + described(results, seen.projection) +
+                   seen.hidden);
 }
 
 }  // namespace

@@ -49,7 +49,7 @@ void draw_view(Picture& picture, const Eigen::Vector2d& centre, Side side, doubl
   picture.circle(centre, 26, {palette::skin, 2});
   picture.disc(centre, 2.5, palette::nipple);
   picture.line({at(-kHalf, kLow), at(kHalf, kLow)}, {palette::plate, 4});
-  arrow(picture, at(-kHalf + 6, 52), at(-kHalf + 6, kLow + 6), palette::baseline);
+  arrow(picture, at(-kHalf + 6, 52), at(-kHalf + 6, kLow + 6), palette::ink);
   arrow(picture, at(0, kLow), at(52, kLow), palette::lesion, "lateral");
   arrow(picture, at(0, kLow), at(0, 44), palette::nipple, "height");
   picture.text(centre + Eigen::Vector2d(0, 86),
@@ -97,11 +97,11 @@ void draw_beam(Picture& picture, double x) {
   }
   skin.push_back(at(-22, 0));
   picture.line(skin, {palette::skin, 2});
-  picture.line({at(source.x(), source.z()), at(u, -22)}, {palette::baseline, 1.2, {4, 3}});
-  picture.line({at(0, source.z()), at(0, -22)}, {palette::baseline, 1.2, {4, 3}});
-  picture.disc(at(0, source.z()), 4, palette::baseline);
+  picture.line({at(source.x(), source.z()), at(u, -22)}, {palette::ink, 1.2, {4, 3}});
+  picture.line({at(0, source.z()), at(0, -22)}, {palette::ink, 1.2, {4, 3}});
+  picture.disc(at(0, source.z()), 4, palette::ink);
   picture.text(at(0, source.z()) + Eigen::Vector2d(8, 3),
-               "source, D above the detector, over the edge", kText, palette::baseline);
+               "source, D above the detector, over the edge", kText, palette::ink);
   picture.disc(at(point.x(), point.z()), 4, palette::lesion);
   arrow(picture, at(0, 0), at(62, 0), palette::lesion, "depth");
   arrow(picture, at(0, 0), at(0, 62), palette::nipple, "height");

@@ -41,7 +41,7 @@ Picture overview_picture(const PatientResults& results) {
     for (const BreastShape& shape : breast_shapes(results))
       breasts.push_back(render_figure(results, shape).picture);
     for (const ViewResult& view : results.views)
-      detectors.push_back(detector_figures(results, view).back().picture);
+      detectors.push_back(detector_figures(results, view).back().whole());
     rows.push_back(beside(breasts));
     if (!detectors.empty()) rows.push_back(beside(detectors));
   }

@@ -25,7 +25,7 @@ Colour surface_colour(FaceLabel label) {
     case FaceLabel::cut:
       return palette::fat;
     default:
-      return palette::skin;
+      return palette::over(palette::with_alpha(palette::skin, 0.45), palette::paper);
   }
 }
 

@@ -11,6 +11,13 @@
 namespace mammotwin {
 namespace {
 
+PatientResults with_ellipses(PatientResults results) {
+  for (LesionRow& row : results.rows)
+    if (row.view != "mri")
+      row.ellipse_major_mm = 16, row.ellipse_minor_mm = 11, row.ellipse_angle_deg = 20;
+  return results;
+}
+
 class ReportInABrowser : public ScratchFolder {
  protected:
   void SetUp() override {
@@ -55,7 +62,7 @@ class ReportInABrowser : public ScratchFolder {
     EXPECT_EQ(browser_->evaluate(open), true);
   }
 
-  PatientResults results_ = fake_results(Side::left);
+  PatientResults results_ = with_ellipses(fake_results(Side::left));
   std::optional<Browser> browser_;
 };
 
@@ -88,6 +95,26 @@ TEST_F(ReportInABrowser, CompressesWithTheSlider) {
   EXPECT_LT((lesion_in_3d() - squeezed).norm(), 0.02);
   for (const char* shape : {"Prone", "Unloaded", "CC", "MLO"})
     EXPECT_TRUE(browser_->has_accessible("radio", shape)) << shape;
+}
+
+TEST_F(ReportInABrowser, SaysWhereAndHowSureOnTheFirstScreen) {
+  for (const auto& [width, height] : {std::pair(1366, 768), std::pair(390, 844)}) {
+    browser_->call(
+        "Emulation.setDeviceMetricsOverride",
+        {{"width", width}, {"height", height}, {"deviceScaleFactor", 1}, {"mobile", false}});
+    browser_->evaluate("window.scrollTo(0, 0)");
+    EXPECT_LE(browser_->evaluate("document.querySelector('.card').getBoundingClientRect().bottom"),
+              height);
+    EXPECT_LE(browser_->evaluate("document.documentElement.scrollWidth"), width);
+  }
+}
+
+TEST_F(ReportInABrowser, SwitchesMarksOff) {
+  const std::string shown = "getComputedStyle(document.querySelector('.layer.ellipses')).display";
+  EXPECT_EQ(browser_->evaluate(shown), "block");
+  browser_->click("#marks input[value=ellipses]");
+  EXPECT_EQ(browser_->evaluate(shown), "none");
+  EXPECT_TRUE(browser_->has_accessible("checkbox", "Search ellipse (90 %)"));
 }
 
 TEST_F(ReportInABrowser, PrintsAsksForNothingAndComplainsOfNothing) {

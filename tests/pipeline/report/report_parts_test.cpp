@@ -7,6 +7,7 @@
 #include "pipeline/report/depth_image.h"
 #include "pipeline/report/figures/fit_course_figure.h"
 #include "pipeline/report/figures/fit_error.h"
+#include "pipeline/report/lesion_outline.h"
 #include "pipeline/report/mammogram_raster.h"
 #include "pipeline/report/mesh_field.h"
 #include "pipeline/report/mesh_surface.h"
@@ -95,6 +96,99 @@ TEST(Verdict, IsTheWorstOfTheStages) {
   results = fake_results(Side::left);
   results.stages.pop_back();
   EXPECT_EQ(verdict_data(results)["status"], "incomplete");
+}
+
+/// Linear light of an sRGB colour (IEC 61966-2-1).
+Eigen::Vector3d light_of(const Colour& c) {
+  const auto linear = [](double v) {
+    return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
+  };
+  return {linear(c.red), linear(c.green), linear(c.blue)};
+}
+
+double contrast(const Colour& a, const Colour& b) {  // WCAG 2.2
+  const Eigen::Vector3d weights(0.2126, 0.7152, 0.0722);
+  const double one = weights.dot(light_of(a)), other = weights.dot(light_of(b));
+  return (std::max(one, other) + 0.05) / (std::min(one, other) + 0.05);
+}
+
+/// CIE L*a*b* (D65) of linear light.
+Eigen::Vector3d lab_of(const Eigen::Vector3d& light) {
+  Eigen::Matrix3d xyz_from_rgb;
+  xyz_from_rgb << 0.4124564, 0.3575761, 0.1804375, 0.2126729, 0.7151522, 0.0721750, 0.0193339,
+      0.1191920, 0.9503041;
+  const Eigen::Vector3d xyz =
+      (xyz_from_rgb * light).cwiseQuotient(Eigen::Vector3d(0.95047, 1, 1.08883));
+  const auto f = [](double t) {
+    return t > 216. / 24389 ? std::cbrt(t) : (24389. / 27 * t + 16) / 116;
+  };
+  return {116 * f(xyz.y()) - 16, 500 * (f(xyz.x()) - f(xyz.y())), 200 * (f(xyz.y()) - f(xyz.z()))};
+}
+
+/// The smallest colour difference (CIE 1976) for people with normal vision and without one kind of
+/// cone: Machado, Oliveira and Fernandes 2009, severity 1.
+double told_apart(const Colour& a, const Colour& b) {
+  Eigen::Matrix3d protan, deutan, tritan;
+  protan << 0.152286, 1.052583, -0.204868, 0.114503, 0.786281, 0.099216, -0.003882, -0.048116,
+      1.051998;
+  deutan << 0.367322, 0.860646, -0.227968, 0.280085, 0.672501, 0.047413, -0.011820, 0.042940,
+      0.968881;
+  tritan << 1.255528, -0.076749, -0.178779, -0.078411, 0.930809, 0.147602, 0.004733, 0.691367,
+      0.303900;
+  double least = 1e9;
+  for (const Eigen::Matrix3d& seen :
+       {Eigen::Matrix3d(Eigen::Matrix3d::Identity()), protan, deutan, tritan}) {
+    const auto as_seen = [&](const Colour& c) {
+      return lab_of((seen * light_of(c)).cwiseMax(0).cwiseMin(1));
+    };
+    least = std::min(least, (as_seen(a) - as_seen(b)).norm());
+  }
+  return least;
+}
+
+// A just noticeable difference is 2.3; 20 is told apart at a glance. Red and green of equal
+// lightness, which are not, have less.
+TEST(Palette, IsToldApartWithEveryKindOfColourVision) {
+  EXPECT_LT(told_apart({0.7, 0.25, 0.22}, {0.35, 0.42, 0.2}), 20);
+  const std::vector<std::vector<Colour>> shown_together = {
+      {palette::lesion, palette::nipple, palette::baseline},
+      {palette::lesion, palette::nipple, palette::third_line},
+      {palette::skin, palette::fat, palette::of_label(label::fibroglandular), palette::muscle,
+       palette::lesion}};
+  for (const auto& colours : shown_together)
+    for (std::size_t i = 0; i < colours.size(); ++i)
+      for (std::size_t j = 0; j < i; ++j)
+        EXPECT_GT(told_apart(colours[i], colours[j]), 20) << i << " and " << j;
+}
+
+TEST(Palette, OneEdgeOfAMarkIsSeenOnAnyGrey) {
+  for (int grey = 0; grey <= 255; ++grey) {
+    const Colour tissue{grey / 255.0, grey / 255.0, grey / 255.0};
+    EXPECT_GE(std::max(contrast(palette::light_edge, tissue), contrast(palette::dark_edge, tissue)),
+              3)
+        << grey;
+  }
+}
+
+// The outermost voxels (2 mm) of the ball whose radius is less than 6 mm lie 8 mm apart; along the
+// plates that is stretched by 1 / sqrt(50 / 120), by the cone enlarged by 660 / 635 in the middle,
+// and each voxel counts as a ball of 1.24 mm.
+TEST(LesionOutline, IsAsLargeAsTheLesionsShadow) {
+  const PatientResults results = fake_results(Side::left);
+  const ViewResult& view = *results.view("cc");
+  const ViewProjection projection(results.prone->mesh, view.file.mesh, view.view, view.detector);
+  const auto outline = lesion_outline(results.segmentation->labels, label::lesion, projection);
+  ASSERT_FALSE(outline.empty());
+  Eigen::AlignedBox2d box;
+  double length = 0;
+  for (const auto& [a, b] : outline) box.extend(a).extend(b), length += (b - a).norm();
+  const double width = 8 / std::sqrt(50.0 / 120) * 660 / 635 + 2 * 1.24;
+  EXPECT_NEAR(box.sizes().x(), width, 1);  // two steps of the grid
+  EXPECT_NEAR(box.sizes().y(), width, 1);
+  EXPECT_LT(length, 2 * box.sizes().sum());  // one line round it: no holes
+  const Landmark lesion = results.lesions()[0];
+  EXPECT_LT((box.center() - projection.project(lesion).on_detector).norm(), 1);
+  EXPECT_TRUE(lesion_outline(results.segmentation->labels, 99, projection).empty());
 }
 
 TEST(Base64, PadsAsOthersRead) {

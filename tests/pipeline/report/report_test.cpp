@@ -6,6 +6,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "pipeline/report/answer_data.h"
 #include "pipeline/report/figures/overview_picture.h"
 #include "pipeline/report/page_data.h"
 #include "pipeline/report/page_template.h"
@@ -45,7 +46,7 @@ TEST(ReportPage, ShowsEveryFigureOfAFinishedChain) {
   // Two lesions: an MRI figure each, two cuts each; two detectors; prone, unloaded and two views;
   // fit; force; convergence; frames. (What planes.js makes is not in the text as "<figure".)
   EXPECT_EQ(count(whole_page(), "<figure"), 2u + 4u + 2u + 4u + 1u + 1u + 1u + 1u);
-  EXPECT_NE(whole_page().find("OK: every stage passed"), std::string::npos);
+  EXPECT_NE(whole_page().find("Checks passed"), std::string::npos);
   EXPECT_NE(whole_page().find("not a medical device"), std::string::npos);
 }
 
@@ -81,11 +82,41 @@ TEST(ReportPage, SaysHowTheBreastHung) {
 TEST(ReportPage, GivesEveryPictureWordsAndReachesForNothingOutside) {
   const std::string& page = whole_page();
   EXPECT_EQ(count(page, "<img "), count(page, "alt=\""));
-  EXPECT_EQ(page.find("alt=\"\""), std::string::npos);
+  // Layers over a picture are told of in its words.
+  EXPECT_EQ(count(page, "alt=\"\""), count(page, "<img class=\"layer "));
   for (const char* outside : {"src=\"http", "href=\"http", "@import", "src=\"//"})
     EXPECT_EQ(page.find(outside), std::string::npos) << outside;
   EXPECT_NE(page.find("default-src 'none'"), std::string::npos);  // three.js can fetch; it may not
   EXPECT_LT(page.size(), 20u << 20);                              // the page's limit
+}
+
+// The made-up lesion 1 lies 18 mm lateral of, 57 mm behind and 14 mm above the nipple: 61 mm away,
+// and at atan2(18, 14) = 52 degrees, which is 2 o'clock. The muscle begins 87 mm behind the nipple.
+TEST(ReportPage, SaysWhereFirstInTheWordsOfAReport) {
+  const std::string& page = whole_page();
+  const std::size_t words = page.find(
+      "left breast, upper outer, 2 o&apos;clock, middle third, 61 mm from the nipple, 0.9 ml.");
+  ASSERT_NE(words, std::string::npos);
+  EXPECT_LT(words, page.find("<img "));
+  EXPECT_LT(words, page.find("Detector u, v"));
+}
+
+TEST(ReportPage, SaysBesideEveryEllipseHowFarItHasBeenChecked) {
+  PatientResults results = fake_results(Side::left);
+  for (LesionRow& row : results.rows)
+    if (row.view != "mri") {
+      row.ellipse_major_mm = 33.4, row.ellipse_minor_mm = 11.8, row.ellipse_angle_deg = 2;
+      row.picture_ellipse_major_mm = 13.8, row.picture_ellipse_minor_mm = 9.7;
+      row.picture_ellipse_angle_deg = 45;
+    }
+  const std::string page = render_page(page_data(results, "0.1.0"));
+  // Two cards and the views' note.
+  EXPECT_EQ(count(page, kAccuracyWords), 3u);
+  EXPECT_EQ(count(page,
+                  "Search within 14 × 10 mm of it in the simulated view</b>; no mammogram was "
+                  "searched, so on a real one within 33 × 12 mm."),
+            4u);
+  EXPECT_EQ(count(whole_page(), kAccuracyWords), 3u);  // and where there is no ellipse
 }
 
 TEST(ReportPage, SaysTheSameTwice) {
@@ -137,7 +168,7 @@ TEST(ReportPage, StopsAtTheViewThatDidNotConverge) {
   const std::string page = render_page(page_data(results, "0.1.0"));
   EXPECT_NE(page.find("Not converged"), std::string::npos);
   EXPECT_NE(page.find("stopped at 71.3 mm"), std::string::npos);
-  EXPECT_NE(page.find("L-CC on the detector"), std::string::npos);
+  EXPECT_NE(page.find("L-CC, simulated from"), std::string::npos);
 }
 
 TEST(ReportPicture, IsAPngWithoutAnXServer) {

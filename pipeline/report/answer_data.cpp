@@ -1,0 +1,75 @@
+#include "pipeline/report/answer_data.h"
+
+#include <cmath>
+
+#include "pipeline/report/word.h"
+
+namespace mammotwin {
+namespace {
+
+using nlohmann::json;
+using Number = std::optional<double>;
+
+std::string whole_mm(double mm) { return word::number(std::abs(mm), 0) + " mm"; }
+
+/// "left breast, lower inner, 7 o'clock, middle third, 45 mm from the nipple, 0.8 ml".
+std::string place_words(const LesionRow& row) {
+  std::string words = row.side.empty() ? "" : row.side + " breast, ";
+  words += row.quadrant;
+  if (!row.clock.empty()) words += ", " + row.clock + " o'clock";
+  if (!row.third.empty()) words += ", " + row.third + " third";
+  if (row.nipple_distance_mm)
+    words += ", " + whole_mm(*row.nipple_distance_mm) + " from the nipple";
+  if (row.volume_ml) words += ", " + word::number(*row.volume_ml, 1) + " ml";
+  return words;
+}
+
+/// "36 mm behind the nipple, 31 mm medial".
+std::string view_words(const LesionRow& row) {
+  if (!row.behind_nipple_mm) return "";
+  std::string words = whole_mm(*row.behind_nipple_mm) +
+                      (*row.behind_nipple_mm < 0 ? " in front of" : " behind") + " the nipple";
+  if (const Number& lateral = row.lateral_of_nipple_mm)
+    words += ", " + whole_mm(*lateral) + (*lateral < 0 ? " medial" : " lateral");
+  if (const Number& above = row.above_nipple_mm)
+    words += ", " + whole_mm(*above) + (*above < 0 ? " below" : " above");
+  if (row.detector_u_mm && *row.detector_u_mm < 0)
+    words += "; behind the detector's edge, where a mammogram would not show it";
+  return words;
+}
+
+std::string axes(double major, double minor) {
+  return word::number(major, 0) + " × " + word::number(minor, 0) + " mm";
+}
+
+json view_entry(const LesionRow& row) {
+  std::string search, full;
+  if (row.picture_ellipse_major_mm) {
+    search = "Search within " + axes(*row.picture_ellipse_major_mm, *row.picture_ellipse_minor_mm) +
+             " of it in the simulated view";
+    full = "; no mammogram was registered, so on a real one within " +
+           axes(*row.ellipse_major_mm, *row.ellipse_minor_mm);
+  } else if (row.ellipse_major_mm) {
+    search = "Search within " + axes(*row.ellipse_major_mm, *row.ellipse_minor_mm) + " of it";
+  }
+  return {{"view", title_of_view(row.view)},
+          {"where", view_words(row)},
+          {"search", search},
+          {"full", full}};
+}
+
+}  // namespace
+
+json answer_data(const PatientResults& results) {
+  json lesions = json::array();
+  for (const LesionRow& mri : results.rows) {
+    if (mri.view != "mri") continue;
+    json views = json::array();
+    for (const LesionRow& row : results.rows)
+      if (row.lesion == mri.lesion && row.view != "mri") views.push_back(view_entry(row));
+    lesions.push_back({{"lesion", mri.lesion}, {"place", place_words(mri)}, {"views", views}});
+  }
+  return lesions;
+}
+
+}  // namespace mammotwin
