@@ -114,7 +114,7 @@ TEST(ReportPage, SaysBesideEveryEllipseHowFarItHasBeenChecked) {
   EXPECT_EQ(count(page, kAccuracyWords), 3u);
   EXPECT_EQ(count(page,
                   "Search within 14 × 10 mm of it in the simulated view</b>; no mammogram was "
-                  "searched, so on a real one within 33 × 12 mm."),
+                  "registered, so on a real one within 33 × 12 mm."),
             4u);
   EXPECT_EQ(count(whole_page(), kAccuracyWords), 3u);  // and where there is no ellipse
 }
