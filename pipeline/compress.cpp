@@ -2,6 +2,7 @@
 
 #include "solver/press/compress.h"
 
+#include "fitting/mesh/inverse_map.h"
 #include "pipeline/frame/stage.h"
 #include "pipeline/patient/patient.h"
 #include "pipeline/steps/breast_problem.h"
@@ -62,6 +63,16 @@ MeshFile compressed_file(const MeshFile& reference, const CompressionResult& res
   return file;
 }
 
+SidewaysEscape escape_of(const MeshFile& mesh, const Segmentation& segmentation,
+                         const CompressionResult& result, const CompressedView& view) {
+  const auto with = [&](const std::vector<HermiteMesh::Node>& nodes) {
+    return HermiteMesh(nodes, mesh.mesh.elements());
+  };
+  return sideways_escape(with(result.found), with(result.deformed),
+                         InverseMap(prone_file(mesh).mesh).nearest(segmentation.nipple_in_lps),
+                         view.frame);
+}
+
 /// How far a run that was interrupted had come, if it was of the same problem.
 std::optional<CompressionCheckpoint> interrupted_run(const StageRun& stage) {
   const auto bytes = stage.checkpoint.read();
@@ -99,12 +110,14 @@ Outcome run(const Arguments& args, const Patient& patient, StageRun& stage) {
       view_problem(patient, view, axes, mesh, tissue_of(mesh, segmentation.fractions));
   const CompressionResult result =
       compress_with_checkpoints(problem, patient.compression.options, stage);
-  if (result.report.usable())
-    write_mesh_file(
-        stage.products.write_main(),
-        compressed_file(mesh, result,
-                        view_of_plates(args.view, side, view.angle(), problem.plates, result)));
-  Outcome outcome = judge_compression(result.report, view.angle(), !view.thickness_mm);
+  SidewaysEscape escape;
+  if (result.report.usable()) {
+    const CompressedView pressed =
+        view_of_plates(args.view, side, view.angle(), problem.plates, result);
+    escape = escape_of(mesh, segmentation, result, pressed);
+    write_mesh_file(stage.products.write_main(), compressed_file(mesh, result, pressed));
+  }
+  Outcome outcome = judge_compression(result.report, escape, view.angle(), !view.thickness_mm);
   if (!remarks.empty()) outcome.quality["header"] = remarks;
   return outcome;
 }

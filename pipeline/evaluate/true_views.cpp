@@ -19,6 +19,7 @@ constexpr std::uint64_t kSeed = 8051;
 const Eigen::Vector3i kCoarse{3, 3, 1}, kCoarseTruth{4, 4, 1};
 constexpr double kCoarseVoxel_mm = 1.8;
 constexpr double kSpringFactor = 3, kSkinFactor = 2, kPaddleTilt = 3;  // [-], [-], [deg]
+constexpr double kTrueFriction = 0.45;  // typical of dry skin, above what is assumed
 constexpr double kStiffening = 1;  // at half the thickness, I1 - 3 = 1.25, a modulus of 3.5 times
 
 CompressionSettings true_settings(double stiffness_ratio) {
@@ -33,6 +34,7 @@ CompressionSettings true_settings(double stiffness_ratio) {
   s.boundary.chest_wall_spring *= kSpringFactor;
   s.skin.c1 *= kSkinFactor;
   s.paddle_tilt_deg = kPaddleTilt;
+  s.friction.coefficient = kTrueFriction;
   return s;
 }
 
@@ -126,6 +128,7 @@ TrueView TrueBreast::compress_view(const DrawnView& drawn) const {
       breast_problem(unloaded_, tissue_of(unloaded_, truth_.fractions), settings, 1);
   problem.gravity = gravity_in_lps(Pose::standing);
   problem.density = GravitySettings().density();
+  problem.friction = settings.friction;
   const Eigen::Matrix3d axes = true_axes(side_, drawn);
   settings.shape_plates(problem.plates);
   problem.plates.depth = axes.row(0);

@@ -94,6 +94,7 @@ ViewSolution squeeze(const FittedBreast& breast, CompressionProblem problem, dou
   const Eigen::Matrix3d axes = view_axes(breast.segmentation.region.side, angle_deg);
   problem.plates.depth = axes.row(0);
   problem.plates.up = axes.row(2);
+  problem.friction = CompressionSettings().friction;
   problem.plates.thickness = kCompressedShare * free_thickness(breast.mesh, problem.plates);
   const CompressionResult result = compress(problem, {});
   if (!result.report.usable()) throw std::runtime_error(result.report.reason);

@@ -118,11 +118,9 @@ void declare_compression(Settings& s, CompressionSettings& c) {
            {{"both", Moving::both}, {"paddle", Moving::paddle}},
            "plates that press: both, or the paddle once the support has lifted the breast");
   s.number("compress.friction_coefficient", c.friction.coefficient, {0, 1},
-           "Coulomb friction with the plates");
-  s.number(
-      "compress.holding_friction", c.options.holding_friction, {0, 1},
-      "with which a breast that plates without friction do not hold is pressed again, then with "
-      "twice it; 0: it is not");
+           "Coulomb friction with the plates; 0: none. Dry skin: above 0.2, typically 0.5 "
+           "(Derler, Gerhardt, Tribol. Lett. 45, 2012); on nylon 0.37 +- 0.09 (Zhang, Mak, "
+           "Prosthet. Orthot. Int. 23, 1999)");
   s.number("compress.friction_slip_mm", c.friction.slip, {0.001, 1, "mm"},
            "slip up to which friction is elastic");
   s.number("compress.gap_tolerance_mm", c.options.gap_tolerance, {0.0001, 0.1, "mm"},

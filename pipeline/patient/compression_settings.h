@@ -33,7 +33,7 @@ struct CompressionSettings {
   bool standing_gravity = false;  ///< the breast sags before the plates close
   SkinOptions skin;
   BoundaryOptions boundary;
-  FrictionOptions friction;
+  FrictionOptions friction{.coefficient = 0.3};
   CompressionOptions options;
   double plate_rounding_mm = PlateOptions{}.rounding;
   double wall_clearance_mm = PlateOptions{}.wall_clearance;

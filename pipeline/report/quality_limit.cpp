@@ -40,7 +40,8 @@ constexpr Limit kOfViews[] = {
     {"", "volume_change", -limits::volume_change, limits::volume_change, ""},
     {"", "max_penetration_mm", -kNone, limits::penetration_mm, " mm"},
     {"", "J_within_half", limits::share_of_sane_J, kNone, ""},
-    {"", "held_by_friction", -kNone, 0, ""},
+    {"", "swing_mm", -limits::swing_mm, limits::swing_mm, " mm"},
+    {"", "roll_deg", -kNone, limits::roll_deg, "°"},
 };
 
 std::string shown(double value, const char* unit) {

@@ -38,7 +38,6 @@ json quality_of(const CompressionReport& r, double angle_deg) {
           {"J_within_half", r.J_within_half},
           {"max_penetration_mm", r.max_penetration_mm},
           {"retained_fraction", r.retained_fraction},
-          {"held_by_friction", r.held_by_friction},
           {"wall_gap_mm", r.wall_gap_mm},
           {"steps", r.steps},
           {"cutbacks", r.cutbacks},
@@ -56,7 +55,8 @@ std::string sentence(const char* format, double value, double limit) {
 
 }  // namespace
 
-Outcome judge_compression(const CompressionReport& r, double angle_deg, bool assumed_thickness) {
+Outcome judge_compression(const CompressionReport& r, const SidewaysEscape& escape,
+                          double angle_deg, bool assumed_thickness) {
   Outcome outcome;
   outcome.quality = quality_of(r, angle_deg);
   outcome.quality["thickness_assumed"] = assumed_thickness;
@@ -65,6 +65,8 @@ Outcome judge_compression(const CompressionReport& r, double angle_deg, bool ass
     outcome.reasons = {r.reason};
     return outcome;
   }
+  outcome.quality["swing_mm"] = escape.swing_mm;
+  outcome.quality["roll_deg"] = escape.roll_deg;
   const auto doubt = [&](bool doubtful, const std::string& reason) {
     if (!doubtful) return;
     outcome.status = Status::look;
@@ -79,10 +81,13 @@ Outcome judge_compression(const CompressionReport& r, double angle_deg, bool ass
   doubt(r.max_penetration_mm > limits::penetration_mm,
         sentence("a plate went %.3f mm into the breast; expected under %.1f mm",
                  r.max_penetration_mm, limits::penetration_mm));
-  doubt(r.held_by_friction > 0,
-        sentence("between plates without friction the breast slips out or finds no equilibrium; a "
-                 "friction coefficient of %.2f was taken to hold it",
-                 r.held_by_friction, 0));
+  doubt(std::abs(escape.swing_mm) > limits::swing_mm,
+        sentence("the nipple swung %.0f mm to the side between the plates; mammograms show less "
+                 "than %.0f mm",
+                 std::abs(escape.swing_mm), limits::swing_mm));
+  doubt(escape.roll_deg > limits::roll_deg,
+        sentence("the breast rolled over by %.0f degrees between the plates; expected under %.0f",
+                 escape.roll_deg, limits::roll_deg));
   doubt(r.J_within_half < limits::share_of_sane_J,
         sentence("volume is locally kept within half at %.1f %% of the points; expected %.0f %%",
                  100 * r.J_within_half, 100 * limits::share_of_sane_J));

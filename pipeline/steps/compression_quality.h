@@ -1,13 +1,14 @@
 #pragma once
 
 #include "pipeline/frame/outcome.h"
+#include "pipeline/steps/sideways_escape.h"
 #include "solver/press/compress.h"
 
 namespace mammotwin {
 
 /// The outcome of a compression: its quality figures (design, section 1) and whether they hold.
-/// `assumed_thickness`: nobody said how thick the compressed breast was.
-Outcome judge_compression(const CompressionReport& report, double angle_deg,
-                          bool assumed_thickness);
+/// `escape`: of a usable one. `assumed_thickness`: nobody said how thick the compressed breast was.
+Outcome judge_compression(const CompressionReport& report, const SidewaysEscape& escape,
+                          double angle_deg, bool assumed_thickness);
 
 }  // namespace mammotwin

@@ -9,6 +9,9 @@ inline constexpr double thickness_error_mm = 0.1;  ///< compressed thickness off
 inline constexpr double volume_change = 0.01;      ///< share, either way
 inline constexpr double penetration_mm = 0.1;      ///< of a plate
 inline constexpr double share_of_sane_J = 0.99;    ///< of points, at least, with J within half of 1
+/// Mammograms show the nipple at the front and the breast spread, not rolled over.
+inline constexpr double swing_mm = 20;  ///< of the nipple along the plates' edges, either way
+inline constexpr double roll_deg = 20;  ///< of the tissue between the plates
 /// Strain beyond which a neo-Hookean breast with these moduli is not to be believed unseen.
 inline constexpr double stretch_p95 = 1.5;
 

@@ -1,6 +1,7 @@
 #include "pipeline/steps/solution_record.h"
 
 #include <array>
+#include <stdexcept>
 
 #include "fitting/mesh/metadata_field.h"
 
@@ -9,6 +10,7 @@ namespace {
 
 constexpr const char* kPressure = "pressure_kpa";
 constexpr const char* kPlates = "plates";
+constexpr const char* kHolds = "friction_holds";
 
 /// The field `plates`, number by number.
 constexpr std::array kPlateNumbers = {&SolutionRecord::support_height_mm,
@@ -18,6 +20,30 @@ constexpr std::array kPlateNumbers = {&SolutionRecord::support_height_mm,
                                       &SolutionRecord::penalty_kpa_per_mm,
                                       &SolutionRecord::target_thickness_mm};
 
+/// Of each: point, plate, anchor, pressure.
+constexpr std::size_t kHoldNumbers = 6;
+
+std::vector<double> numbers_of(const std::vector<PlateFriction::Hold>& holds) {
+  std::vector<double> all;
+  for (const PlateFriction::Hold& h : holds)
+    all.insert(all.end(), {double(h.point), double(h.plate), h.anchor.x(), h.anchor.y(),
+                           h.anchor.z(), h.pressure});
+  return all;
+}
+
+std::vector<PlateFriction::Hold> holds_from(const std::vector<double>& n, const std::string& name) {
+  if (n.size() % kHoldNumbers != 0)
+    throw std::runtime_error(name + ": the field " + kHolds + " has " + std::to_string(n.size()) +
+                             " numbers; expected " + std::to_string(kHoldNumbers) + " a point");
+  std::vector<PlateFriction::Hold> holds;
+  for (std::size_t i = 0; i < n.size(); i += kHoldNumbers)
+    holds.push_back({static_cast<int>(n[i]),
+                     static_cast<int>(n[i + 1]),
+                     {n[i + 2], n[i + 3], n[i + 4]},
+                     n[i + 5]});
+  return holds;
+}
+
 }  // namespace
 
 void write_solution(const SolutionRecord& solution, MeshFile& file) {
@@ -25,6 +51,8 @@ void write_solution(const SolutionRecord& solution, MeshFile& file) {
   std::vector<double>& plates = file.metadata[kPlates];
   plates.clear();
   for (const auto number : kPlateNumbers) plates.push_back(solution.*number);
+  file.metadata.erase(kHolds);
+  if (!solution.holds.empty()) file.metadata[kHolds] = numbers_of(solution.holds);
 }
 
 std::optional<SolutionRecord> read_solution(const MeshFile& file, const std::string& name) {
@@ -35,12 +63,15 @@ std::optional<SolutionRecord> read_solution(const MeshFile& file, const std::str
   SolutionRecord solution;
   solution.pressure_kpa = pressure->second;
   for (std::size_t i = 0; i < plates->size(); ++i) solution.*kPlateNumbers[i] = (*plates)[i];
+  if (const auto holds = file.metadata.find(kHolds); holds != file.metadata.end())
+    solution.holds = holds_from(holds->second, name);
   return solution;
 }
 
 void erase_solution(MeshFile& file) {
   file.metadata.erase(kPressure);
   file.metadata.erase(kPlates);
+  file.metadata.erase(kHolds);
 }
 
 }  // namespace mammotwin

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "fitting/mesh/mesh_file.h"
+#include "solver/contact/plate_friction.h"
 
 namespace mammotwin {
 
@@ -13,10 +14,11 @@ struct SolutionRecord {
   std::vector<double> pressure_kpa;  ///< of every pressure unknown
   double support_height_mm = 0;      ///< of the support's face along the beam
   double paddle_height_mm = 0;
-  double edge_mm = 0;              ///< of the plates' rear edges along depth
-  double lateral_middle_mm = 0;    ///< of the plates, sideways
-  double penalty_kpa_per_mm = 0;   ///< of contact
-  double target_thickness_mm = 0;  ///< asked of the plates
+  double edge_mm = 0;                      ///< of the plates' rear edges along depth
+  double lateral_middle_mm = 0;            ///< of the plates, sideways
+  double penalty_kpa_per_mm = 0;           ///< of contact
+  double target_thickness_mm = 0;          ///< asked of the plates
+  std::vector<PlateFriction::Hold> holds;  ///< of friction
 };
 
 void write_solution(const SolutionRecord& solution, MeshFile& file);

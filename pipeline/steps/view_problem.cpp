@@ -39,6 +39,8 @@ CompressionProblem changed(const Patient& patient, const ViewSettings& view, Sid
   }
   problem.laws = stiffer.laws(stiffness_factor_of(mesh, patient.compression));
   problem.boundary.chest_wall_spring *= std::exp(state[kSprings]);
+  problem.friction.coefficient =
+      std::clamp(problem.friction.coefficient + state[kFriction], 0.0, 1.0);
   problem.plates.thickness = thickness_mm + state[kThickness];
   problem.plates.lift += state[kLift];
   problem.plates.wall_clearance = std::max(0.0, problem.plates.wall_clearance + state[kClearance]);
@@ -80,7 +82,7 @@ CompressionProblem view_problem(const Patient& patient, const ViewSettings& view
 void remember_solution(const CompressionResult& result, MeshFile& file) {
   write_solution({result.pressure, result.plates.support_height, result.plates.paddle_height,
                   result.plates.edge, result.plates.lateral_middle, result.penalty,
-                  result.report.target_thickness_mm},
+                  result.report.target_thickness_mm, result.holds},
                  file);
 }
 
@@ -97,6 +99,7 @@ std::optional<NearbySolver> nearby_solver(const Patient& patient, const Compress
   result.plates.edge = solution->edge_mm;
   result.plates.lateral_middle = solution->lateral_middle_mm;
   result.penalty = solution->penalty_kpa_per_mm;
+  result.holds = solution->holds;
   result.report.target_thickness_mm = solution->target_thickness_mm;
   result.report.thickness_mm = view.thickness_mm;
   ViewSettings settings = patient.view(view.name);

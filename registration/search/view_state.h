@@ -6,7 +6,7 @@
 namespace mammotwin {
 
 /// What may differ between a view as it was computed from header and settings and as it was taken.
-/// The first seven change the mechanics, the last three only where the breast lies on the detector.
+/// The first eight change the mechanics, the last three only where the breast lies on the detector.
 enum StateNumber {
   kThickness,           ///< distance of the plates [mm]
   kRoll,                ///< positioner angle [deg]
@@ -15,6 +15,7 @@ enum StateNumber {
   kTilt,                ///< paddle's front lower [deg]
   kStiffnessRatio,      ///< ln of fibroglandular over fat; one for both views
   kSprings,             ///< ln of the chest wall's springs; one for both views
+  kFriction,            ///< coefficient with the plates [-]; one for both views
   kMechanical,          ///< how many of these
   kTurn = kMechanical,  ///< in the detector's plane, from depth towards lateral [deg]
   kShiftDepth,          ///< [mm]
@@ -22,23 +23,24 @@ enum StateNumber {
   kStates
 };
 
-inline bool shared_by_views(int number) { return number == kStiffnessRatio || number == kSprings; }
+inline bool shared_by_views(int number) { return number >= kStiffnessRatio && number <= kFriction; }
 
 /// Differences from what header and settings say, in the units above.
 using ViewState = Eigen::Matrix<double, kStates, 1>;
 
 /// Names as they stand in sidecars.
 inline constexpr std::array<const char*, kStates> kStateNames = {
-    "thickness_mm",       "roll_deg",   "lift_mm",  "clearance_mm",   "tilt_deg",
-    "ln_stiffness_ratio", "ln_springs", "turn_deg", "shift_depth_mm", "shift_lateral_mm"};
+    "thickness_mm", "roll_deg",           "lift_mm",         "clearance_mm",
+    "tilt_deg",     "ln_stiffness_ratio", "ln_springs",      "friction",
+    "turn_deg",     "shift_depth_mm",     "shift_lateral_mm"};
 
 /// Standard deviations before any mammogram is looked at. Thickness as read off machines (a few mm:
 /// compression paddles bend); angle and pose as radiographers differ; moduli by a factor of two as
 /// the literature does, springs by a factor of three as they are only known to lie in 0.02 to
-/// 0.2 kPa/mm.
+/// 0.2 kPa/mm, friction as it differs between people and materials (Zhang and Mak 1999).
 inline ViewState prior_sd() {
   ViewState sd;
-  sd << 3, 4, 4, 4, 2, 0.7, 1.1, 3, 4, 12;
+  sd << 3, 4, 4, 4, 2, 0.7, 1.1, 0.15, 3, 4, 12;
   return sd;
 }
 

@@ -89,6 +89,37 @@ void PlateFriction::commit(const Model& model, const State& state,
              });
 }
 
+std::vector<PlateFriction::Hold> PlateFriction::holds(
+    const Model& model, const State& state, const std::vector<std::pair<int, int>>& faces) const {
+  std::vector<Hold> all;
+  for_points(
+      model, state, contact_->points1d, faces, [&](const SurfacePoint& point, const Vector3d& x) {
+        for (std::size_t p = 0; p < contact_->plates.size(); ++p) {
+          const int number = static_cast<int>(p);
+          const Contact& contact = at(point, number);
+          if (contact.pressure == 0) continue;
+          all.push_back(
+              {point.index, number, x - slip(x, contact, contact_->plates[p]), contact.pressure});
+        }
+      });
+  return all;
+}
+
+void PlateFriction::hold(const std::vector<Hold>& holds, const Model& model, const State& state,
+                         const std::vector<std::pair<int, int>>& faces) {
+  const int points = model.num_surface_points(), plates = static_cast<int>(contact_->plates.size());
+  history_.clear();
+  commit(model, state, faces);
+  for (Contact& contact : history_) contact.pressure = 0;
+  for (const Hold& hold : holds) {
+    if (hold.point < 0 || hold.point >= points || hold.plate < 0 || hold.plate >= plates)
+      throw std::invalid_argument("a point that friction holds belongs to another mesh");
+    Contact& contact = history_[hold.point * plates + hold.plate];
+    contact.anchor = contact_->plates[hold.plate].to_local(hold.anchor);
+    contact.pressure = hold.pressure;
+  }
+}
+
 Vector3d PlateFriction::traction(const Vector3d& x, const SurfacePoint& point, int plate) const {
   const Contact& contact = at(point, plate);
   if (contact.pressure == 0) return Vector3d::Zero();

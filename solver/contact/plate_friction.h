@@ -36,6 +36,13 @@ class PlateFriction : public SurfacePotential {
   };
   using History = std::vector<Contact>;  ///< all that a load step leaves to the next
 
+  /// What holds one touching point, for solves near the state in which it touches.
+  struct Hold {
+    int point = 0, plate = 0;
+    Eigen::Vector3d anchor = Eigen::Vector3d::Zero();  ///< in space [mm]
+    double pressure = 0;                               ///< [kPa]
+  };
+
   /// Throws std::invalid_argument unless 0 < coefficient <= 1 and slip > 0. slip: δ [mm].
   PlateFriction(std::shared_ptr<const PlateContact> contact, double coefficient, double slip);
 
@@ -46,6 +53,16 @@ class PlateFriction : public SurfacePotential {
   /// way. The first call, with the plates at their start, sets them.
   void commit(const Model& model, const State& state,
               const std::vector<std::pair<int, int>>& faces);
+
+  /// What holds a state that was tracked. Anchors stand in space and not on the plates: plates that
+  /// a problem puts elsewhere have not dragged the skin there.
+  std::vector<Hold> holds(const Model& model, const State& state,
+                          const std::vector<std::pair<int, int>>& faces) const;
+
+  /// Begins at a state that was solved elsewhere and was held so. Other points are free.
+  /// Throws std::invalid_argument if a hold is of no point or plate.
+  void hold(const std::vector<Hold>& holds, const Model& model, const State& state,
+            const std::vector<std::pair<int, int>>& faces);
 
   const History& history() const { return history_; }
   void restore(History history) { history_ = std::move(history); }

@@ -96,12 +96,12 @@ CompressionReport report_from(const json& from) {
 std::vector<std::uint8_t> encode_checkpoint(const CompressionCheckpoint& c,
                                             const std::string& run) {
   return json::to_cbor({{"run", run},
+                        {"found", to_json(c.found)},
                         {"load", to_json(c.load)},
                         {"before", to_json(c.before)},
                         {"reached", to_json(c.reached)},
                         {"tilt", c.tilt},
                         {"penalty", c.penalty},
-                        {"friction", c.friction},
                         {"sticking", to_json(c.sticking)},
                         {"report", to_json(c.report)}});
 }
@@ -111,12 +111,12 @@ CompressionCheckpoint decode_checkpoint(const std::vector<std::uint8_t>& bytes,
   try {
     const json from = json::from_cbor(bytes);
     if (from.at("run") != run) throw std::runtime_error("it is of another run");
-    return {load_from(from.at("load")),
+    return {nodes_from(from.at("found")),
+            load_from(from.at("load")),
             good_step_from(from.at("before")),
             good_step_from(from.at("reached")),
             from.at("tilt"),
             from.at("penalty"),
-            from.at("friction"),
             history_from(from.at("sticking")),
             report_from(from.at("report"))};
   } catch (const std::exception& error) {

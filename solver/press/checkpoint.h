@@ -16,11 +16,11 @@ struct CompressionCheckpoint {
     double fraction = 0;  ///< of the way
     State state;
   };
+  std::vector<HermiteMesh::Node> found;  ///< before the plates closed
   LoadSteppingReport load;
   GoodStep before, reached;  ///< the last two good steps
   double tilt = 0;           ///< of the paddle [deg]
   double penalty = 0;        ///< [kPa/mm]; 0: none yet
-  double friction = 0;       ///< coefficient
   PlateFriction::History sticking;
   CompressionReport report;  ///< history and counts
 };

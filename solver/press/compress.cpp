@@ -68,6 +68,7 @@ class Compression {
   void record(const LoadSteppingReport& load, const State& state, const NewtonReport& newton);
   LoadSteppingReport close_plates(State& state);
   void judge(const LoadSteppingReport& load, const State& state);
+  CompressionResult result_at(const State& state) const;
   void count(const NewtonReport& newton);
 
   const CompressionProblem& problem_;
@@ -155,7 +156,6 @@ void Compression::record(const LoadSteppingReport& load, const State& state,
   good_.penalty = press_.penalty();
   good_.sticking = press_.commit_friction(state);
   good_.report = report_;
-  good_.friction = problem_.friction.coefficient;
   lost_ = slipped_out(press_, state);
   if (restart_.keep) restart_.keep(good_);
   if (progress_)
@@ -203,6 +203,7 @@ bool Compression::begin(State& state) {
   if (!restart_.from) {
     if (!settle(state)) return false;
     place(0);
+    good_.found = state.x;
     good_.reached = {0, state};
     good_.sticking = press_.commit_friction(state);
     return true;
@@ -247,17 +248,23 @@ LoadSteppingReport Compression::close_plates(State& state) {
   return load;
 }
 
+CompressionResult Compression::result_at(const State& state) const {
+  return {
+      state.x, good_.found, state.pressure, press_.placed(), press_.penalty(), press_.holds(state),
+      {},      report_};
+}
+
 CompressionResult Compression::run() {
   const auto start = std::chrono::steady_clock::now();
   State state;
-  if (!begin(state)) return {state.x, state.pressure, press_.placed(), 0, {}, report_};
+  if (!begin(state)) return {state.x, state.x, state.pressure, press_.placed(), 0, {}, {}, report_};
   const LoadSteppingReport load = close_plates(state);
   measure_compression(press_, state, report_);
   judge(load, state);
   if (report_.usable()) report_.energy_force_N = force_from_energy(press_, state);
   report_.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (progress_) progress_(1, "compressed to " + in_mm(report_.thickness_mm));
-  CompressionResult result{state.x, state.pressure, press_.placed(), press_.penalty(), {}, report_};
+  CompressionResult result = result_at(state);
   if (report_.usable()) result.fields = solution_fields(press_, state);
   return result;
 }
@@ -269,11 +276,13 @@ CompressionResult Compression::run_from(const CompressionResult& near) {
     throw std::invalid_argument("the result to start from belongs to another mesh");
   state.x = near.deformed;
   state.pressure = near.pressure;
+  good_.found = near.found;
   const double apart = near.plates.paddle_height - near.plates.support_height;
   place(1);
   press_.move_paddle(press_.placed().support_height + problem_.plates.thickness + apart -
                          near.report.target_thickness_mm,
                      good_.tilt);
+  press_.hold_by_friction(near.holds, state);
   NewtonReport newton = press_.squeeze(state, near.penalty);
   if (newton.usable()) newton = then(newton, press_.resettle(state));
   count(newton);
@@ -283,15 +292,7 @@ CompressionResult Compression::run_from(const CompressionResult& near) {
   if (load.complete()) count(finish_compression(press_, press_.penalty(), state));
   measure_compression(press_, state, report_);
   judge(load, state);
-  return {state.x, state.pressure, press_.placed(), press_.penalty(), {}, report_};
-}
-
-/// Those to try one after the other until one holds the breast.
-std::vector<double> friction_coefficients(const CompressionProblem& problem,
-                                          const CompressionOptions& options) {
-  const double own = problem.friction.coefficient, holding = options.holding_friction;
-  if (own > 0 || holding == 0) return {own};
-  return {0, holding, std::min(1.0, 2 * holding)};
+  return result_at(state);
 }
 
 }  // namespace
@@ -305,23 +306,7 @@ TissueLaws TissueLaws::defaults() {
 CompressionResult compress(const CompressionProblem& problem, const CompressionOptions& options,
                            const Progress& progress, const CompressionRestart& restart) {
   check_shape(problem);
-  const std::vector<double> coefficients = friction_coefficients(problem, options);
-  CompressionProblem posed = problem;
-  CompressionRestart from_here = restart;
-  std::size_t attempt = 0;
-  if (restart.from)
-    while (attempt + 1 < coefficients.size() && coefficients[attempt] < restart.from->friction)
-      ++attempt;
-  for (;; ++attempt) {
-    posed.friction.coefficient = coefficients[attempt];
-    CompressionResult result = Compression(posed, options, progress, from_here).run();
-    result.report.held_by_friction = attempt > 0 ? coefficients[attempt] : 0;
-    if (result.report.usable() || attempt + 1 == coefficients.size()) return result;
-    if (progress)
-      progress(0, std::string(result.report.slipped_out ? "slipped out" : "no equilibrium") +
-                      "; once more with more friction");
-    from_here.from = nullptr;
-  }
+  return Compression(problem, options, progress, restart).run();
 }
 
 CompressionResult compress_from(const CompressionResult& near, const CompressionProblem& problem,

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "fitting/mesh/mesh_file.h"
+#include "solver/contact/plate_friction.h"
 #include "solver/contact/plate_placement.h"
 #include "solver/element/solid_element.h"
 #include "solver/material/mixture.h"
@@ -91,11 +92,7 @@ struct CompressionOptions {
   double first_step = 1;              ///< of the way, in (0, 1]
   double longest_move = 10;           ///< of a plate in one load step [mm] > 0
   double smallest_step = 1.0 / 64;    ///< give up below this part of the way
-  int max_iterations = 500;           ///< Newton iterations in all, of each attempt
-  /// A breast that slips out from between frictionless plates, or finds no equilibrium there, is
-  /// pressed again with this coefficient of friction, then with twice it, and the report says so;
-  /// 0: it is not. In [0, 1].
-  double holding_friction = 0.2;
+  int max_iterations = 500;           ///< Newton iterations of the load steps together
   /// Of the tissue in front of the plates' edges, in [0, 1): where less stays there the breast
   /// counts as slipped out.
   double least_retained = 0.5;
@@ -129,7 +126,6 @@ struct CompressionReport {
   double max_penetration_mm = 0;
   double retained_fraction = 1;  ///< of the tissue in front of the plates' edges, how much stays
   bool slipped_out = false;      ///< backwards from between the plates
-  double held_by_friction = 0;   ///< coefficient of friction that was needed; 0: none
   double wall_gap_mm = 0;        ///< largest distance of the chest-wall face from its surface
   double seconds = 0;
   int dof = 0;
@@ -139,9 +135,11 @@ struct CompressionReport {
 
 struct CompressionResult {
   std::vector<HermiteMesh::Node> deformed;   ///< at the last good step
+  std::vector<HermiteMesh::Node> found;      ///< as the plates found the breast: at rest
   std::vector<double> pressure;              ///< 8 an element (State::pressure)
   PlacedPlates plates;                       ///< where they ended
   double penalty = 0;                        ///< of contact in the end [kPa/mm]
+  std::vector<PlateFriction::Hold> holds;    ///< of friction in the end; empty without
   std::map<std::string, PointField> fields;  ///< press/solution_fields.h; empty if not usable
   CompressionReport report;
 };
@@ -168,7 +166,7 @@ CompressionResult compress(const CompressionProblem& problem, const CompressionO
 
 /// The same from the result of a slightly different problem on the same mesh (thickness, plates'
 /// place, stiffness), in a tenth of the iterations; it stays on that result's branch of equilibria.
-/// `energy_force_N` is not computed, and friction starts anew.
+/// `energy_force_N` is not computed. Friction holds it as it held that result.
 CompressionResult compress_from(const CompressionResult& near, const CompressionProblem& problem,
                                 const CompressionOptions& options);
 

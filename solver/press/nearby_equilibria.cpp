@@ -27,9 +27,7 @@ NearbyEquilibria::NearbyEquilibria(const CompressionResult& near, const Compress
 }
 
 NearbyEquilibria::Posed NearbyEquilibria::posed(const CompressionProblem& problem) const {
-  CompressionProblem smooth = problem;
-  smooth.friction.coefficient = 0;
-  Posed posed{make_breast_model(smooth, options_.solid), {}, nullptr};
+  Posed posed{make_breast_model(problem, options_.solid), {}, nullptr};
   const PlateFrame frame(problem.mesh, problem.plates);
   const PlacedPlates asked =
       PlateWay(frame, problem, options_.moving).at(1, problem.plates.paddle_tilt);
@@ -39,6 +37,9 @@ NearbyEquilibria::Posed NearbyEquilibria::posed(const CompressionProblem& proble
       frame.place(asked.support_height, asked.support_height + apart, problem.plates.paddle_tilt);
   posed.breast.contact->plates = {posed.plates.support, posed.plates.paddle};
   posed.breast.contact->penalty = near_.penalty;
+  if (posed.breast.friction)
+    posed.breast.friction->hold(near_.holds, *posed.breast.model, state_,
+                                posed.breast.contact_faces);
   posed.assembler = std::make_unique<Assembler>(*posed.breast.model, *posed.breast.dofs);
   posed.assembler->linearise(state_, {});
   return posed;

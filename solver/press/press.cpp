@@ -96,4 +96,13 @@ void Press::restore_friction(const PlateFriction::History& history) {
   if (breast_.friction) breast_.friction->restore(history);
 }
 
+std::vector<PlateFriction::Hold> Press::holds(const State& state) const {
+  if (!breast_.friction) return {};
+  return breast_.friction->holds(*breast_.model, state, breast_.contact_faces);
+}
+
+void Press::hold_by_friction(const std::vector<PlateFriction::Hold>& holds, const State& state) {
+  if (breast_.friction) breast_.friction->hold(holds, *breast_.model, state, breast_.contact_faces);
+}
+
 }  // namespace mammotwin

@@ -62,6 +62,10 @@ class Press {
   PlateFriction::History commit_friction(const State& state);
   void restore_friction(const PlateFriction::History& history);
 
+  /// What friction holds a state by, and a start from there; nothing without friction.
+  std::vector<PlateFriction::Hold> holds(const State& state) const;
+  void hold_by_friction(const std::vector<PlateFriction::Hold>& holds, const State& state);
+
  private:
   const CompressionProblem& problem_;
   const CompressionOptions& options_;

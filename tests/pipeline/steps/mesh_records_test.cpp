@@ -16,7 +16,7 @@ MeshFile block() { return {block_mesh({0, 0, 0}, {60, 60, 60}, {1, 1, 1}), {}, {
 TEST_F(MeshRecords, ASolutionComesBackNumberByNumber) {
   MeshFile file = block();
   EXPECT_FALSE(read_solution(file, "cc.vtu"));
-  write_solution({{1.5, -2}, 1, 2, 3, 4, 5, 6}, file);
+  write_solution({{1.5, -2}, 1, 2, 3, 4, 5, 6, {{7, 1, {8, 9, 10}, 11}}}, file);
   const auto found = read_solution(file, "cc.vtu");
   ASSERT_TRUE(found);
   EXPECT_EQ(found->pressure_kpa, (std::vector<double>{1.5, -2}));
@@ -26,6 +26,11 @@ TEST_F(MeshRecords, ASolutionComesBackNumberByNumber) {
   EXPECT_EQ(found->lateral_middle_mm, 4);
   EXPECT_EQ(found->penalty_kpa_per_mm, 5);
   EXPECT_EQ(found->target_thickness_mm, 6);
+  ASSERT_EQ(found->holds.size(), 1u);
+  EXPECT_EQ(found->holds[0].point, 7);
+  EXPECT_EQ(found->holds[0].plate, 1);
+  EXPECT_EQ(found->holds[0].anchor, Eigen::Vector3d(8, 9, 10));
+  EXPECT_EQ(found->holds[0].pressure, 11);
   erase_solution(file);
   EXPECT_FALSE(read_solution(file, "cc.vtu"));
 }

@@ -77,6 +77,33 @@ TEST(PlateFriction, HistoryBringsAStepBack) {
   EXPECT_EQ(block.force(), Eigen::Vector3d::Zero());
 }
 
+TEST(PlateFriction, HoldsAPointThatSticksWhereItWas) {
+  PressedBlock block;
+  block.slide(0.04, 0);
+  const auto holds = block.friction->holds(block.model, block.state, block.faces);
+  block.friction->hold(holds, block.model, block.state, block.faces);
+  EXPECT_NEAR((block.force() - Eigen::Vector3d(-19.2, 0, 0)).norm(), 0, 1e-9);
+  block.slide(-0.04, 0);
+  EXPECT_NEAR(block.force().norm(), 0, 1e-9);
+}
+
+TEST(PlateFriction, HoldsAPointThatSlidesWhereverThePlateIsPutThen) {
+  PressedBlock block;
+  block.slide(0.3, 0.4);
+  block.friction->commit(block.model, block.state, block.faces);
+  const auto holds = block.friction->holds(block.model, block.state, block.faces);
+  block.contact->plates[0].point.x() += 5;
+  block.friction->hold(holds, block.model, block.state, block.faces);
+  EXPECT_NEAR((block.force() - Eigen::Vector3d(-18, -24, 0)).norm(), 0, 1e-9);
+}
+
+TEST(PlateFriction, RefusesAHoldOfAnotherMesh) {
+  PressedBlock block;
+  EXPECT_THROW(
+      block.friction->hold({{1000, 0, {0, 0, 0}, 1}}, block.model, block.state, block.faces),
+      std::invalid_argument);
+}
+
 TEST(PlateFriction, ForgetsWhereAPointStoodThatLeftThePlate) {
   PressedBlock block;
   block.slide(0.5, 0);

@@ -147,25 +147,56 @@ TEST(Compress, RefusesStiffnessThatIsNotPositive) {
   EXPECT_NE(refusal(problem).find("chest-wall spring"), std::string::npos);
 }
 
-// Plates far from the chest wall, hardly any springs, 0.8 of the thickness: nothing but friction
-// holds the breast between them.
-TEST(Compress, HoldsByFrictionABreastThatSlipsOut) {
+/// Plates far from the chest wall, hardly any springs, 0.8 of the thickness: nothing but friction
+/// holds the breast between them.
+CompressionReport loosely_held(double friction) {
   CompressionProblem problem = dome_problem(22, false);
   problem.mesh = dome_breast({3, 3, 1});
   problem.boundary.chest_wall_spring = 0.01;
   problem.plates.wall_clearance = 25;
-  CompressionOptions options;
-  options.holding_friction = 0;
-  const CompressionReport lost = compress(problem, options).report;
+  problem.friction.coefficient = friction;
+  return compress(problem, {}).report;
+}
+
+TEST(Compress, SaysThatABreastSlippedOutAndDoesNotHoldItByItself) {
+  const CompressionReport lost = loosely_held(0);
   EXPECT_FALSE(lost.usable());
   EXPECT_TRUE(lost.slipped_out);
   EXPECT_NE(lost.reason.find("slipped out backwards"), std::string::npos) << lost.reason;
-  options.holding_friction = 0.1;  // too little; twice that is enough
-  const CompressionReport held = compress(problem, options).report;
+}
+
+TEST(Compress, FrictionHoldsABreastThatWouldSlipOut) {
+  const CompressionReport held = loosely_held(0.2);
   ASSERT_TRUE(held.usable()) << held.reason;
-  EXPECT_EQ(held.held_by_friction, 0.2);
   EXPECT_NEAR(held.thickness_mm, 22, 0.1);
   EXPECT_GT(held.retained_fraction, 0.5);
+}
+
+// Friction's holds come with the result. With them the same problem is in balance where it was, to
+// the tolerance of friction's pressures (0.0013 mm); without them the skin springs back (0.07 mm).
+TEST(Compress, GoesOnFromAResultAsFrictionHeldIt) {
+  CompressionProblem problem = squeezed_problem();
+  problem.mesh = dome_breast({3, 3, 1});
+  problem.friction.coefficient = 0.3;
+  const CompressionResult whole = compress(problem, {});
+  ASSERT_TRUE(whole.report.usable()) << whole.report.reason;
+  ASSERT_FALSE(whole.holds.empty());
+  CompressionOptions plates_stay;
+  plates_stay.thickness_tolerance = 1e3;
+  plates_stay.gap_tolerance = 0.5;
+  const auto move_of = [&](const CompressionResult& near) {
+    const CompressionResult again = compress_from(near, problem, plates_stay);
+    EXPECT_TRUE(again.report.usable()) << again.report.reason;
+    double move = 0;
+    for (std::size_t i = 0; i < whole.deformed.size(); ++i)
+      move = std::max(move, (again.deformed[i] - whole.deformed[i]).col(0).norm());
+    return move;
+  };
+  CompressionResult forgotten = whole;
+  forgotten.holds.clear();
+  const double with = move_of(whole), without = move_of(forgotten);
+  EXPECT_GT(without, 0.03);
+  EXPECT_LT(with, 0.1 * without);
 }
 
 TEST(Compress, SaysHowFarItCameWhereItCannotGoOn) {

@@ -1,0 +1,71 @@
+#include "pipeline/steps/sideways_escape.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <numbers>
+
+#include "fitting/mesh/block_mesh.h"
+#include "pipeline/steps/compression_quality.h"
+#include "pipeline/steps/quality_limits.h"
+
+namespace mammotwin {
+namespace {
+
+HermiteMesh mapped(const HermiteMesh& mesh, const Eigen::Matrix3d& map, const Eigen::Vector3d& by) {
+  std::vector<HermiteMesh::Node> nodes = mesh.nodes();
+  for (HermiteMesh::Node& node : nodes) {
+    node = (map * node).eval();
+    node.col(0) += by;
+  }
+  return {nodes, mesh.elements()};
+}
+
+const HermiteMesh kBlock = block_mesh({-40, -60, -30}, {40, 0, 30}, {2, 2, 2});
+const MeshPoint kFront{4, {0.5, 0, 0.5}};
+
+ViewFrame cc() { return {{0, 100, 0}, view_axes(Side::left, 0)}; }
+
+// Flattening along the beam with spreading across it is no roll, however strong.
+TEST(SidewaysEscape, IsNoneOfASpread) {
+  const Eigen::Matrix3d spread = Eigen::Vector3d(1.5, 1.3, 0.5).asDiagonal();
+  const auto escape = sideways_escape(kBlock, mapped(kBlock, spread, {0, 0, 7}), kFront, cc());
+  EXPECT_NEAR(escape.roll_deg, 0, 1e-5);
+}
+
+// Turned by 25 degrees about depth and carried on so that the nipple moves 12 mm to the left.
+TEST(SidewaysEscape, IsTheTurnAndTheNipplesMoveAlongTheEdges) {
+  const Eigen::Matrix3d turn(
+      Eigen::AngleAxisd(25 * std::numbers::pi / 180, Eigen::Vector3d::UnitY()));
+  const HermiteMesh moved = mapped(kBlock, turn, {0, 0, 0});
+  const Eigen::Vector3d by = Eigen::Vector3d(12, 3, 5) - moved.position(kFront) +
+                             kBlock.position(kFront);  // the nipple moves by just this
+  const auto escape = sideways_escape(kBlock, mapped(kBlock, turn, by), kFront, cc());
+  EXPECT_NEAR(escape.roll_deg, 25, 1e-9);
+  EXPECT_NEAR(escape.swing_mm, 12, 1e-9);
+}
+
+// What lies behind the plates' edges does not count: here all that turns.
+TEST(SidewaysEscape, LeavesOutWhatIsBehindTheEdges) {
+  ViewFrame far = cc();
+  far.origin_in_lps = {0, -200, 0};
+  const Eigen::Matrix3d turn(Eigen::AngleAxisd(0.5, Eigen::Vector3d::UnitY()));
+  EXPECT_EQ(sideways_escape(kBlock, mapped(kBlock, turn, {0, 0, 0}), kFront, far).roll_deg, 0);
+}
+
+TEST(SidewaysEscape, BeyondItsLimitsIsToBeLookedAt) {
+  CompressionReport report;
+  report.status = CompressionStatus::converged;
+  report.thickness_mm = report.target_thickness_mm = 50;
+  report.free_thickness_mm = 100;
+  report.J_within_half = 1;
+  const auto status = [&](double swing, double roll) {
+    return judge_compression(report, {swing, roll}, 0, false).status;
+  };
+  EXPECT_EQ(status(-limits::swing_mm + 0.1, limits::roll_deg - 0.1), Status::ok);
+  EXPECT_EQ(status(-limits::swing_mm - 0.1, 0), Status::look);
+  EXPECT_EQ(status(0, limits::roll_deg + 0.1), Status::look);
+}
+
+}  // namespace
+}  // namespace mammotwin
