@@ -20,12 +20,14 @@ override CONFIG := $(value CONFIG)
 override PREFIX := $(value PREFIX)
 override CASES := $(value CASES)
 override SYNTHETIC := $(value SYNTHETIC)
-export P DATA RESULTS FORCE BIN SEED PATIENTS JOBS ONLY ENGINE CONFIG PREFIX CASES SYNTHETIC
+override CHANGES := $(value CHANGES)
+override VIEWS := $(value VIEWS)
+export P DATA RESULTS FORCE BIN SEED PATIENTS JOBS ONLY ENGINE CONFIG PREFIX CASES SYNTHETIC CHANGES VIEWS
 unexport MAKEFLAGS MAKEOVERRIDES
 
 .PHONY: help patient segment fit unload compress register report slicer paraview synthesize cohort verify-results \
         evaluate-segmentation evaluate-fitting evaluate-compression evaluate-unload evaluate-registration \
-        evaluate-outlines evaluate-mammograms evaluate-real-pairs evaluate-niftysim evaluate-victre measured validate bench chain programs configured \
+        evaluate-stability evaluate-outlines evaluate-mammograms evaluate-real-pairs evaluate-niftysim evaluate-victre measured validate bench chain programs configured \
         configured_to_test install docs test clean
 .NOTPARALLEL:  # ninja itself uses all cores
 .DEFAULT_GOAL := help
@@ -46,6 +48,9 @@ help:
 	@echo 'make evaluate-unload   takes gravity off every breast of CASES: RESULTS/evaluation/unload.json'
 	@echo 'make evaluate-compression   compresses SYNTHETIC=200 drawn breasts and those of CASES=folder in'
 	@echo '                       both views: RESULTS/evaluation/compression.json; JOBS=2 at a time'
+	@echo 'make evaluate-stability  presses the label maps of CASES again with their input changed in ways that must'
+	@echo '                       not matter: RESULTS/evaluation/stability.json; ONLY="Exam_02-left Exam_04",'
+	@echo '                       CHANGES="turn_5 mirror", VIEWS=cc (hours for all)'
 	@echo 'make evaluate-registration  registers SYNTHETIC=10 patients with mammograms of another model:'
 	@echo '                       RESULTS/evaluation/registration.json; JOBS=2 at a time'
 	@echo 'make evaluate-real-pairs CASES=folder   patients with lesions marked on mammograms (marks.csv):'
@@ -96,6 +101,10 @@ evaluate-unload: mammotwin-evaluate-unload
 evaluate-compression: mammotwin-evaluate-compression
 	@"$$BIN/mammotwin-evaluate-compression" "$$RESULTS/evaluation/compression.json" --cases "$$CASES" \
 	  $${SYNTHETIC:+--synthetic "$$SYNTHETIC"} $${JOBS:+--jobs "$$JOBS"} $${ONLY:+--only "$$ONLY"}
+
+evaluate-stability: mammotwin-evaluate-stability
+	@"$$BIN/mammotwin-evaluate-stability" "$$CASES" "$$RESULTS/evaluation/stability.json" \
+	  $${ONLY:+--only $$ONLY} $${CHANGES:+--changes $$CHANGES} $${VIEWS:+--views $$VIEWS}
 
 evaluate-registration: mammotwin-evaluate-registration
 	@"$$BIN/mammotwin-evaluate-registration" "$$RESULTS/evaluation/registration.json" \
