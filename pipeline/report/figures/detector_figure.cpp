@@ -178,7 +178,7 @@ struct DetectorView {
   DetectorImage simulated;
   Section section;
   std::string name;    ///< "L-CC"
-  std::string hidden;  ///< sentences on lesions that no mammogram shows
+  std::string hidden;  ///< sentences on lesions behind the detector's edge
 };
 
 DetectorView detector_view(const PatientResults& results, const ViewResult& view) {
@@ -188,8 +188,8 @@ DetectorView detector_view(const PatientResults& results, const ViewResult& view
       detector_section(image, view.view.side, left_of_window(results, projection));
   std::string hidden;
   for (const std::string& lesion : behind_edge(results, projection))
-    hidden +=
-        " Lesion " + lesion + " lies behind the detector's edge: a mammogram would not show it.";
+    hidden += " Lesion " + lesion +
+              " is predicted behind the detector's edge: a mammogram may not show it.";
   const std::string name =
       (view.view.side == Side::right ? "R-" : "L-") + title_of_view(view.view.name);
   return {std::move(projection), std::move(image), section, name, hidden};
