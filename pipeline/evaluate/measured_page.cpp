@@ -1,6 +1,7 @@
 #include "pipeline/evaluate/measured_page.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -69,7 +70,7 @@ std::string number_text(double value, const MeasuredColumn& column) {
   char text[64];
   std::snprintf(text, sizeof text, "%.*f", column.digits, value);
   const bool missed =
-      column.aim && (column.worst_is_least ? value < *column.aim : value > *column.aim);
+      column.aim && (column.worst_is_least ? value < *column.aim : std::abs(value) > *column.aim);
   return missed ? "**" + std::string(text) + "**" : text;
 }
 
@@ -100,7 +101,8 @@ std::string summary_cell(const std::vector<const json*>& rows, const MeasuredCol
   if (asked > 0) return std::to_string(held) + " of " + std::to_string(asked);
   if (numbers.empty()) return "";
   std::sort(numbers.begin(), numbers.end());
-  const double worst = column.worst_is_least ? numbers.front() : numbers.back();
+  const double worst =
+      column.worst_is_least || -numbers.front() > numbers.back() ? numbers.front() : numbers.back();
   return number_text(median_of_sorted(numbers), column) + ", " + number_text(worst, column);
 }
 

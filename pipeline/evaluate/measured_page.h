@@ -13,7 +13,7 @@ struct MeasuredColumn {
   std::string heading;  ///< with its unit
   int digits = 2;       ///< after the point
   bool worst_is_least = false;
-  std::optional<double> aim;  ///< what misses it (above; below where the least is worst) is bold
+  std::optional<double> aim;  ///< what misses it (larger in size; below where the least is worst)
 };
 
 /// What a page of docs/measured says of the file that an evaluation wrote.

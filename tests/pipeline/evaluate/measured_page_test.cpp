@@ -53,6 +53,14 @@ TEST(MeasuredPage, HasALineForEachCaseAndLeavesOutWhatIsNotKnown) {
   EXPECT_NE(text.find("| b | **0.75** |  | **no** |"), std::string::npos) << text;
 }
 
+TEST(MeasuredPage, TheWorstOfSignedNumbersIsTheLargestInSize) {
+  json rows = kRows;
+  rows["cases"][1]["rms_mm"] = -0.75;
+  const std::string text = measured_markdown(small_page(), rows);
+  EXPECT_NE(text.find("| all | 3 | 0.10, **-0.75** |"), std::string::npos) << text;
+  EXPECT_NE(text.find("| b | **-0.75** |"), std::string::npos) << text;
+}
+
 TEST(MeasuredPage, GroupsTheSummary) {
   MeasuredPage page = small_page();
   page.group_by = "ok";
