@@ -47,7 +47,7 @@ for stage in segment fit unload compress register report; do
     if [ "$stage" != report ] && report "$@"; then
       echo "$P stopped at $stage; what is known is in $out/report.html" >&2
     else
-      echo "$P stopped at $stage, and there is no page of it: mend what is said above first" >&2
+      echo "$P stopped at $stage; there is no page of it: mend what is said above first" >&2
     fi
     exit "$status"
   }
