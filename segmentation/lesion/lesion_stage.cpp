@@ -35,10 +35,11 @@ void check_inside(const HalfBreast& half, const Volume<float>& to_inside, const 
     message.precision(2);
     message << off << " mm ";
   }
-  message << "outside the " << to_string(half.side) << " breast"
-          << (on_grid && half.body(v.x(), v.y(), v.z()) ? ", behind the chest wall" : "")
-          << "; expected a point between its skin and chest wall in LPS [mm] (is it in cm, in RAS, or "
-             "of the other side?)";
+  message
+      << "outside the " << to_string(half.side) << " breast"
+      << (on_grid && half.body(v.x(), v.y(), v.z()) ? ", behind the chest wall" : "")
+      << "; expected a point between its skin and chest wall in LPS [mm] (is it in cm, in RAS, or "
+         "of the other side?)";
   throw std::runtime_error(message.str());
 }
 
