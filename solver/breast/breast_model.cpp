@@ -193,4 +193,11 @@ BreastModel make_breast_model(const CompressionProblem& problem, const SolidOpti
   return breast;
 }
 
+void hold_by_friction(BreastModel& breast, const std::vector<PlateFriction::Hold>& holds,
+                      const State& state, double frozen_mm) {
+  if (!breast.friction) return;
+  breast.friction->hold(holds, *breast.model, state, breast.contact_faces);
+  if (frozen_mm > 0) breast.friction->freeze(frozen_mm, *breast.model, state, breast.contact_faces);
+}
+
 }  // namespace mammotwin

@@ -29,4 +29,8 @@ struct BreastModel {
 /// Throws std::invalid_argument that names what is wrong with the problem.
 BreastModel make_breast_model(const CompressionProblem& problem, const SolidOptions& solid);
 
+/// Friction as it held a state that was solved elsewhere; frozen_mm: PlateFriction::freeze; 0: not.
+void hold_by_friction(BreastModel& breast, const std::vector<PlateFriction::Hold>& holds,
+                      const State& state, double frozen_mm);
+
 }  // namespace mammotwin

@@ -10,17 +10,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// h with its slope over s and its curvature (plate_friction.h), s >= 0.
-struct SlipEnergy {
-  double energy, slope_over_slip, curvature;
-};
-
-SlipEnergy slip_energy(double s, double limit) {
-  if (s >= limit) return {s - limit / 3, 1 / s, 0};
-  const double share = s / limit;
-  return {s * share * (1 - share / 3), (2 - share) / limit, 2 * (1 - share) / limit};
-}
-
 template <class Visit>
 void for_points(const Model& model, const State& state, int points1d,
                 const std::vector<std::pair<int, int>>& faces, Visit visit) {
@@ -46,6 +35,13 @@ PlateFriction::PlateFriction(std::shared_ptr<const PlateContact> contact, double
                                 " mm; expected a positive length");
 }
 
+PlateFriction::SlipEnergy PlateFriction::energy(double s) const {
+  if (reach_ > 0) return {s * s / (2 * reach_), 1 / reach_, 1 / reach_};
+  if (s >= slip_) return {s - slip_ / 3, 1 / s, 0};
+  const double share = s / slip_;
+  return {s * share * (1 - share / 3), (2 - share) / slip_, 2 * (1 - share) / slip_};
+}
+
 const PlateFriction::Contact& PlateFriction::at(const SurfacePoint& point, int plate) const {
   return history_[point.index * contact_->plates.size() + plate];
 }
@@ -57,6 +53,7 @@ Vector3d PlateFriction::slip(const Vector3d& x, const Contact& contact, const Pl
 
 void PlateFriction::track(const Model& model, const State& state,
                           const std::vector<std::pair<int, int>>& faces) {
+  if (reach_ > 0) return;
   const std::size_t plates = contact_->plates.size();
   history_.resize(model.num_surface_points() * plates);
   for_points(
@@ -72,6 +69,7 @@ void PlateFriction::track(const Model& model, const State& state,
 
 void PlateFriction::commit(const Model& model, const State& state,
                            const std::vector<std::pair<int, int>>& faces) {
+  if (reach_ > 0) return;
   const bool first = history_.empty();
   track(model, state, faces);
   const std::size_t plates = contact_->plates.size();
@@ -92,16 +90,16 @@ void PlateFriction::commit(const Model& model, const State& state,
 std::vector<PlateFriction::Hold> PlateFriction::holds(
     const Model& model, const State& state, const std::vector<std::pair<int, int>>& faces) const {
   std::vector<Hold> all;
-  for_points(
-      model, state, contact_->points1d, faces, [&](const SurfacePoint& point, const Vector3d& x) {
-        for (std::size_t p = 0; p < contact_->plates.size(); ++p) {
-          const int number = static_cast<int>(p);
-          const Contact& contact = at(point, number);
-          if (contact.pressure == 0) continue;
-          all.push_back(
-              {point.index, number, x - slip(x, contact, contact_->plates[p]), contact.pressure});
-        }
-      });
+  for_points(model, state, contact_->points1d, faces,
+             [&](const SurfacePoint& point, const Vector3d& x) {
+               for (std::size_t p = 0; p < contact_->plates.size(); ++p) {
+                 const int number = static_cast<int>(p);
+                 const Contact& contact = at(point, number);
+                 if (contact.pressure == 0) continue;
+                 const Vector3d s = slip(x, contact, contact_->plates[p]);
+                 all.push_back({point.index, number, x - s, contact.pressure, reach_});
+               }
+             });
   return all;
 }
 
@@ -109,6 +107,7 @@ void PlateFriction::hold(const std::vector<Hold>& holds, const Model& model, con
                          const std::vector<std::pair<int, int>>& faces) {
   const int points = model.num_surface_points(), plates = static_cast<int>(contact_->plates.size());
   history_.clear();
+  reach_ = 0;
   commit(model, state, faces);
   for (Contact& contact : history_) contact.pressure = 0;
   for (const Hold& hold : holds) {
@@ -117,14 +116,31 @@ void PlateFriction::hold(const std::vector<Hold>& holds, const Model& model, con
     Contact& contact = history_[hold.point * plates + hold.plate];
     contact.anchor = contact_->plates[hold.plate].to_local(hold.anchor);
     contact.pressure = hold.pressure;
+    reach_ = hold.reach;
   }
+}
+
+void PlateFriction::freeze(double reach, const Model& model, const State& state,
+                           const std::vector<std::pair<int, int>>& faces) {
+  if (reach_ > 0) return;
+  for_points(model, state, contact_->points1d, faces,
+             [&](const SurfacePoint& point, const Vector3d& x) {
+               for (std::size_t p = 0; p < contact_->plates.size(); ++p) {
+                 const Plate& plate = contact_->plates[p];
+                 Contact& contact = history_[point.index * contact_->plates.size() + p];
+                 if (contact.pressure == 0) continue;
+                 const Vector3d s = slip(x, contact, plate);
+                 contact.anchor = plate.to_local(x - reach * energy(s.norm()).slope_over_slip * s);
+               }
+             });
+  reach_ = reach;
 }
 
 Vector3d PlateFriction::traction(const Vector3d& x, const SurfacePoint& point, int plate) const {
   const Contact& contact = at(point, plate);
   if (contact.pressure == 0) return Vector3d::Zero();
   const Vector3d s = slip(x, contact, contact_->plates[plate]);
-  return -coefficient_ * contact.pressure * slip_energy(s.norm(), slip_).slope_over_slip * s;
+  return -coefficient_ * contact.pressure * energy(s.norm()).slope_over_slip * s;
 }
 
 bool PlateFriction::respond(const Eigen::Matrix<double, 9, 1>& y, const SurfacePoint& point,
@@ -142,7 +158,7 @@ bool PlateFriction::respond(const Eigen::Matrix<double, 9, 1>& y, const SurfaceP
     const double limit = coefficient_ * contact.pressure;
     const Vector3d s = slip(y.head<3>(), contact, contact_->plates[p]);
     const double length = s.norm();
-    const SlipEnergy h = slip_energy(length, slip_);
+    const SlipEnergy h = energy(length);
     response.energy += limit * h.energy;
     response.gradient.head<3>() += limit * h.slope_over_slip * s;
     if (order < 2) continue;

@@ -41,6 +41,7 @@ class PlateFriction : public SurfacePotential {
     int point = 0, plate = 0;
     Eigen::Vector3d anchor = Eigen::Vector3d::Zero();  ///< in space [mm]
     double pressure = 0;                               ///< [kPa]
+    double reach = 0;                                  ///< of frozen friction [mm]; 0: Coulomb's
   };
 
   /// Throws std::invalid_argument unless 0 < coefficient <= 1 and slip > 0. slip: δ [mm].
@@ -64,6 +65,13 @@ class PlateFriction : public SurfacePotential {
   void hold(const std::vector<Hold>& holds, const Model& model, const State& state,
             const std::vector<std::pair<int, int>>& faces);
 
+  /// After `hold` at the same state: tractions stay as they are there, and points that move along
+  /// their plate are drawn back as by springs that reach μ t at `reach` [mm] > 0. Pressures and
+  /// normals are not followed any more, so that one potential holds for all states. What is held
+  /// by frozen friction stays as it is.
+  void freeze(double reach, const Model& model, const State& state,
+              const std::vector<std::pair<int, int>>& faces);
+
   const History& history() const { return history_; }
   void restore(History history) { history_ = std::move(history); }
 
@@ -75,12 +83,17 @@ class PlateFriction : public SurfacePotential {
                SurfaceResponse& response) const override;
 
  private:
+  struct SlipEnergy {  ///< h with its slope over s and its curvature
+    double energy, slope_over_slip, curvature;
+  };
   const Contact& at(const SurfacePoint& point, int plate) const;
+  SlipEnergy energy(double slip) const;
   Eigen::Vector3d slip(const Eigen::Vector3d& x, const Contact& contact, const Plate& plate) const;
 
   std::shared_ptr<const PlateContact> contact_;
   double coefficient_, slip_;
-  History history_;  ///< by surface point, then plate
+  double reach_ = 0;  ///< of frozen friction's springs [mm]; 0: not frozen
+  History history_;   ///< by surface point, then plate
 };
 
 }  // namespace mammotwin

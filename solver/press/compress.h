@@ -96,6 +96,9 @@ struct CompressionOptions {
   /// Of the tissue in front of the plates' edges, in [0, 1): where less stays there the breast
   /// counts as slipped out.
   double least_retained = 0.5;
+  /// In `compress_from`: friction's tractions stay those of the result that it starts from, but for
+  /// springs of this reach [mm] > 0 (PlateFriction::freeze); 0: they follow Coulomb's law.
+  double frozen_friction = 0;
 };
 
 struct CompressionStep {

@@ -16,7 +16,7 @@ namespace mammotwin {
 ///
 /// where r is the residual at the fixed state and K its derivative there, factored once, both with
 /// the pressures eliminated. Plates stand where `compress_from` would put them. Friction holds with
-/// the contact pressures of the state; a paddle's spring is left out.
+/// the contact pressures of the state, exact where it is frozen; a paddle's spring is left out.
 class NearbyEquilibria {
  public:
   /// A step from the equilibrium, with the plates as they then stand.

@@ -102,7 +102,8 @@ std::vector<PlateFriction::Hold> Press::holds(const State& state) const {
 }
 
 void Press::hold_by_friction(const std::vector<PlateFriction::Hold>& holds, const State& state) {
-  if (breast_.friction) breast_.friction->hold(holds, *breast_.model, state, breast_.contact_faces);
+  mammotwin::hold_by_friction(breast_, holds, state, options_.frozen_friction);
+  if (options_.frozen_friction > 0) breast_.contact->follow = {};
 }
 
 }  // namespace mammotwin

@@ -97,6 +97,23 @@ TEST(PlateFriction, HoldsAPointThatSlidesWhereverThePlateIsPutThen) {
   EXPECT_NEAR((block.force() - Eigen::Vector3d(-18, -24, 0)).norm(), 0, 1e-9);
 }
 
+// 24 of at most 30 N; each 0.5 mm is a quarter of the reach, so a quarter of the 30.
+TEST(PlateFriction, FrozenItKeepsItsForceAndGivesWayLikeASpring) {
+  PressedBlock block;
+  block.slide(0, -0.055278640450004204);  // where the elastic slip bears 0.8 of the limit
+  block.friction->freeze(2, block.model, block.state, block.faces);
+  EXPECT_NEAR((block.force() - Eigen::Vector3d(0, 24, 0)).norm(), 0, 1e-9);
+  block.slide(0.5, 0);
+  block.friction->track(block.model, block.state, block.faces);
+  block.friction->commit(block.model, block.state, block.faces);
+  const Eigen::Vector3d moved = block.force();
+  EXPECT_NEAR((moved - Eigen::Vector3d(-7.5, 24, 0)).norm(), 0, 1e-9);
+  const auto holds = block.friction->holds(block.model, block.state, block.faces);
+  block.friction->hold(holds, block.model, block.state, block.faces);
+  block.friction->freeze(2, block.model, block.state, block.faces);
+  EXPECT_NEAR((block.force() - moved).norm(), 0, 1e-9);
+}
+
 TEST(PlateFriction, RefusesAHoldOfAnotherMesh) {
   PressedBlock block;
   EXPECT_THROW(
