@@ -1,0 +1,28 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "pipeline/evaluate/cases/label_maps.h"
+
+namespace mammotwin {
+
+/// `side = "left"` of a patient.toml.
+std::string side_toml(Side side);
+/// [labels] of a patient.toml whose segmentation is a label map made elsewhere.
+std::string labels_toml(const std::filesystem::path& label_map);
+
+/// One breast of a folder of cases: a label map's, or that of a patient's MRI on the side of the
+/// radiologist's first lesion.
+struct RealBreast {
+  std::string name;
+  Side side = Side::left;
+  std::string patient_toml;
+};
+
+/// label_maps/*_labels.nii.gz, both sides of each, then mri/ of each folder that holds a
+/// radiologist's contours, lesions_radiologist.json.
+std::vector<RealBreast> real_breasts(const std::filesystem::path& cases);
+
+}  // namespace mammotwin

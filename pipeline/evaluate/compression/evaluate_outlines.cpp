@@ -1,0 +1,106 @@
+// evaluate-outlines: compressed CC breasts -> how their outlines compare with real patients'.
+
+#include <cstdio>
+
+#include "pipeline/evaluate/cases/evaluation_table.h"
+#include "pipeline/evaluate/cases/stage_command.h"
+#include "pipeline/evaluate/compression/outline_row.h"
+#include "pipeline/frame/command_line.h"
+
+namespace mammotwin {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+struct Arguments {
+  fs::path population, table;
+  std::vector<std::string> views;
+  bool press = false;
+};
+
+void declare(CommandLine& command, Arguments& args) {
+  command.option("population", args.population, "folder with PCAmean.csv, PCA1.csv ...")
+      .required()
+      .existing_folder();
+  command.option("table", args.table, "outlines.json to write").required();
+  command.option("views", args.views, "breasts compressed in CC (cc.vtu)")
+      .required()
+      .existing_file();
+  command.flag("--press", args.press,
+               "press each breast to the thickness that is typical of its volume first, from what "
+               "stands beside it "
+               "(segmentation.seg.nrrd, fractions.nrrd, unloaded.vtu or prone.vtu, and "
+               "patient.toml if it is there); results go to the "
+               "folder outlines beside the table");
+}
+
+constexpr int kMostCpuSeconds = 1800;
+
+/// A breast's view at the thickness to which radiographers press its volume. What lies there
+/// already and is current is kept. Throws std::runtime_error where no such view comes out.
+fs::path pressed_typically(const fs::path& view, const OutlinePopulation& population,
+                           const fs::path& beside) {
+  const fs::path from = fs::absolute(view).parent_path();
+  const fs::path folder = beside / from.filename();
+  fs::create_directories(folder);
+  const json row = outline_row(read_mesh_file(view), population);
+  const fs::path mesh = from / (fs::exists(from / "unloaded.vtu") ? "unloaded.vtu" : "prone.vtu");
+  const fs::path product = folder / "cc.vtu";
+  std::vector<std::string> words{"cc",
+                                 (from / "segmentation.seg.nrrd").string(),
+                                 (from / "fractions.nrrd").string(),
+                                 mesh.string(),
+                                 product.string(),
+                                 "--views-cc-thickness-mm",
+                                 std::to_string(row["typical_thickness_mm"].get<double>())};
+  if (fs::exists(from / "patient.toml"))
+    words.insert(words.end(), {"--patient", (from / "patient.toml").string()});
+  const StageEnd end = run_stage_command("compress", words, folder / "cc.log", kMostCpuSeconds);
+  if (end.exit_code != 0)
+    throw std::runtime_error(view.string() + ": compress ended with code " +
+                             std::to_string(end.exit_code) + "; see " +
+                             (folder / "cc.log").string());
+  return product;
+}
+
+std::string line_of(const json& row) {
+  if (row["within_2_sd"].is_null()) return row["name"].get<std::string>() + ": none";
+  char line[240];
+  std::snprintf(line, sizeof line,
+                "%-24s %5.1f mm (typical %.0f)  within 2 sd %3.0f %%, mean %+.1f, worst %+.1f sd; "
+                "depth %.0f (%.0f), "
+                "width %.0f (%.0f) mm, %.0f (%.0f) ml",
+                row["name"].get<std::string>().c_str(), row["thickness_mm"].get<double>(),
+                row["typical_thickness_mm"].get<double>(), 100 * row["within_2_sd"].get<double>(),
+                row["mean_sd"].get<double>(), row["worst_sd"].get<double>(),
+                row["depth_mm"].get<double>(), row["population_depth_mm"].get<double>(),
+                row["width_mm"].get<double>(), row["population_width_mm"].get<double>(),
+                row["volume_ml"].get<double>(), row["population_volume_ml"].get<double>());
+  return line;
+}
+
+int run(const Arguments& args) {
+  const OutlinePopulation population(args.population);
+  EvaluationTable table(args.table);
+  const fs::path beside = table.folder() / "outlines";
+  for (std::size_t n = 0; n < args.views.size(); ++n) {
+    const std::string& view = args.views[n];
+    const fs::path path = args.press ? pressed_typically(view, population, beside) : fs::path(view);
+    json row = outline_row(read_mesh_file(path), population);
+    row["name"] = fs::absolute(path).parent_path().filename().string();
+    const std::string line = line_of(row);
+    table.add(n, std::move(row), line);
+  }
+  return 0;
+}
+
+}  // namespace
+}  // namespace mammotwin
+
+int main(int argc, char** argv) {
+  using namespace mammotwin;
+  return run_plain_command<Arguments>(
+      argc, argv, "evaluate-outlines",
+      "Compares outlines of breasts compressed in CC with a population of real ones", declare, run);
+}

@@ -1,0 +1,78 @@
+// evaluate-stability: the same breast with its input changed in ways that must not matter -> one
+// table.
+
+#include <algorithm>
+
+#include "pipeline/evaluate/cases/evaluation_table.h"
+#include "pipeline/evaluate/compression/stability_rows.h"
+#include "pipeline/frame/command_line.h"
+
+namespace mammotwin {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Arguments {
+  fs::path cases, table;
+  std::vector<std::string> only, changes, views;
+};
+
+void declare(CommandLine& command, Arguments& args) {
+  command.option("cases", args.cases, "folder with label_maps/*.nii.gz")
+      .required()
+      .existing_folder();
+  command
+      .option("table", args.table,
+              "stability.json to write; each breast's files go to the folder stability beside it")
+      .required();
+  command.option("--only", args.only, "breasts whose name contains one of these (texts)");
+  command.option("--changes", args.changes,
+                 "turn_1, turn_3, turn_5, mirror, half_voxel, elements, thickness (default: all)");
+  command.option("--views", args.views, "cc, mlo (default: both)");
+}
+
+bool is_asked(const std::vector<std::string>& asked, const std::string& name) {
+  return asked.empty() || std::find(asked.begin(), asked.end(), name) != asked.end();
+}
+
+bool contains_one_of(const std::string& name, const std::vector<std::string>& texts) {
+  return texts.empty() || std::any_of(texts.begin(), texts.end(), [&](const std::string& text) {
+           return name.find(text) != std::string::npos;
+         });
+}
+
+std::vector<InputChange> changes_asked(const Arguments& args) {
+  std::vector<InputChange> changes = input_changes();
+  for (const std::string& name : args.changes)
+    if (std::none_of(changes.begin(), changes.end(), [&](auto& c) { return c.name == name; }))
+      throw std::runtime_error("--changes: " + name + " is none of those that the help names");
+  std::erase_if(changes, [&](const auto& c) { return !is_asked(args.changes, c.name); });
+  return changes;
+}
+
+int run(const Arguments& args) {
+  EvaluationTable table(args.table);
+  std::size_t breasts = 0;
+  for (const LabelMapBreast& breast : label_map_breasts(args.cases)) {
+    const std::string name = breast_name(breast);
+    if (!contains_one_of(name, args.only)) continue;
+    StabilityCase asked{breast, table.folder() / "stability" / name, changes_asked(args)};
+    if (!args.views.empty()) asked.views = args.views;
+    add_stability_rows(asked, [&](const nlohmann::json& row) { table.add(breasts, row); });
+    ++breasts;
+  }
+  if (breasts == 0) throw std::runtime_error(args.cases.string() + ": no such breast in it");
+  return 0;
+}
+
+}  // namespace
+}  // namespace mammotwin
+
+int main(int argc, char** argv) {
+  using namespace mammotwin;
+  return run_plain_command<Arguments>(
+      argc, argv, "evaluate-stability",
+      "Presses label maps again with their input changed in ways that must not matter, and writes "
+      "how far tissue moves",
+      declare, run);
+}

@@ -1,0 +1,127 @@
+#include "pipeline/evaluate/compression/outline_row.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "registration/search/silhouette.h"
+#include "registration/view/compressed_view.h"
+
+namespace mammotwin {
+namespace {
+
+using nlohmann::json;
+
+constexpr double kParallel_mm = 1e7;  // source so far away that its rays are parallel
+constexpr double kMostSd = 2;
+
+double angle_deg(int ray) {
+  const Eigen::Vector2d d = ray_direction(ray);
+  return std::atan2(d.y(), d.x()) * 180 / std::numbers::pi;
+}
+
+/// Largest depth and lateral extent of an outline.
+struct Extent {
+  double depth = 0, low = 0, high = 0;
+  void add(double radius, int ray) {
+    const Eigen::Vector2d x = radius * ray_direction(ray);
+    depth = std::max(depth, x.x());
+    low = std::min(low, x.y());
+    high = std::max(high, x.y());
+  }
+  double width() const { return high - low; }
+};
+
+/// Middle of the skin's lateral extent in front of the detector's edge.
+Eigen::Vector2d middle_of(const ReducedView& view) {
+  double low = 1e30, high = -1e30;
+  for (const HermiteMesh::Node& node : view.base)
+    if (node(0, 0) > 0) {
+      low = std::min(low, node(1, 0));
+      high = std::max(high, node(1, 0));
+    }
+  return {0, (low + high) / 2};
+}
+
+constexpr int kSamples =
+    12;  // of an element along each of its axes, each standing for its surroundings
+
+/// Volume of what lies in front of the plates' edge [ml].
+double volume_in_front_ml(const HermiteMesh& mesh, const ViewFrame& frame) {
+  double volume = 0;
+  for (int n = 0; n < kSamples * kSamples * kSamples; ++n) {
+    const Eigen::Vector3d xi =
+        (Eigen::Vector3d(n % kSamples, n / kSamples % kSamples, n / (kSamples * kSamples)).array() +
+         0.5) /
+        kSamples;
+    const HermiteMesh::Weights weights = HermiteMesh::weights(xi);
+    std::array<HermiteMesh::Weights, 3> slopes;
+    for (int i = 0; i < 3; ++i) {
+      std::array<int, 3> orders{};
+      orders[i] = 1;
+      slopes[i] = HermiteMesh::weights(xi, orders);
+    }
+    for (int e = 0; e < mesh.num_elements(); ++e) {
+      if (frame.view_from_lps(mesh.interpolate(e, weights)).x() <= 0) continue;
+      Eigen::Matrix3d J;
+      for (int i = 0; i < 3; ++i) J.col(i) = mesh.interpolate(e, slopes[i]);
+      volume += J.determinant();
+    }
+  }
+  return volume / (1000.0 * kSamples * kSamples * kSamples);
+}
+
+RayDistances outline_of(const MeshFile& file, const CompressedView& geometry) {
+  ReducedView view;
+  view.elements = file.mesh.elements();
+  view.base = in_view(file.mesh.nodes(), geometry.frame);
+  Detector parallel;
+  parallel.source_distance_mm = kParallel_mm;
+  return Silhouette(view, file.faces).at(view, ViewState::Zero(), parallel, middle_of(view));
+}
+
+}  // namespace
+
+json outline_row(const MeshFile& compressed, const OutlinePopulation& population) {
+  const CompressedView view = compressed_view("cc", "the compressed mesh", compressed.metadata);
+  const double volume = volume_in_front_ml(compressed.mesh, view.frame);
+  json row{{"thickness_mm", view.thickness_mm},
+           {"volume_ml", volume},
+           {"typical_thickness_mm", population.typical_thickness_mm(volume)}};
+  for (const char* key : {"population_volume_ml", "compared", "within_2_sd", "mean_sd", "worst_sd",
+                          "depth_mm", "width_mm", "population_depth_mm", "population_width_mm"})
+    row[key] = nullptr;
+  if (view.thickness_mm < OutlinePopulation::kThinnest_mm ||
+      view.thickness_mm > OutlinePopulation::kThickest_mm)
+    return row;
+  row["population_volume_ml"] = population.volume_ml(view.thickness_mm);
+  Extent ours, theirs;
+  int compared = 0, within = 0;
+  double sum = 0, worst = 0;
+  const RayDistances outline = outline_of(compressed, view);
+  for (int ray = 0; ray < kRays; ++ray) {
+    if (!outline[ray]) continue;
+    const OutlinePopulation::Radius radius = population.at(view.thickness_mm, angle_deg(ray));
+    const double off = (*outline[ray] - radius.mean_mm) / radius.sd_mm;
+    ++compared;
+    within += std::abs(off) <= kMostSd;
+    sum += off;
+    if (std::abs(off) > std::abs(worst)) worst = off;
+    ours.add(*outline[ray], ray);
+    theirs.add(radius.mean_mm, ray);
+  }
+  row["compared"] = compared;
+  if (compared == 0) return row;
+  row["within_2_sd"] = static_cast<double>(within) / compared;
+  row["mean_sd"] = sum / compared;
+  row["worst_sd"] = worst;
+  row["depth_mm"] = ours.depth;
+  row["width_mm"] = ours.width();
+  row["population_depth_mm"] = theirs.depth;
+  row["population_width_mm"] = theirs.width();
+  return row;
+}
+
+}  // namespace mammotwin

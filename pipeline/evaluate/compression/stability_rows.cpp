@@ -1,0 +1,285 @@
+#include "pipeline/evaluate/compression/stability_rows.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <optional>
+#include <random>
+#include <sstream>
+#include <stdexcept>
+
+#include "fitting/mesh/inverse_map.h"
+#include "pipeline/evaluate/cases/real_breasts.h"
+#include "pipeline/evaluate/cases/stage_command.h"
+#include "pipeline/frame/products.h"
+#include "pipeline/steps/breast_problem.h"
+#include "pipeline/synthesize/option_table.h"
+#include "registration/view/compressed_view.h"
+#include "segmentation/files/read_image.h"
+#include "segmentation/files/segmentation_file.h"
+#include "segmentation/files/write_image_file.h"
+
+namespace mammotwin {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+constexpr double kPressedTo_mm = 55;
+constexpr int kTissuePoints = 50, kPointSeed = 1;
+constexpr int kMostPressCpuSeconds = 1800;
+
+/// What one compression needs, and where its products go.
+struct StabilityInputs {
+  fs::path folder, labels, segmentation, prone;
+  Side side = Side::left;
+};
+
+void write_labels(const fs::path& path, const Volume<std::uint16_t>& labels) {
+  const std::vector<std::uint8_t> values(labels.values.begin(), labels.values.end());
+  const auto& [size, spacing, origin, all] = labels;
+  write_nrrd(path,
+             {{size.x(), size.y(), size.z()},
+              {spacing.x(), spacing.y(), spacing.z()},
+              {origin.x(), origin.y(), origin.z()}},
+             values.data(), 1, {});
+}
+
+json stage_sidecar(const fs::path& product) {
+  std::ifstream in(product.string() + ".json");
+  return in ? json::parse(in) : json();
+}
+
+/// CPU seconds. Throws std::runtime_error with the stage's reason where it left no product.
+double run_to_product(const std::string& stage, std::vector<std::string> arguments,
+                      const StabilityInputs& inputs, const fs::path& product, int most_seconds) {
+  arguments.push_back(product.string());
+  arguments.insert(arguments.end(), {"--patient", (inputs.folder / "patient.toml").string()});
+  const StageEnd end =
+      run_stage_command(stage, arguments, inputs.folder / (stage + ".log"), most_seconds);
+  if (end.exit_code == 0) return end.cpu_seconds;
+  const json sidecar = stage_sidecar(product);
+  const json reasons = sidecar.is_object() ? sidecar.value("reasons", json()) : json();
+  throw std::runtime_error(stage + ": " +
+                           (reasons.empty() ? "ended with code " + std::to_string(end.exit_code)
+                                            : reasons.front().get<std::string>()));
+}
+
+void write_patient(const StabilityInputs& inputs, double thickness_mm,
+                   const std::optional<Eigen::Vector3i>& elements) {
+  std::ostringstream toml;
+  toml << side_toml(inputs.side) << labels_toml(inputs.labels);
+  if (elements)
+    toml << "[fit]\nelements = [" << elements->x() << ", " << elements->y() << ", " << elements->z()
+         << "]\n";
+  for (const char* view : {"cc", "mlo"})
+    toml << "[views." << view << "]\nthickness_mm = " << thickness_mm << "\n";
+  write_text_atomically(inputs.folder / "patient.toml", toml.str());
+}
+
+fs::path fractions_beside(const fs::path& segmentation) {
+  return segmentation.parent_path() / "fractions.nrrd";
+}
+
+void segment_and_fit(const StabilityInputs& inputs, bool segments) {
+  if (segments) run_to_product("segment", {}, inputs, inputs.segmentation, kMostStageCpuSeconds);
+  run_to_product("fit",
+                 {inputs.segmentation.string(), fractions_beside(inputs.segmentation).string()},
+                 inputs, inputs.prone, kMostStageCpuSeconds);
+}
+
+StabilityInputs base_inputs(const StabilityCase& asked) {
+  StabilityInputs inputs{asked.folder / "base", asked.breast.file, {}, {}, asked.breast.side};
+  inputs.segmentation = inputs.folder / "segmentation.seg.nrrd";
+  inputs.prone = inputs.folder / "prone.vtu";
+  fs::create_directories(inputs.folder);
+  write_patient(inputs, kPressedTo_mm, {});
+  segment_and_fit(inputs, true);
+  return inputs;
+}
+
+/// What the change leaves as it is stays the base's.
+StabilityInputs changed_inputs(const StabilityInputs& base, const InputChange& change,
+                               const Volume<std::uint16_t>& labels) {
+  StabilityInputs inputs = base;
+  inputs.folder = base.folder.parent_path() / change.name;
+  fs::create_directories(inputs.folder);
+  if (change.of_labels()) {
+    inputs.labels = inputs.folder / "labels.nrrd";
+    inputs.segmentation = inputs.folder / "segmentation.seg.nrrd";
+    write_labels(inputs.labels, changed_labels(labels, change));
+  }
+  if (change.mirror) inputs.side = base.side == Side::left ? Side::right : Side::left;
+  std::optional<Eigen::Vector3i> elements;
+  if (change.more_elements != 0) {
+    const std::array<int, 3> n = stage_sidecar(base.prone).at("quality").at("elements");
+    elements = Eigen::Vector3i(n[0], n[1], n[2]).array() + change.more_elements;
+  }
+  write_patient(inputs, kPressedTo_mm + change.thicker_mm, elements);
+  if (!change.of_labels() && !elements) return inputs;
+  inputs.prone = inputs.folder / "prone.vtu";
+  segment_and_fit(inputs, change.of_labels());
+  return inputs;
+}
+
+/// Places in the view's frame, relative to the nipple.
+class PressedPlaces {
+ public:
+  PressedPlaces(const StabilityInputs& inputs, const std::string& view)
+      : file_(read_mesh_file(inputs.folder / (view + ".vtu"))),
+        frame_(compressed_view(view, view + ".vtu", file_.metadata).frame),
+        prone_(prone_file(file_).mesh) {
+    const Segmentation s =
+        read_segmentation(inputs.segmentation, fractions_beside(inputs.segmentation));
+    nipple_ = in_frame(s.nipple_in_lps);
+  }
+  Eigen::Vector3d of(const Eigen::Vector3d& x_prone) const { return in_frame(x_prone) - nipple_; }
+
+ private:
+  Eigen::Vector3d in_frame(const Eigen::Vector3d& x_prone) const {
+    return frame_.view_from_lps(file_.mesh.position(prone_.nearest(x_prone)));
+  }
+  MeshFile file_;
+  ViewFrame frame_;
+  InverseMap prone_;
+  Eigen::Vector3d nipple_ = Eigen::Vector3d::Zero();
+};
+
+/// Prone places to follow: the lesions' and the tissue's.
+struct FollowedPoints {
+  std::vector<Eigen::Vector3d> lesions, tissue;
+
+  explicit FollowedPoints(const StabilityInputs& base) {
+    const Segmentation s =
+        read_segmentation(base.segmentation, fractions_beside(base.segmentation));
+    for (const Lesion& lesion : s.lesions)
+      if (s.region.contains(lesion.centroid_in_lps)) lesions.push_back(lesion.centroid_in_lps);
+    const HermiteMesh mesh = read_mesh_file(base.prone).mesh;
+    std::mt19937 random(kPointSeed);
+    const auto share = [&] { return random() / 4294967296.0; };
+    for (int n = 0; n < kTissuePoints; ++n) {
+      const int element = static_cast<int>(share() * mesh.num_elements());
+      tissue.push_back(mesh.position({element, {share(), share(), share()}}));
+    }
+  }
+};
+
+/// Sorted distances between a point's place in one compression and its place in another.
+std::vector<double> moves(const std::vector<Eigen::Vector3d>& points, const PressedPlaces& base,
+                          const PressedPlaces& changed,
+                          const std::function<Eigen::Vector3d(Eigen::Vector3d)>& counterpart) {
+  std::vector<double> all;
+  for (const Eigen::Vector3d& x : points)
+    all.push_back((changed.of(counterpart(x)) - base.of(x)).norm());
+  std::sort(all.begin(), all.end());
+  return all;
+}
+
+json press_view(const StabilityInputs& inputs, const std::string& view, double& cpu_seconds) {
+  const fs::path product = inputs.folder / (view + ".vtu");
+  cpu_seconds =
+      run_to_product("compress",
+                     {view, inputs.segmentation.string(),
+                      fractions_beside(inputs.segmentation).string(), inputs.prone.string()},
+                     inputs, product, kMostPressCpuSeconds);
+  return stage_sidecar(product).at("quality");
+}
+
+json new_stability_row(const StabilityCase& asked, const std::string& view,
+                       const std::string& change) {
+  json row{{"name", breast_name(asked.breast)}, {"view", view}, {"change", change}};
+  for (const char* key : {"lesion_mm", "tissue_median_mm", "tissue_p95_mm", "force_change",
+                          "swing_mm", "roll_deg", "newton_iterations", "cpu_seconds", "reason"})
+    row[key] = nullptr;
+  return row;
+}
+
+/// One breast under way: its base, then its changes against that.
+class StabilityRun {
+ public:
+  StabilityRun(const StabilityCase& asked)
+      : asked_(asked),
+        labels_(read_labels(asked.breast.file)),
+        base_(base_inputs(asked)),
+        followed_(base_) {}
+
+  json base_row(const std::string& view) {
+    json row = new_stability_row(asked_, view, "none");
+    press_into(row, base_, view);
+    base_force_[view] = row.value("force_N", json());
+    return row;
+  }
+
+  json changed_row(const std::string& view, const InputChange& change) {
+    json row = new_stability_row(asked_, view, change.name);
+    if (base_force_.at(view).is_null()) {
+      row["reason"] = "the breast as it is was not pressed";
+      return row;
+    }
+    try {
+      if (!changed_.contains(change.name))
+        changed_.emplace(change.name, changed_inputs(base_, change, labels_));
+    } catch (const std::exception& error) {
+      row["reason"] = error.what();
+      return row;
+    }
+    const StabilityInputs& inputs = changed_.at(change.name);
+    if (press_into(row, inputs, view)) compare_into(row, inputs, view, change.mirror);
+    return row;
+  }
+
+ private:
+  bool press_into(json& row, const StabilityInputs& inputs, const std::string& view) {
+    try {
+      double cpu_seconds = 0;
+      const json quality = press_view(inputs, view, cpu_seconds);
+      for (const char* key : {"swing_mm", "roll_deg", "newton_iterations", "force_N"})
+        row[key] = quality.at(key);
+      row["cpu_seconds"] = cpu_seconds;
+      return true;
+    } catch (const std::exception& error) {
+      row["reason"] = error.what();
+      return false;
+    }
+  }
+
+  void compare_into(json& row, const StabilityInputs& inputs, const std::string& view,
+                    bool mirror) const {
+    const double plane = mirror_plane(labels_);
+    const auto counterpart = [&](Eigen::Vector3d x) {
+      if (mirror) x.x() = 2 * plane - x.x();
+      return x;
+    };
+    const PressedPlaces base(base_, view), changed(inputs, view);
+    const auto tissue = moves(followed_.tissue, base, changed, counterpart);
+    const auto lesions = moves(followed_.lesions, base, changed, counterpart);
+    if (!lesions.empty()) row["lesion_mm"] = lesions.back();
+    row["tissue_median_mm"] = (tissue[kTissuePoints / 2 - 1] + tissue[kTissuePoints / 2]) / 2;
+    row["tissue_p95_mm"] = tissue[static_cast<std::size_t>(std::ceil(0.95 * kTissuePoints)) - 1];
+    row["force_change"] = row.at("force_N").get<double>() / base_force_.at(view).get<double>() - 1;
+  }
+
+  const StabilityCase& asked_;
+  const Volume<std::uint16_t> labels_;
+  const StabilityInputs base_;
+  const FollowedPoints followed_;
+  std::map<std::string, json> base_force_;          ///< by view; null: it was not pressed
+  std::map<std::string, StabilityInputs> changed_;  ///< by change
+};
+
+}  // namespace
+
+std::string breast_name(const LabelMapBreast& breast) {
+  return breast.exam + "-" + name_of(breast.side);
+}
+
+void add_stability_rows(const StabilityCase& asked,
+                        const std::function<void(const nlohmann::json&)>& add) {
+  StabilityRun run(asked);
+  for (const std::string& view : asked.views) add(run.base_row(view));
+  for (const InputChange& change : asked.changes)
+    for (const std::string& view : asked.views) add(run.changed_row(view, change));
+}
+
+}  // namespace mammotwin

@@ -1,0 +1,84 @@
+// evaluate-registration: synthetic patients with known marks, from MRI and mammograms -> one table.
+
+#include <iostream>
+#include <sstream>
+
+#include "pipeline/evaluate/cases/evaluation_table.h"
+#include "pipeline/evaluate/registration/registration_case.h"
+#include "pipeline/evaluate/registration/registration_rows.h"
+#include "pipeline/frame/command_line.h"
+
+namespace mammotwin {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+struct Arguments {
+  fs::path table;
+  int synthetic = 10, first = 0, jobs = 2;
+  bool coarse = false, judge = false;
+};
+
+void declare(CommandLine& command, Arguments& args) {
+  command
+      .option("table", args.table,
+              "registration.json to write; each patient's files go to the folder registration "
+              "beside it")
+      .required();
+  command.option("--synthetic", args.synthetic, "patients").between(1, 10000).with_default();
+  command.option("--first", args.first, "the first of them").between(0, 10000).with_default();
+  command.option("--jobs", args.jobs, "patients at a time, each on all cores [1 to 64]")
+      .between(1, 64)
+      .with_default();
+  command.flag("--coarse", args.coarse,
+               "few elements in the truth and in the model: seconds a patient, to try it out");
+  command.flag("--judge", args.judge, "judge what lies there, without making or running anything");
+}
+
+json evaluate(int number, const fs::path& folder, const Arguments& args) {
+  json row = empty_registration_row();
+  row["name"] = "synthetic-" + std::to_string(number);
+  row["reason"] = nullptr;
+  try {
+    if (!args.judge) {
+      make_registration_case(number, args.coarse, folder);
+      run_registration_case(folder);
+    }
+    row.update(registration_row(folder));
+  } catch (const std::exception& error) {
+    row["reason"] = error.what();
+  }
+  return row;
+}
+
+std::string line_of(const json& row) {
+  std::ostringstream line;
+  line << row["name"] << " " << row["reason"] << " CC " << row["tre_cc_mm"] << " MLO "
+       << row["tre_mlo_mm"] << " 3-D " << row["tre_3d_mm"] << " mm";
+  return line.str();
+}
+
+int run(const Arguments& args) {
+  EvaluationTable table(args.table);
+  work_through(args.synthetic, args.jobs, [&](std::size_t n) {
+    const int number = args.first + static_cast<int>(n);
+    const std::string name = "synthetic-" + std::to_string(number);
+    json row = evaluate(number, table.folder() / "registration" / name, args);
+    const std::string line = line_of(row);
+    table.add(n, std::move(row), line);
+  });
+  std::cerr << registration_summary(table.rows());
+  return 0;
+}
+
+}  // namespace
+}  // namespace mammotwin
+
+int main(int argc, char** argv) {
+  using namespace mammotwin;
+  return run_plain_command<Arguments>(argc, argv, "evaluate-registration",
+                                      "Registers synthetic patients with mammograms of another "
+                                      "model, and writes how far off the marks are",
+                                      declare, run);
+}

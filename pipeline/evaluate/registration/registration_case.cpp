@@ -1,0 +1,137 @@
+#include "pipeline/evaluate/registration/registration_case.h"
+
+#include <fstream>
+#include <iomanip>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <stdexcept>
+
+#include "pipeline/evaluate/cases/patient_chain.h"
+#include "pipeline/evaluate/registration/true_mammogram.h"
+#include "pipeline/frame/products.h"
+#include "pipeline/synthesize/counter_random.h"
+#include "pipeline/synthesize/nrrd_file.h"
+#include "pipeline/synthesize/patient_files.h"
+
+namespace mammotwin {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+constexpr int kMostChests = 30;  // of the drawn build: not every chest carries every breast
+/// Not mri.nrrd: `segment`, whose products stand in the same folder, leaves its part of the MRI
+/// there.
+constexpr const char* kScan = "scan.nrrd";
+constexpr int kPoints = 20;  // landmarks beside the lesions
+
+SyntheticPatient make_drawn(int number, bool coarse, DrawnPatient& drawn) {
+  for (int attempt = 0;; ++attempt) {
+    drawn = draw_registration(number, coarse, attempt);
+    try {
+      return make_patient(drawn.patient);
+    } catch (const std::invalid_argument&) {
+      if (attempt + 1 == kMostChests) throw;
+    }
+  }
+}
+
+struct Landmark3d {
+  std::string name;
+  Eigen::Vector3d prone_in_lps;
+};
+
+/// The lesions, and voxels of gland or fat drawn evenly from the breast in front of the chest wall.
+std::vector<Landmark3d> landmarks_of(const Segmentation& truth, int number) {
+  std::vector<Landmark3d> all;
+  for (const Lesion& lesion : truth.lesions) all.push_back({lesion.id, lesion.centroid_in_lps});
+  CounterRandom random(number, 77);
+  const auto& f = truth.fractions;
+  while (all.size() < truth.lesions.size() + kPoints) {
+    const Eigen::Vector3i v(static_cast<int>(random.uniform(0, f.size.x())),
+                            static_cast<int>(random.uniform(0, f.size.y())),
+                            static_cast<int>(random.uniform(0, f.size.z())));
+    if (f(v.x(), v.y(), v.z()).fibroglandular > 0.7)
+      all.push_back({"P" + std::to_string(all.size()), f.position(v.x(), v.y(), v.z())});
+  }
+  return all;
+}
+
+std::string landmark_table(const TrueBreast& breast, const std::vector<TrueView>& views,
+                           const Detector& detector, int number) {
+  std::ostringstream csv;
+  csv << "name,mri_l_mm,mri_p_mm,mri_s_mm,cc_column,cc_row,mlo_column,mlo_row\n"
+      << std::fixed << std::setprecision(3);
+  for (const Landmark3d& l : landmarks_of(breast.truth(), number)) {
+    csv << l.name;
+    for (const double x : l.prone_in_lps) csv << "," << x;
+    for (const TrueView& view : views)
+      for (const double x : true_mark(breast, view, detector, l.prone_in_lps)) csv << "," << x;
+    csv << "\n";
+  }
+  return csv.str();
+}
+
+std::string toml_of(const SyntheticPatient& patient, const DrawnPatient& drawn,
+                    const std::vector<TrueView>& views, const Detector& detector) {
+  std::string text = patient_toml(patient);
+  const std::string own = "\"mri.nrrd\"";
+  text.replace(text.find(own), own.size(), std::string("\"") + kScan + "\"");
+  std::ostringstream toml;
+  if (const auto& e = drawn.elements)
+    toml << "fit.elements = [" << e->x() << ", " << e->y() << ", " << e->z() << "]\n";
+  toml << text.substr(0, text.find("[views.cc]"));
+  for (std::size_t n = 0; n < views.size(); ++n) {
+    const std::string key = "[views." + views[n].view.name;
+    toml << key << "]\nmammogram = \"" << views[n].view.name
+         << ".png\"\nthickness_mm = " << views[n].header_thickness_mm
+         << "\nangle_deg = " << drawn.views[n].header_angle_deg << "\n"
+         << key << ".detector]\npixel_spacing_mm = " << detector.pixels->spacing_mm
+         << "\ncolumns = " << detector.pixels->columns << "\nrows = " << detector.pixels->rows
+         << "\n\n";
+  }
+  return toml.str();
+}
+
+json drawn_json(const DrawnPatient& drawn, const std::vector<TrueView>& views) {
+  json all{{"stiffness_ratio", drawn.stiffness_ratio},
+           {"volume_ml", drawn.patient.anatomy.volume_ml},
+           {"density", drawn.patient.anatomy.density}};
+  for (std::size_t n = 0; n < views.size(); ++n) {
+    const DrawnView& v = drawn.views[n];
+    all[v.name] = {{"roll_deg", v.roll_deg},
+                   {"turn_deg", v.turn_deg},
+                   {"lift_mm", v.lift_mm},
+                   {"clearance_mm", v.clearance_mm},
+                   {"shift_mm", v.shift_mm},
+                   {"thickness_mm", views[n].view.thickness_mm},
+                   {"header_thickness_mm", views[n].header_thickness_mm}};
+  }
+  return all;
+}
+
+}  // namespace
+
+void make_registration_case(int number, bool coarse, const fs::path& folder) {
+  if (fs::exists(folder / "patient.toml")) return;
+  fs::create_directories(folder);
+  DrawnPatient drawn;
+  const SyntheticPatient patient = make_drawn(number, coarse, drawn);
+  const TrueBreast breast(patient, drawn);
+  const Detector detector = synthetic_detector(drawn.patient.anatomy.side);
+  std::vector<TrueView> views;
+  for (const DrawnView& view : drawn.views) views.push_back(breast.compress_view(view));
+  for (const TrueView& view : views)
+    write_png(folder / (view.view.name + ".png"),
+              true_mammogram(breast, view, detector, drawn.patient.anatomy.seed));
+  write_nrrd(folder / kScan, patient.scan.image);
+  write_text_atomically(folder / "landmarks.csv", landmark_table(breast, views, detector, number));
+  write_text_atomically(folder / "drawn.json", drawn_json(drawn, views).dump(1) + "\n");
+  write_text_atomically(folder / "patient.toml", toml_of(patient, drawn, views, detector));
+}
+
+void run_registration_case(const fs::path& folder) {
+  run_patient_chain(folder / "patient.toml", folder);
+}
+
+}  // namespace mammotwin

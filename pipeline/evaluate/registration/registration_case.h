@@ -1,0 +1,19 @@
+#pragma once
+
+#include <filesystem>
+
+#include "pipeline/evaluate/registration/true_views.h"
+
+namespace mammotwin {
+
+/// Makes synthetic patient n in `folder`: mri.nrrd, cc.png, mlo.png, patient.toml, landmarks.csv
+/// (lesions first, then points spread through the gland) and drawn.json. What is there already is
+/// kept. `coarse`: few elements, to try it out. Throws std::runtime_error where the truth cannot be
+/// made.
+void make_registration_case(int number, bool coarse, const std::filesystem::path& folder);
+
+/// Takes it through segment, fit, unload, compress and register, which skip what is current.
+/// Throws std::runtime_error with the reason of a stage that leaves no product.
+void run_registration_case(const std::filesystem::path& folder);
+
+}  // namespace mammotwin

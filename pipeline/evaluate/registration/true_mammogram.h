@@ -1,0 +1,20 @@
+#pragma once
+
+#include "pipeline/evaluate/registration/true_views.h"
+#include "registration/export/png_file.h"
+
+namespace mammotwin {
+
+/// Detector of every synthetic mammogram: 240 x 300 mm in pixels of 0.25 mm, chest wall as hung.
+Detector synthetic_detector(Side side);
+
+/// (column, row) of a point of the prone breast in the true view.
+Eigen::Vector2d true_mark(const TrueBreast& breast, const TrueView& view, const Detector& detector,
+                          const Eigen::Vector3d& prone_in_lps);
+
+/// The view as an X-ray image: Beer-Lambert through the true tissue, quantum noise, a metal marker
+/// of 3.5 mm on the nipple; dense tissue is bright. No scatter, no pectoral muscle.
+GreyPixels true_mammogram(const TrueBreast& breast, const TrueView& view, const Detector& detector,
+                          std::uint64_t seed);
+
+}  // namespace mammotwin

@@ -1,0 +1,155 @@
+#include "pipeline/evaluate/registration/true_views.h"
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+#include "fitting/fit_breast.h"
+#include "pipeline/patient/gravity_settings.h"
+#include "pipeline/steps/breast_problem.h"
+#include "pipeline/synthesize/counter_random.h"
+#include "registration/view/view_frame.h"
+#include "solver/gravity/unload.h"
+
+namespace mammotwin {
+namespace {
+
+constexpr std::uint64_t kSeed = 8051;
+const Eigen::Vector3i kCoarse{3, 3, 1}, kCoarseTruth{4, 4, 1};
+constexpr double kCoarseVoxel_mm = 1.8;
+constexpr double kSpringFactor = 3, kSkinFactor = 2, kPaddleTilt = 3;  // [-], [-], [deg]
+constexpr double kTrueFriction = 0.45;  // typical of dry skin, above what is assumed
+constexpr double kStiffening = 1;  // at half the thickness, I1 - 3 = 1.25, a modulus of 3.5 times
+
+CompressionSettings true_settings(double stiffness_ratio) {
+  CompressionSettings s;
+  const double lesion_over_gland = s.lesion.c1_kpa / s.fibroglandular.c1_kpa;
+  s.fibroglandular.c1_kpa = stiffness_ratio * s.fat.c1_kpa;
+  s.lesion.c1_kpa = lesion_over_gland * s.fibroglandular.c1_kpa;
+  for (LawSettings* law : {&s.fat, &s.fibroglandular, &s.lesion}) {
+    law->law = LawName::exponential;
+    law->stiffening = kStiffening;
+  }
+  s.boundary.chest_wall_spring *= kSpringFactor;
+  s.skin.c1 *= kSkinFactor;
+  s.paddle_tilt_deg = kPaddleTilt;
+  s.friction.coefficient = kTrueFriction;
+  return s;
+}
+
+MeshFile true_mesh(const Segmentation& truth, const Eigen::Vector3i& elements) {
+  FitOptions options;
+  options.elements = elements;
+  const FitResult fit = fit_breast(truth, options, {});
+  if (!fit.report.usable())
+    throw std::runtime_error("truth: no mesh of the true breast: " + fit.report.reasons.front());
+  return fit.mesh;
+}
+
+MeshFile unloaded_truth(const Segmentation& truth, const DrawnPatient& drawn) {
+  MeshFile file = true_mesh(truth, drawn.true_elements);
+  const TissueSampler tissue = tissue_of(file, truth.fractions);
+  CompressionProblem problem =
+      breast_problem(file, tissue, true_settings(drawn.stiffness_ratio), 1);
+  problem.gravity = gravity_in_lps(Pose::prone);
+  problem.density = GravitySettings().density();
+  UnloadOptions options;
+  options.check = false;
+  const UnloadResult result = unload(problem, options);
+  if (!result.report.usable()) throw std::runtime_error("truth: " + result.report.reason);
+  file.configurations["prone"] = file.mesh.nodes();
+  file.mesh = HermiteMesh(result.unloaded, file.mesh.elements());
+  return file;
+}
+
+/// Axes of the true view: the header's angle and roll, then turned about the beam.
+Eigen::Matrix3d true_axes(Side side, const DrawnView& drawn) {
+  const Eigen::Matrix3d axes = view_axes(side, drawn.header_angle_deg + drawn.roll_deg);
+  const double t = drawn.turn_deg * std::numbers::pi / 180;
+  Eigen::Matrix3d turned = axes;
+  turned.row(0) = std::cos(t) * axes.row(0) + std::sin(t) * axes.row(1);
+  turned.row(1) = std::cos(t) * axes.row(1) - std::sin(t) * axes.row(0);
+  return turned;
+}
+
+DrawnView draw_view(CounterRandom& random, const std::string& name, double angle_deg) {
+  DrawnView view;
+  view.name = name;
+  view.header_angle_deg = angle_deg;
+  view.roll_deg = random.uniform(-5, 5);
+  view.turn_deg = random.uniform(-4, 4);
+  view.lift_mm = random.uniform(-5, 5);
+  view.clearance_mm = random.uniform(6, 16);
+  view.shift_mm = random.uniform(-15, 15);
+  view.compressed_fraction = random.uniform(0.45, 0.58);
+  view.thickness_error_mm = random.uniform() < 0.5 ? -3 : 3;
+  return view;
+}
+
+}  // namespace
+
+DrawnPatient draw_registration(int number, bool coarse, int attempt) {
+  CounterRandom random(kSeed, number, 0), build(kSeed, number, 1000 * (attempt + 1));
+  DrawnPatient drawn;
+  if (coarse) {
+    drawn.true_elements = kCoarseTruth;
+    drawn.elements = kCoarse;
+    drawn.patient.scan.voxel_mm = kCoarseVoxel_mm;
+  }
+  AnatomyOptions& a = drawn.patient.anatomy;
+  a.seed = kSeed * 1000 + number * 50 + attempt;
+  a.side = random.uniform() < 0.5 ? Side::left : Side::right;
+  a.volume_ml = random.uniform(350, 1000);
+  a.density = random.uniform(0.1, 0.35);
+  a.ptosis = random.uniform(0.1, 0.6);
+  a.projection = build.uniform(1.2, 1.8);
+  a.chest_half_width_mm = build.uniform(125, 150);
+  a.lesions = 3;
+  drawn.patient.scan.contrast =
+      number % 2 ? ScanContrast::not_suppressed : ScanContrast::fat_suppressed;
+  const double factor = number % 2 ? 2 : 0.5;  // off what the registering model assumes
+  const CompressionSettings assumed;
+  drawn.stiffness_ratio = factor * assumed.fibroglandular.c1_kpa / assumed.fat.c1_kpa;
+  drawn.views = {draw_view(random, "cc", 0), draw_view(random, "mlo", random.uniform(40, 50))};
+  return drawn;
+}
+
+TrueBreast::TrueBreast(const SyntheticPatient& patient, const DrawnPatient& drawn)
+    : truth_(true_segmentation(patient.tissue, patient.labels, patient.truth)),
+      stiffness_ratio_(drawn.stiffness_ratio),
+      side_(drawn.patient.anatomy.side),
+      unloaded_(unloaded_truth(truth_, drawn)),
+      prone_(unloaded_.configurations.at("prone"), unloaded_.mesh.elements()) {}
+
+TrueView TrueBreast::compress_view(const DrawnView& drawn) const {
+  const CompressionSettings settings = true_settings(stiffness_ratio_);
+  CompressionProblem problem =
+      breast_problem(unloaded_, tissue_of(unloaded_, truth_.fractions), settings, 1);
+  problem.gravity = gravity_in_lps(Pose::standing);
+  problem.density = GravitySettings().density();
+  problem.friction = settings.friction;
+  const Eigen::Matrix3d axes = true_axes(side_, drawn);
+  settings.shape_plates(problem.plates);
+  problem.plates.depth = axes.row(0);
+  problem.plates.up = axes.row(2);
+  problem.plates.lift = drawn.lift_mm;
+  problem.plates.wall_clearance = drawn.clearance_mm;
+  problem.plates.thickness =
+      (1 - drawn.compressed_fraction) * free_thickness(prone_file(unloaded_), problem.plates);
+  const CompressionResult result = compress(problem, settings.options);
+  if (!result.report.usable())
+    throw std::runtime_error("truth: " + drawn.name + ": " + result.report.reason);
+
+  CompressedView view{
+      drawn.name, side_, drawn.header_angle_deg + drawn.roll_deg, result.report.thickness_mm, {}};
+  view.frame.axes = axes;
+  const Eigen::Vector3d across = problem.plates.depth.cross(problem.plates.up);
+  view.frame.origin_in_lps =
+      problem.plates.depth * result.plates.edge + problem.plates.up * result.plates.support_height +
+      across * result.plates.lateral_middle + axes.row(1).transpose() * drawn.shift_mm;
+  return {view, HermiteMesh(result.deformed, unloaded_.mesh.elements()),
+          std::round(10 * (result.report.thickness_mm + drawn.thickness_error_mm)) / 10};
+}
+
+}  // namespace mammotwin
