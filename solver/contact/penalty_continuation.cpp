@@ -31,18 +31,21 @@ NewtonReport then(const NewtonReport& first, NewtonReport second) {
 NewtonReport resettle(Newton& newton, PlateContact& contact, const NewtonOptions& options,
                       State& state) {
   if (!contact.follow) return settle(newton, contact, options, state);
-  constexpr double tolerance = 1e-5, reduction = 0.1, first = 1e-2;
+  constexpr double tolerance = 1e-5, reduction = 0.3, first = 0.1;
   constexpr int most_rounds = 20;
   NewtonReport report = settle(newton, contact, loosened(options, first), state);
+  double left = 0;
   for (int round = 0; report.usable() && round < most_rounds; ++round) {
-    contact.follow(state);
+    const double share = contact.follow(state, round == 0);
     const Balance balance = newton.balance(state);
-    const double left = balance.residual.norm() / balance.flow;
+    const double now = balance.residual.norm() / balance.flow;
+    left = now / share;
     if (left <= std::max(options.tolerance, tolerance) &&
         balance.constraint <= options.constraint_tolerance)
       return report;
-    report = then(report, settle(newton, contact, loosened(options, reduction * left), state));
+    report = then(report, settle(newton, contact, loosened(options, reduction * now), state));
   }
+  if (left <= options.acceptable) return report;
   if (report.usable())
     report.reason = "friction finds no equilibrium with the pressures it comes of";
   report.converged = false;

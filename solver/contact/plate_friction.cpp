@@ -1,5 +1,6 @@
 #include "solver/contact/plate_friction.h"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -65,6 +66,32 @@ void PlateFriction::track(const Model& model, const State& state,
           contact.pressure = contact_->pressure(gap.gap);
         }
       });
+}
+
+double PlateFriction::follow(const Model& model, const State& state,
+                             const std::vector<std::pair<int, int>>& faces, bool first) {
+  constexpr double least = 1.0 / 16;
+  if (reach_ > 0) return 1;
+  const auto pressures = [this] {
+    Eigen::VectorXd all(history_.size());
+    for (std::size_t i = 0; i < history_.size(); ++i) all[i] = history_[i].pressure;
+    return all;
+  };
+  const Eigen::VectorXd before = pressures();
+  track(model, state, faces);
+  if (before.size() != static_cast<int>(history_.size())) return share_ = 1;
+  const Eigen::VectorXd way = pressures() - before;
+  if (first || way_.size() != way.size()) {
+    share_ = 1;
+  } else {
+    const Eigen::VectorXd change = way - way_;
+    const double square = change.squaredNorm();
+    share_ = square > 0 ? std::clamp(-share_ * way_.dot(change) / square, least, 1.0) : 1;
+  }
+  way_ = way;
+  for (std::size_t i = 0; i < history_.size(); ++i)
+    history_[i].pressure = before[i] + share_ * way[i];
+  return share_;
 }
 
 void PlateFriction::commit(const Model& model, const State& state,

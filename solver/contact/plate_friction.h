@@ -50,6 +50,12 @@ class PlateFriction : public SurfacePotential {
   /// Takes pressures and normals from a state.
   void track(const Model& model, const State& state, const std::vector<std::pair<int, int>>& faces);
 
+  /// The same, but for pressures that swing from state to state: they go a share of the way, which
+  /// is returned: all of it where it is the `first` of an iteration, then Aitken's (Irons and Tuck,
+  /// Int. J. Numer. Meth. Eng. 1 (1969)), between 1/16 and 1.
+  double follow(const Model& model, const State& state,
+                const std::vector<std::pair<int, int>>& faces, bool first);
+
   /// Ends a load step: anchors of sliding points follow to within δ, those of free points all the
   /// way. The first call, with the plates at their start, sets them.
   void commit(const Model& model, const State& state,
@@ -92,8 +98,10 @@ class PlateFriction : public SurfacePotential {
 
   std::shared_ptr<const PlateContact> contact_;
   double coefficient_, slip_;
-  double reach_ = 0;  ///< of frozen friction's springs [mm]; 0: not frozen
-  History history_;   ///< by surface point, then plate
+  double reach_ = 0;     ///< of frozen friction's springs [mm]; 0: not frozen
+  History history_;      ///< by surface point, then plate
+  double share_ = 1;     ///< of the last `follow`
+  Eigen::VectorXd way_;  ///< of pressures at the last `follow` [kPa]
 };
 
 }  // namespace mammotwin

@@ -121,23 +121,23 @@ NewtonReport Compression::balance_tilt(NewtonReport report, State& state) {
 /// From the last two steps extrapolated, else from the last.
 NewtonReport Compression::equilibrate(double fraction, State& state) {
   if (lost_) return {};  // pressing on what is left would tell nothing
-  const auto attempt = [&](State& trial) {
+  const auto attempt = [&](State& trial, bool near) {
     place(fraction);
     press_.restore_friction(good_.sticking);
-    return balance_tilt(press_.squeeze(trial, good_.penalty), trial);
+    return balance_tilt(press_.squeeze(trial, good_.penalty, near), trial);
   };
   NewtonReport tried;
   const double last = good_.reached.fraction - good_.before.fraction;
   if (last > 0) {
     State trial =
         extrapolated(state, good_.before.state, (fraction - good_.reached.fraction) / last);
-    tried = attempt(trial);
+    tried = attempt(trial, true);
     if (tried.usable()) {
       state = std::move(trial);
       return tried;
     }
   }
-  return then(tried, attempt(state));
+  return then(tried, attempt(state, false));
 }
 
 void Compression::count(const NewtonReport& newton) {

@@ -28,7 +28,10 @@ Press::Press(const CompressionProblem& problem, const CompressionOptions& option
       breast_(make_breast_model(problem, options.solid)),
       frame_(problem.mesh, problem.plates),
       newton_(*breast_.model, *breast_.dofs) {
-  if (breast_.friction) breast_.contact->follow = [this](const State& s) { track_friction(s); };
+  if (breast_.friction)
+    breast_.contact->follow = [this](const State& s, bool first) {
+      return breast_.friction->follow(*breast_.model, s, breast_.contact_faces, first);
+    };
 }
 
 void Press::put(const PlacedPlates& placed) {
@@ -64,12 +67,12 @@ double Press::tilt_error(const State& state) const {
   return plates.paddle_tilt + moment / plates.tilt_spring - placed_.paddle_tilt;
 }
 
-NewtonReport Press::squeeze(State& state, double penalty) {
+NewtonReport Press::squeeze(State& state, double penalty, bool near) {
   const double unit = breast_.penalty_unit();
   PenaltyOptions penalties = penalties_of_steps();
   if (penalty > 0) {
-    penalties.first = penalty / unit / penalties.growth;
     penalties.last = penalty / unit;
+    penalties.first = near ? penalties.last : penalties.last / penalties.growth;
   }
   const NewtonReport report = solve_contact(newton_, *breast_.contact, unit, penalties, state);
   if (!report.usable()) return report;

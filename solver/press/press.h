@@ -48,8 +48,9 @@ class Press {
 
   /// Equilibrium with the plates where they are, to the tolerance of load steps: at a soft penalty
   /// first, then at stiffer ones until no point is more than half a millimetre inside. `penalty` is
-  /// one that was enough nearby [kPa/mm]; 0: none is known.
-  NewtonReport squeeze(State& state, double penalty);
+  /// one that was enough nearby [kPa/mm]; 0: none is known. `near`: the state goes with the plates
+  /// already, and no softer penalty comes before it.
+  NewtonReport squeeze(State& state, double penalty, bool near = false);
 
   /// Equilibrium near a state that already is one, to what Newton reaches or to a residual of
   /// `tolerance` of the flow.
