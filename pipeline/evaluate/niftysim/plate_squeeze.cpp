@@ -218,7 +218,8 @@ void PlateSqueeze::centre(std::vector<HermiteMesh::Node>& nodes) const {
   for (int e = 0; e < model_->num_elements(); ++e) {
     const auto share = model_->element(e).integrate(
         [](const Vector3d&) -> Vector3d { return Vector3d::Unit(kAcross); });
-    const auto u = model_->coefficients(nodes, e) - model_->coefficients(mesh_.mesh.nodes(), e);
+    const SolidElement::Coefficients u =
+        model_->coefficients(nodes, e) - model_->coefficients(mesh_.mesh.nodes(), e);
     moved += u.cwiseProduct(share).sum();
   }
   for (auto& node : nodes) node(kAcross, 0) -= moved / model_->volume();
