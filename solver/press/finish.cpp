@@ -33,8 +33,8 @@ struct Place {
   bool loose = true;
 };
 
-constexpr double kLoosely = 1e-3;  // residual of rounds after which a plate is still inside
-constexpr double kLeastGrowth = 1.5, kMostGrowth = 5;  // of the penalty in a round
+constexpr double kLoosely = 1e-3;  // residual of rounds; the last state is settled
+constexpr double kLeastGrowth = 1.5, kMostGrowth = 10;  // of the penalty in a round
 constexpr double kNearly = 0.09;  // [mm]: an error with which a breast still counts as compressed
 constexpr double kFar = 1;        // [mm]: stiff contact does not follow a paddle that moves by more
 
@@ -134,8 +134,7 @@ bool Finish::improve(const Errors& now, double growth, State& state) {
     loose_ = true;
     if (from_soft_ || std::abs(move) > kFar) return press_.squeeze(trial, penalty_);
     press_.set_penalty(press_.penalty() * growth);
-    loose_ = now.excess > growth;
-    return press_.resettle(trial, loose_ ? kLoosely : 0);
+    return press_.resettle(trial, kLoosely);
   });
 }
 
@@ -149,7 +148,8 @@ void Finish::settle(State& state) {
 
 NewtonReport Finish::run(State& state) {
   constexpr int most_rounds = 16;
-  constexpr double headroom = 1.2;
+  // The deepest point lies at an edge of contact and gives way more slowly than the penalty grows.
+  constexpr double headroom = 1.2, slowness = 1.5;
   // Skin between contact points snaps from one place to another, and the extent with it.
   constexpr int patience = 4;
   double most_growth = kMostGrowth;
@@ -162,8 +162,9 @@ NewtonReport Finish::run(State& state) {
     if (now.closed() && !now.off) return total_;
     remember(now, state);
     if (now.closed() && ++closed >= patience && best_error_ <= kNearly) break;
-    const double growth =
-        now.excess <= 1 ? 1 : std::clamp(headroom * now.excess, kLeastGrowth, most_growth);
+    const double growth = now.excess <= 1 ? 1
+                                          : std::clamp(std::pow(headroom * now.excess, slowness),
+                                                       kLeastGrowth, most_growth);
     const bool good = improve(now, growth, state);
     const bool stuck = !good && (growth == 1 || most_growth <= kLeastGrowth);
     if (!good && (from_soft_ || (stuck && now.near_enough()))) break;
