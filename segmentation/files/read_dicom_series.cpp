@@ -51,16 +51,17 @@ std::vector<fs::path> files_of(const fs::path& path) {
   return files;
 }
 
-/// Throws where the DICOM library would end the program over one of the files.
+/// Throws where the DICOM library would end the program over one of the files, or never end.
 void check_survivable(const std::vector<fs::path>& files) {
-  const auto fatal = first_fatal(files.size(), [&](std::size_t n) {
-    const std::vector<DicomSlice> slices = read_dicom_slices(files[n]);
-    if (!slices.empty() && slices.front().modality == "MR") read_dicom_pixels(files[n]);
-  });
-  if (fatal)
-    throw std::runtime_error(files[*fatal].filename().string() +
-                             ": is damaged, the DICOM library cannot go through it; expected a "
-                             "complete DICOM file (copy or export it again)");
+  const auto failed = first_fatal(Trial::dicom, files);
+  if (!failed) return;
+  throw std::runtime_error(
+      files[failed->file].filename().string() +
+      (failed->timed_out
+           ? ": could not be read within a minute; expected a complete DICOM file (is it damaged, "
+             "or does its disk not answer?)"
+           : ": is damaged, the DICOM library cannot go through it; expected a complete DICOM file "
+             "(copy or export it again)"));
 }
 
 std::vector<Series> group_series(const std::vector<fs::path>& files, std::size_t& set_aside) {

@@ -100,23 +100,29 @@ void check_meta(const fs::path& path, const itk::ImageIOBase& io) {
                       static_cast<std::uintmax_t>(io.GetImageSizeInBytes()));
 }
 
-/// The libraries end the program over some damaged headers, and never end over others: they try in
-/// a child process first.
+itk::ImageIOBase::Pointer open_header(const fs::path& path) {
+  const itk::ImageIOBase::Pointer io = io_for(lower_name(path));
+  io->SetFileName(path.string());
+  io->ReadImageInformation();
+  return io;
+}
+
+/// The libraries end the program over some damaged headers, and never end over others: another
+/// program tries first.
 itk::ImageIOBase::Pointer read_header(const fs::path& path) {
   const std::string name = lower_name(path);
   if (is_meta(name)) read_meta_header(path);
   if (is_nifti(name)) check_nifti_placement(path);
-  const auto read = [&] {
-    itk::ImageIOBase::Pointer io = io_for(name);
-    io->SetFileName(path.string());
-    io->ReadImageInformation();
-    return io;
-  };
   const char* damaged =
       "its header cannot be read; expected a NIfTI, NRRD or MetaImage file (is it damaged?)";
-  if (first_fatal(1, [&](std::size_t) { read(); })) throw std::runtime_error(damaged);
+  if (const auto failed = first_fatal(Trial::raw_header, {path}))
+    throw std::runtime_error(failed->timed_out
+                                 ? "its header could not be read within a minute; expected a "
+                                   "NIfTI, NRRD or MetaImage file (is it damaged, or does its "
+                                   "disk not answer?)"
+                                 : damaged);
   try {
-    return read();
+    return open_header(path);
   } catch (const itk::ExceptionObject&) {
     throw std::runtime_error(damaged);
   }
@@ -168,6 +174,8 @@ bool is_image_file_name(const fs::path& path) {
   const std::string name = lower_name(path);
   return is_nifti(name) || is_nrrd(name) || is_meta(name);
 }
+
+void try_raw_header(const fs::path& path) { open_header(path); }
 
 RawImage read_raw_image(const fs::path& path, std::map<std::string, std::string>* keys,
                         int components) {

@@ -1,16 +1,27 @@
 #pragma once
 
+#include <chrono>
 #include <cstddef>
-#include <functional>
+#include <filesystem>
 #include <optional>
+#include <vector>
 
 namespace mammotwin {
 
-/// Calls attempt(0), attempt(1), ... attempt(count - 1) in a child process and returns the first
-/// that ends it: by a signal, or after 60 s of processor time. Exceptions count as survived. For
-/// libraries that stop the program over a damaged file (GDCM asserts, in Debian's build, too).
-/// Empty if all survive, or where no process can be started.
-std::optional<std::size_t> first_fatal(std::size_t count,
-                                       const std::function<void(std::size_t)>& attempt);
+/// What is tried of a file: the header of a NIfTI, NRRD or MetaImage file, or all of a DICOM file.
+enum class Trial { raw_header, dicom };
+
+struct FailedTrial {
+  std::size_t file = 0;    ///< index of the first that ends the program, or does not end
+  bool timed_out = false;  ///< it does not end
+};
+
+/// Reads files in a program of its own (mammotwin-try-read, which lies beside this program or, once
+/// installed, in ../libexec/mammotwin) and returns the first that ends it or that it does not
+/// finish within `limit`. Exceptions count as survived. For libraries that stop the program over a
+/// damaged file (GDCM asserts, in Debian's build, too) or read it for ever. Empty if all survive,
+/// or where that program is not there or cannot be started.
+std::optional<FailedTrial> first_fatal(Trial trial, const std::vector<std::filesystem::path>& files,
+                                       std::chrono::milliseconds limit = std::chrono::seconds(60));
 
 }  // namespace mammotwin
