@@ -47,13 +47,12 @@ std::optional<Apices> find_apices(const std::vector<double>& front, double step)
   apices.right = std::min(first, best.at);
   apices.left = std::max(first, best.at);
   apices.valley = valley_between(front, apices.right, apices.left);
-  const double along =
-      static_cast<double>(apices.valley - begin) / static_cast<double>(end - begin);
+  const double along = (apices.valley - begin + 0.5) / static_cast<double>(end - begin);
   if (along < 1.0 / 3 || along > 2.0 / 3) return std::nullopt;  // a breast and an arm
   return apices;
 }
 
-int valley_between(const std::vector<double>& front, int low, int high) {
+double valley_between(const std::vector<double>& front, int low, int high) {
   double floor = std::numeric_limits<double>::infinity();
   for (int i = low; i <= high; ++i)
     if (std::isfinite(front[i])) floor = std::min(floor, front[i]);
@@ -61,7 +60,7 @@ int valley_between(const std::vector<double>& front, int low, int high) {
   int count = 0;
   for (int i = low; i <= high; ++i)
     if (std::isfinite(front[i]) && front[i] <= floor + plateau_mm) sum += i, ++count;
-  return count > 0 ? static_cast<int>(std::lround(sum / count)) : low;
+  return count > 0 ? sum / count : low;
 }
 
 }  // namespace mammotwin

@@ -1,6 +1,7 @@
 #include "segmentation/body/breast_frame.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <stdexcept>
 #include <vector>
@@ -24,14 +25,20 @@ std::vector<int> front_rows(const Volume<std::uint8_t>& body) {
   return rows;
 }
 
+/// The middle of the voxels that lie most anterior.
 Eigen::Vector3d most_anterior(const Volume<std::uint8_t>& body, const std::vector<int>& rows,
                               int low, int high) {
-  Eigen::Vector3i best(low, body.size.y(), 0);
+  int first = body.size.y() - 1, count = 0;
+  Eigen::Vector3d sum = body.position(low, first, 0);
   for (int k = 0; k < body.size.z(); ++k)
-    for (int i = low; i <= high; ++i)
-      if (const int j = rows[static_cast<std::size_t>(k) * body.size.x() + i]; j < best.y())
-        best = {i, j, k};
-  return body.position(best.x(), std::min(best.y(), body.size.y() - 1), best.z());
+    for (int i = low; i <= high; ++i) {
+      const int j = rows[static_cast<std::size_t>(k) * body.size.x() + i];
+      if (j > first || j == body.size.y()) continue;
+      if (j < first || count == 0) first = j, count = 0, sum.setZero();
+      sum += body.position(i, j, k);
+      ++count;
+    }
+  return sum / std::max(count, 1);
 }
 
 /// How far forward the skin reaches in each column of x, over slices `low` to `high`.
@@ -61,8 +68,8 @@ double valley_x(const Volume<std::uint8_t>& body, const std::vector<int>& rows,
   const double height = (frame.left_apex.z() + frame.right_apex.z()) / 2;
   const std::vector<double> front =
       front_profile(body, rows, slice(height - reach_mm), slice(height + reach_mm));
-  const int valley = valley_between(front, column(frame.right_apex), column(frame.left_apex));
-  return body.position(valley, 0, 0).x();
+  const double valley = valley_between(front, column(frame.right_apex), column(frame.left_apex));
+  return body.origin.x() + valley * body.spacing.x();
 }
 
 /// Slices in which some column stands out enough, as an unbroken run around the apices.
@@ -101,8 +108,9 @@ BreastFrame find_breast_frame(const Volume<std::uint8_t>& body) {
         "breast?)");
   BreastFrame frame;
   frame.sternal_y = -*std::min_element(front.begin() + apices->right, front.begin() + apices->left);
-  frame.right_apex = most_anterior(body, rows, 0, apices->valley);
-  frame.left_apex = most_anterior(body, rows, apices->valley, body.size.x() - 1);
+  frame.right_apex = most_anterior(body, rows, 0, static_cast<int>(apices->valley));
+  frame.left_apex =
+      most_anterior(body, rows, static_cast<int>(std::ceil(apices->valley)), body.size.x() - 1);
   frame.midline_x = valley_x(body, rows, frame);
   frame.front_y = std::min(frame.left_apex.y(), frame.right_apex.y());
   if (frame.sternal_y - frame.front_y < least_cleft_mm)

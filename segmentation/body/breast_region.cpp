@@ -36,7 +36,8 @@ ColumnBox side_columns(const Volume<std::uint8_t>& labels, const TissueColumns& 
   while (half.i1 > half.i0 && !std::isfinite(profile[half.i1])) --half.i1;
   if (hold == LabelsHold::one_side) return half;
   if (const auto apices = find_apices(profile, labels.spacing.x()))
-    (side == Side::left ? half.i0 : half.i1) = apices->valley;
+    (side == Side::left ? half.i0 : half.i1) = static_cast<int>(
+        side == Side::left ? std::ceil(apices->valley) : std::floor(apices->valley));
   return half;
 }
 
@@ -46,13 +47,16 @@ struct Apex {
 };
 
 /// Where the skin reaches farthest forward, of the columns with tissue enough for a breast: not a
-/// shoulder, and no island beside the body, which reach less far than it.
+/// shoulder, and no island beside the body, which reach less far than it. Of columns that reach
+/// equally far the one with most tissue.
 Apex farthest_apex(const TissueColumns& columns, const ColumnBox& half) {
   Apex apex{half.i0, half.k0, 0};
   double front = -std::numeric_limits<double>::infinity();
   for (int k = half.k0; k <= half.k1; ++k)
     for (int i = half.i0; i <= half.i1; ++i)
-      if (const std::size_t at = columns.at(i, k); columns.front[at] > front)
+      if (const std::size_t at = columns.at(i, k);
+          columns.front[at] > front ||
+          (columns.front[at] == front && columns.tissue[at] > apex.tissue))
         front = columns.front[at], apex = {i, k, columns.tissue[at]};
   return apex;
 }

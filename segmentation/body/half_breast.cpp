@@ -17,11 +17,11 @@ constexpr double skin_mm = 4, wall_mm = 2;
 }  // namespace
 
 VoxelBox side_box(const Volume<float>& image, const BreastFrame& frame, Side side) {
-  const auto column = [&](double x) {
-    return std::clamp(static_cast<int>(std::ceil((x - image.origin.x()) / image.spacing.x())), 0,
-                      image.size.x() - 1);
-  };
-  const int middle = column(frame.midline_x);
+  constexpr double rounding = 1e-6;
+  const double at = (frame.midline_x - image.origin.x()) / image.spacing.x();
+  const int middle = std::clamp(
+      static_cast<int>(side == Side::left ? std::ceil(at - rounding) : std::floor(at + rounding)),
+      0, image.size.x() - 1);
   const int rear =
       std::clamp(static_cast<int>((frame.sternal_y + kept_behind_sternum_mm - image.origin.y()) /
                                   image.spacing.y()),

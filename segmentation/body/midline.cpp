@@ -20,7 +20,7 @@ std::optional<double> find_midline(const Volume<std::uint8_t>& labels) {
   // Columns beyond the body are no valley: only what lies between finite values counts.
   const auto apices = find_apices(front, labels.spacing.x());
   if (!apices) return std::nullopt;
-  return labels.position(apices->valley, 0, 0).x();
+  return labels.origin.x() + apices->valley * labels.spacing.x();
 }
 
 bool is_on_side(double x, double midline, Side side) {

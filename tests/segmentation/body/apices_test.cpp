@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace mammotwin {
@@ -27,6 +28,20 @@ TEST(Apices, AreTheBumpsAndTheMiddleOfThePlateauBetween) {
   EXPECT_EQ(apices->left, 115);
   // The floor is flat from -20 to 30 mm, and 2 mm up the bumps: its middle is near 5 mm.
   EXPECT_NEAR(-150 + 2 * apices->valley, 5, 2);
+}
+
+TEST(Apices, OfAMirroredProfileAreTheMirrorImages) {
+  std::vector<double> front = two_bumps();
+  front.pop_back();  // an even number of columns
+  const auto apices = find_apices(front, 2);
+  std::reverse(front.begin(), front.end());
+  const auto mirrored = find_apices(front, 2);
+  ASSERT_TRUE(apices && mirrored);
+  const auto last = static_cast<double>(front.size() - 1);
+  EXPECT_EQ(mirrored->right, last - apices->left);
+  EXPECT_EQ(mirrored->left, last - apices->right);
+  EXPECT_DOUBLE_EQ(mirrored->valley, last - apices->valley);
+  EXPECT_DOUBLE_EQ(valley_between({5, 0, 0, 5}, 0, 3), 1.5);
 }
 
 TEST(Apices, OneBreastHasNoValley) { EXPECT_FALSE(find_apices(two_bumps(0), 2)); }

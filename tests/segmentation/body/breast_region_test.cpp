@@ -114,7 +114,7 @@ Volume<std::uint8_t> half_with_an_island() {
         const Eigen::Vector3i v = both.index(x).array().round().cast<int>();
         if (x.x() < 159)
           labels(i, j, k) = both(v.x(), v.y(), v.z());
-        else if ((x - Eigen::Vector3d(220, 40, 40)).norm() < 40)
+        else if ((x - Eigen::Vector3d(220, 44, 40)).norm() < 40)
           labels(i, j, k) = label::fat;
       }
   return labels;
