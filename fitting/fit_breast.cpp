@@ -21,8 +21,9 @@ namespace {
 constexpr int smallest_breast_voxels = 20000;  // 20 ml at 1 mm
 // Columns along x and z that are tried in turn for an accuracy.
 constexpr std::array<int, 7> column_counts = {4, 5, 6, 7, 8, 10, 12};
-// 20 breasts of up to 12.7 cm² a column are within 0.7 mm (95 %) with 7 x 7; one of 14.5 was not.
-constexpr double largest_column_mm2 = 1400;
+// Breasts of up to 12.7 cm² a column are within 0.7 mm (95 %) of their labels, larger ones were
+// not.
+constexpr double largest_column_mm2 = 1270;
 constexpr double worth_pulling_in_mm = 1;  // RMS of the skin, beyond which an edge is given up
 constexpr int fewest_columns = 7, most_columns = 12, layers = 2;
 // A scan is smoother than labels of 1 mm, and pressed to half its thickness such a breast strays by

@@ -4,6 +4,7 @@
 
 #include "fitting/mesh/jacobian_bound.h"
 #include "fitting/solve/fit_stages.h"
+#include "fitting/surface/closest_point.h"
 
 namespace mammotwin {
 
@@ -55,15 +56,25 @@ bool untangle(StagedFit& fit) {
   return false;
 }
 
+/// Where the skin's point nearest to a place lies on the square.
+Eigen::Vector2d flattened(const Eigen::Vector3d& place, const FitGoal& goal) {
+  const ClosestPoint::Hit hit = ClosestPoint(goal.skin)(place);
+  const auto& t = goal.skin.triangles[hit.triangle];
+  const auto& x = goal.skin.vertices;
+  const auto share = [&](int a, int b) {  // twice the signed area of a, b and the point
+    return (x[t[a]] - hit.x).cross(x[t[b]] - hit.x).dot(hit.normal);
+  };
+  const Eigen::Vector3d shares(share(1, 2), share(2, 0), share(0, 1));
+  Eigen::Vector2d uv = Eigen::Vector2d::Zero();
+  for (int corner = 0; corner < 3; ++corner)
+    uv += shares[corner] / shares.sum() * goal.flat.uv[t[corner]];
+  return uv;
+}
+
 }  // namespace
 
 Slab slab_around_nipple(const Eigen::Vector3i& elements, const FitGoal& goal) {
-  const auto nearer = [&](const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-    return (a - goal.nipple_in_lps).squaredNorm() < (b - goal.nipple_in_lps).squaredNorm();
-  };
-  const auto& skin = goal.skin.vertices;
-  const Eigen::Vector2d nipple =
-      goal.flat.uv[std::min_element(skin.begin(), skin.end(), nearer) - skin.begin()];
+  const Eigen::Vector2d nipple = flattened(goal.nipple_in_lps, goal);
   Slab slab{elements};
   for (int a = 0; a < 2; ++a)
     slab.grading[a] =

@@ -180,7 +180,9 @@ Volume<float> resampled(const Volume<float>& volume, double spacing_mm) {
   const Eigen::Vector3d extent =
       volume.spacing.cwiseProduct((volume.size - Eigen::Vector3i::Ones()).cast<double>());
   const Eigen::Vector3i size = (extent / spacing_mm).array().floor().cast<int>() + 1;
-  Volume<float> result(size, Eigen::Vector3d::Constant(spacing_mm), volume.origin);
+  const Eigen::Vector3d left_over =
+      extent - spacing_mm * (size - Eigen::Vector3i::Ones()).cast<double>();
+  Volume<float> result(size, Eigen::Vector3d::Constant(spacing_mm), volume.origin + left_over / 2);
   tbb::parallel_for(0, size.z(), [&](int k) {
     for (int j = 0; j < size.y(); ++j)
       for (int i = 0; i < size.x(); ++i)

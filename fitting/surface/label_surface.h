@@ -19,7 +19,7 @@ Volume<float> solid_from_labels(const Volume<std::uint8_t>& labels, const Breast
 /// Gaussian of standard deviation sigma_mm.
 Volume<float> smoothed(const Volume<float>& volume, double sigma_mm);
 
-/// The same field on a grid of about the given spacing, trilinear.
+/// The same field on a grid of the given spacing in the middle of the volume, trilinear.
 Volume<float> resampled(const Volume<float>& volume, double spacing_mm);
 
 /// Where the solid ends: marching cubes at 1/2.

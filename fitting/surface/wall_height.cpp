@@ -1,14 +1,17 @@
 #include "fitting/surface/wall_height.h"
 
+#include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "segmentation/image/components.h"
 
 namespace mammotwin {
 
 namespace {
 
-constexpr int smallest_muscle = 2000;     // voxels; vessels and specks are smaller
+constexpr double smallest_muscle_ml = 2;  // vessels and specks are smaller
 constexpr int median_radius = 4;          // columns
 constexpr double gaussian_sigma = 2.0;    // [mm]
 constexpr double pit_slope = 1.5;         // steeper pits fold the slab
@@ -34,36 +37,12 @@ ColumnRange columns_of(const Volume<std::uint8_t>& grid, const BreastRegion& r) 
           last(r.z_max, grid.origin.z(), grid.spacing.z(), grid.size.z())};
 }
 
-/// Marks muscle voxels of connected pieces that are large enough.
-std::vector<std::uint8_t> large_muscle(const Volume<std::uint8_t>& labels) {
-  std::vector<std::uint8_t> state(labels.values.size(), 0);  // 1 seen, 2 large
-  std::vector<std::size_t> piece;
-  const std::array<std::ptrdiff_t, 3> stride = {
-      1, labels.size.x(), static_cast<std::ptrdiff_t>(labels.size.x()) * labels.size.y()};
-  for (std::size_t seed = 0; seed < labels.values.size(); ++seed) {
-    if (state[seed] || labels.values[seed] != label::muscle) continue;
-    piece.assign(1, seed);
-    state[seed] = 1;
-    for (std::size_t at = 0; at < piece.size(); ++at) {
-      const std::size_t v = piece[at];
-      const std::array<int, 3> index = {static_cast<int>(v % labels.size.x()),
-                                        static_cast<int>(v / labels.size.x() % labels.size.y()),
-                                        static_cast<int>(v / labels.size.x() / labels.size.y())};
-      for (int axis = 0; axis < 3; ++axis)
-        for (int step : {-1, 1}) {
-          const int next = index[axis] + step;
-          if (next < 0 || next >= labels.size[axis]) continue;
-          const std::size_t w = v + step * stride[axis];
-          if (state[w] || labels.values[w] != label::muscle) continue;
-          state[w] = 1;
-          piece.push_back(w);
-        }
-    }
-    if (piece.size() >= smallest_muscle)
-      for (std::size_t v : piece) state[v] = 2;
-  }
-  for (auto& s : state) s = s == 2;
-  return state;
+/// Muscle but for vessels and specks.
+Volume<std::uint8_t> large_muscle(const Volume<std::uint8_t>& labels) {
+  auto muscle = labels.like<std::uint8_t>(0);
+  for (std::size_t v = 0; v < labels.values.size(); ++v)
+    muscle.values[v] = labels.values[v] == label::muscle;
+  return without_small_components(muscle, smallest_muscle_ml);
 }
 
 /// Raw heights of one region: muscle front, else end of tissue, with a note of which it is.
@@ -72,7 +51,7 @@ struct RawHeights {
 };
 
 RawHeights raw_heights(const Volume<std::uint8_t>& labels, const ColumnRange& range) {
-  const auto muscle = large_muscle(labels);
+  const Volume<std::uint8_t> muscle = large_muscle(labels);
   const std::size_t columns = static_cast<std::size_t>(labels.size.x()) * labels.size.z();
   RawHeights raw{std::vector<double>(columns, unknown), std::vector<double>(columns, unknown)};
   for (int k = range.k0; k <= range.k1; ++k)
@@ -80,7 +59,7 @@ RawHeights raw_heights(const Volume<std::uint8_t>& labels, const ColumnRange& ra
       const std::size_t column = i + static_cast<std::size_t>(labels.size.x()) * k;
       for (int j = 0; j < labels.size.y(); ++j) {
         const double y = labels.position(i, j, k).y();
-        if (muscle[labels.offset(i, j, k)]) {
+        if (muscle(i, j, k)) {
           raw.muscle[column] = y - labels.spacing.y() / 2;
           break;
         }
@@ -110,30 +89,40 @@ void fill_open_gaps(const RawHeights& raw, const ColumnRange& range, int nx,
   }
 }
 
-/// Fills what is unknown from the rim inwards, then relaxes it to a harmonic surface.
+/// Fills what is unknown with the harmonic surface over the gaps' rims; at the region's border,
+/// where no rim is, it ends level. Leaves everything unknown where nothing is known.
 void interpolate_unknown(const ColumnRange& range, int nx, std::vector<double>& heights) {
   std::vector<std::array<int, 2>> gap;
+  std::vector<int> number(heights.size(), -1);
   for (int k = range.k0; k <= range.k1; ++k)
-    for (int i = range.i0; i <= range.i1; ++i)
-      if (std::isnan(heights[i + static_cast<std::size_t>(nx) * k])) gap.push_back({i, k});
-  const auto mean_of_known_neighbours = [&](int i, int k) {
-    double sum = 0;
-    int count = 0;
+    for (int i = range.i0; i <= range.i1; ++i) {
+      const std::size_t column = i + static_cast<std::size_t>(nx) * k;
+      if (!std::isnan(heights[column])) continue;
+      number[column] = static_cast<int>(gap.size());
+      gap.push_back({i, k});
+    }
+  const auto columns =
+      static_cast<std::size_t>(range.i1 - range.i0 + 1) * (range.k1 - range.k0 + 1);
+  if (gap.empty() || gap.size() == columns) return;
+  Eigen::VectorXd right = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(gap.size()));
+  std::vector<Eigen::Triplet<double>> laplacian;
+  for (int row = 0; row < right.size(); ++row)
     for (const auto& [di, dk] : {std::array{-1, 0}, {1, 0}, {0, -1}, {0, 1}}) {
-      if (!range.contains(i + di, k + dk)) continue;
-      const double h = heights[i + di + static_cast<std::size_t>(nx) * (k + dk)];
-      if (!std::isnan(h)) sum += h, ++count;
+      const int i = gap[row][0] + di, k = gap[row][1] + dk;
+      if (!range.contains(i, k)) continue;
+      const std::size_t column = i + static_cast<std::size_t>(nx) * k;
+      laplacian.emplace_back(row, row, 1);
+      if (number[column] < 0)
+        right[row] += heights[column];
+      else
+        laplacian.emplace_back(row, number[column], -1);
     }
-    return count ? sum / count : unknown;
-  };
-  // Each sweep carries heights one column further; relaxation of a gap of w columns needs about
-  // w² sweeps, and 400 serve the 20 columns that were met.
-  constexpr int sweeps = 400;
-  for (int sweep = 0; sweep < sweeps; ++sweep)
-    for (const auto& [i, k] : gap) {
-      const double h = mean_of_known_neighbours(i, k);
-      if (!std::isnan(h)) heights[i + static_cast<std::size_t>(nx) * k] = h;
-    }
+  Eigen::SparseMatrix<double> matrix(right.size(), right.size());
+  matrix.setFromTriplets(laplacian.begin(), laplacian.end());
+  const Eigen::VectorXd filled =
+      Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>(matrix).solve(right);
+  for (int row = 0; row < right.size(); ++row)
+    heights[gap[row][0] + static_cast<std::size_t>(nx) * gap[row][1]] = filled[row];
 }
 
 std::vector<double> median_filtered(const ColumnRange& range, int nx,

@@ -35,6 +35,34 @@ TEST(MuscleFront, BridgesAPitThatDoesNotReachTheBorder) {
               find_muscle_front(whole.labels, whole.region).height(0, 0), 1e-6);
 }
 
+/// The labels with left and right exchanged about the middle of their grid.
+Volume<std::uint8_t> mirrored(const Volume<std::uint8_t>& labels) {
+  Volume<std::uint8_t> result = labels;
+  for (int k = 0; k < labels.size.z(); ++k)
+    for (int j = 0; j < labels.size.y(); ++j)
+      for (int i = 0; i < labels.size.x(); ++i)
+        result(i, j, k) = labels(labels.size.x() - 1 - i, j, k);
+  return result;
+}
+
+TEST(MuscleFront, OfAMirroredBreastIsTheMirrorImage) {
+  Segmentation s = dome_with_pit(label::air, 0), image = s;
+  for (int k = 8; k < 14; ++k)
+    for (int i = 6; i < 26; ++i)
+      for (int j = 0; j < s.labels.size.y(); ++j)
+        if (s.labels(i, j, k) == label::muscle) s.labels(i, j, k) = label::air;
+  image.labels = mirrored(s.labels);
+  const double sum =
+      s.labels.position(0, 0, 0).x() + s.labels.position(s.labels.size.x() - 1, 0, 0).x();
+  image.region.x_min = sum - s.region.x_max;
+  image.region.x_max = sum - s.region.x_min;
+  const HeightField wall = find_muscle_front(s.labels, s.region).height;
+  const HeightField other = find_muscle_front(image.labels, image.region).height;
+  for (double x = -36; x <= 36; x += 1.7)
+    for (double z = -30; z <= 30; z += 3.3)
+      EXPECT_NEAR(wall(x, z), other(sum - x, z), 1e-9) << x << " " << z;
+}
+
 TEST(MuscleFront, HoldsALesionThatHasGrownIntoTheMuscle) {
   const Segmentation s = dome_with_pit(label::lesion, 8);
   const HeightField wall = find_muscle_front(s.labels, s.region).height;
