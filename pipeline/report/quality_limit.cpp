@@ -29,6 +29,7 @@ constexpr Limit kLimits[] = {
     {"segmentation.seg.nrrd", "volume_ratio", limits::volume_ratio, kNone, ""},
     {"prone.vtu", "skin_rms_mesh_to_data_mm", -kNone, limits::skin_rms_mm, " mm"},
     {"prone.vtu", "skin_rms_data_to_mesh_mm", -kNone, limits::skin_rms_mm, " mm"},
+    {"prone.vtu", "skin_p95_mm", -kNone, limits::skin_p95_mm, " mm"},
     {"prone.vtu", "chest_wall_rms_mm", -kNone, limits::chest_wall_rms_mm, " mm"},
     {"prone.vtu", "covered_fraction", limits::covered_breast, kNone, ""},
     {"prone.vtu", "covered_lesions", limits::covered_lesions, kNone, ""},
