@@ -97,6 +97,26 @@ TEST(PlateFriction, HoldsAPointThatSlidesWhereverThePlateIsPutThen) {
   EXPECT_NEAR((block.force() - Eigen::Vector3d(-18, -24, 0)).norm(), 0, 1e-9);
 }
 
+// A state whose pressure is 2 - 1.5 t kPa where friction comes of t: full steps go away from the
+// 0.8 kPa at which both are one, the second step of Aitken's finds it.
+TEST(PlateFriction, FollowsPressuresThatSwingToWhereTheyMeet) {
+  PressedBlock block;
+  block.slide(0.5, 0);
+  double height = 0;
+  const auto followed = [&] { return -block.force().x() / 30; };  // [kPa], over μ A
+  const auto follow = [&](bool first) {
+    const double move = 0.05 - (2 - 1.5 * followed()) / 20 - height;
+    for (auto& node : block.state.x) node.col(0).z() += move;
+    height += move;
+    return block.friction->follow(block.model, block.state, block.faces, first);
+  };
+  EXPECT_NEAR(followed(), 1, 1e-9);
+  EXPECT_EQ(follow(true), 1);
+  EXPECT_NEAR(followed(), 0.5, 1e-9);
+  EXPECT_NEAR(follow(false), 0.4, 1e-9);
+  EXPECT_NEAR(followed(), 0.8, 1e-9);
+}
+
 // 24 of at most 30 N; each 0.5 mm is a quarter of the reach, so a quarter of the 30.
 TEST(PlateFriction, FrozenItKeepsItsForceAndGivesWayLikeASpring) {
   PressedBlock block;
