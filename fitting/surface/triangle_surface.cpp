@@ -70,8 +70,9 @@ class Clipper {
         crossings_.try_emplace(key, static_cast<int>(surface_.vertices.size()));
     if (is_new) {
       const double t = height_[key.first] / (height_[key.first] - height_[key.second]);
-      surface_.vertices.push_back((1 - t) * surface_.vertices[key.first] +
-                                  t * surface_.vertices[key.second]);
+      const Vector3d from = surface_.vertices[key.first];  // on one plane with `to`: stays on it
+      const Vector3d to = surface_.vertices[key.second];
+      surface_.vertices.push_back(from + t * (to - from));
       height_.push_back(0);
     }
     return at->second;

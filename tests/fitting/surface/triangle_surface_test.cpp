@@ -115,5 +115,18 @@ TEST(ClosestPoint, FindsTheFootOnASheet) {
   EXPECT_LT((closest({5, 0, 0}).x - Eigen::Vector3d(2, 0, 0)).norm(), 1e-12);
 }
 
+// An edge that lies in one cut plane and crosses another has its corner in both, to the last bit.
+TEST(Clip, CornersLieInBothPlanes) {
+  for (int n = 1; n < 200; ++n) {
+    const double x = 0.892259 + 0.001 * n, z = -89.948752 + 0.01 * n;
+    const TriangleSurface triangle{{{x, 0, z - 0.7}, {x, 1, z + 1.1}, {x + 2, 0.5, z}},
+                                   {{0, 1, 2}}};
+    const TriangleSurface part = clip(triangle, 2, z, true, 0);
+    int corners = 0;
+    for (const Eigen::Vector3d& v : part.vertices) corners += v.x() == x && v.z() == z;
+    EXPECT_EQ(corners, 1) << n;
+  }
+}
+
 }  // namespace
 }  // namespace mammotwin
