@@ -143,16 +143,15 @@ class BreastFit {
     return best;
   }
 
-  /// As many columns as the skin is large, and more while they are needed and come nearer.
+  /// As many columns as the skin is large, and more where it asks for them. The nearest is kept.
   FitResult of_its_size() const {
     Eigen::Vector3i columns = elements();
     FitResult best = with(columns);
     for (int more = 1; more <= more_columns && columns.x() < most_columns; ++more) {
-      if (best.report.usable() && best.report.skin_p95_mm <= limits::skin_p95_mm) break;
+      if (near_enough(best.report)) break;
       columns.head<2>().array() += 1;
       FitResult next = with(columns);
-      if (!next.report.usable() || error(next.report) >= error(best.report)) break;
-      best = std::move(next);
+      if (error(next.report) < error(best.report)) best = std::move(next);
     }
     return best;
   }
@@ -175,6 +174,9 @@ class BreastFit {
   static double error(const FitReport& r) {
     if (!r.usable()) return std::numeric_limits<double>::infinity();
     return std::max(r.skin_rms_mesh_to_data_mm, r.skin_rms_data_to_mesh_mm);
+  }
+  static bool near_enough(const FitReport& r) {
+    return error(r) <= limits::skin_rms_mm && r.skin_p95_mm <= limits::skin_p95_mm;
   }
   static bool good(const FitReport& r) { return error(r) < worth_pulling_in_mm; }
 
