@@ -32,6 +32,7 @@ json quality_of(const CompressionReport& r, double angle_deg) {
           {"energy_force_N", r.energy_force_N},
           {"paddle_tilt_deg", r.paddle_tilt_deg},
           {"contact_area_cm2", r.contact_area_cm2},
+          {"gap_p95_mm", r.gap_p95_mm},
           {"volume_change", r.volume_change},
           {"min_J", r.min_J},
           {"max_J", r.max_J},

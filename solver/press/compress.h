@@ -123,6 +123,7 @@ struct CompressionReport {
   double energy_force_N = 0;     ///< the same from the change of stored energy, a check
   double paddle_tilt_deg = 0;    ///< in the end
   double contact_area_cm2 = 0;   ///< deformed, within 0.1 mm of the paddle
+  double gap_p95_mm = 0;         ///< of the skin to both plates where they press (pressed_gap.h)
   double volume_change = 0;      ///< fraction
   double min_J = 1, max_J = 1;
   double J_within_half = 0;  ///< fraction of quadrature points with J in [0.5, 1.5]

@@ -4,7 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
+#include <vector>
 
+#include "solver/contact/pressed_gap.h"
 #include "solver/element/tensor_basis.h"
 #include "solver/units.h"
 
@@ -54,6 +57,19 @@ double retained_fraction(const Press& press, const State& state) {
   return volume_in_front(press, state) / volume_in_front(press, press.model().rest());
 }
 
+/// 95th percentile, of both plates together [mm].
+double pressed_gap(const Press& press, const State& state) {
+  constexpr double kShare = 0.95;
+  const PlateContact& contact = *press.breast().contact;
+  std::vector<WeighedGap> gaps;
+  for (const Plate& plate : contact.plates) {
+    const auto more =
+        pressed_gaps(press.model(), state, plate, press.breast().contact_faces, contact.points1d);
+    gaps.insert(gaps.end(), more.begin(), more.end());
+  }
+  return gap_percentile(std::move(gaps), kShare);
+}
+
 }  // namespace
 
 bool slipped_out(const Press& press, const State& state) {
@@ -66,6 +82,7 @@ void measure_compression(const Press& press, const State& state, CompressionRepo
   report.force_N = press.paddle_force(state);
   report.paddle_tilt_deg = press.placed().paddle_tilt;
   report.contact_area_cm2 = press.figures(state, Press::kPaddle).area * kCm2PerMm2;
+  report.gap_p95_mm = pressed_gap(press, state);
   report.volume_change = balance.deformed_volume / press.model().volume() - 1;
   report.min_J = balance.min_J;
   report.max_J = balance.max_J;

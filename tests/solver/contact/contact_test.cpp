@@ -5,6 +5,9 @@
 
 #include "solver/contact/plate.h"
 #include "solver/contact/plate_contact.h"
+#include "solver/contact/pressed_gap.h"
+#include "solver/material/neo_hookean.h"
+#include "tests/solver/test_meshes.h"
 
 namespace mammotwin {
 namespace {
@@ -61,6 +64,44 @@ TEST(PlateContact, PushesOnlyWhatIsInside) {
   ASSERT_TRUE(contact.respond(y, {}, 2, response));
   EXPECT_NEAR(response.energy, 7 * 0.1 * 0.1 / 2, 1e-12);
   EXPECT_NEAR((response.gradient.head<3>() + 0.7 * paddle().normal).norm(), 0, 1e-12);
+}
+
+// A trough 1 mm deep across a block of 20 mm, z = 10 − c x (20 − x), that touches a plate at its
+// rims: its gap is under c (100 − t²) but in the middle 2t mm of it, and so at 95 % of the area for
+// t = 0.5. The points' areas there are 0.5 mm wide: good to 0.005 mm.
+TEST(PressedGap, OfATroughIsItsDepth) {
+  constexpr double c = 0.01, into = 0.02;  // the outermost points lie 0.018 mm deep
+  const HermiteMesh mesh = box_mesh({20, 20, 10}, {2, 1, 1});
+  Model model(mesh, uniform(std::make_shared<NeoHookean>(1)), {});
+  const auto contact = std::make_shared<PlateContact>();
+  FaceList faces;
+  for (const double height : {0.0, 10.0})  // the lower face looks away
+    for (const auto& [e, face] : faces_in_plane(mesh, 2, height)) {
+      faces.push_back({e, face});
+      model.add_surface_potential(e, face, contact, 12);
+    }
+  State state = model.rest();
+  for (auto& node : state.x)
+    if (const double x = node(0, 0); node(2, 0) > 5) {
+      node(2, 0) -= c * x * (20 - x);
+      node(2, 1) -= 10 * c * (20 - 2 * x);
+    }
+  const Plate plate{{10, 10, 10 - into}, {0, 0, -1}, {0, 1, 0}, 0, true};
+  const auto gaps = pressed_gaps(model, state, plate, faces, 12);
+  EXPECT_NEAR(gap_percentile(gaps, 0.95), c * (100 - 0.25) - into, 0.005);
+  double area = 0;
+  for (const WeighedGap& g : gaps) area += g.area;
+  // Its slope c (20 − 2x) has the mean square 400 c²/3, which makes it 2/3 % longer than wide.
+  EXPECT_NEAR(area, 400 * (1 + 200 * c * c / 3), 0.1);
+}
+
+TEST(PressedGap, OfABlockThatDoesNotTouchIsNone) {
+  const HermiteMesh mesh = box_mesh({20, 20, 10}, {1, 1, 1});
+  Model model(mesh, uniform(std::make_shared<NeoHookean>(1)), {});
+  model.add_surface_potential(0, 5, std::make_shared<PlateContact>(), 12);
+  const Plate plate{{10, 10, 11}, {0, 0, -1}, {0, 1, 0}, 0, true};
+  EXPECT_TRUE(pressed_gaps(model, model.rest(), plate, {{0, 5}}, 12).empty());
+  EXPECT_EQ(gap_percentile({}, 0.95), 0);
 }
 
 }  // namespace

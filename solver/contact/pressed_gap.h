@@ -1,0 +1,24 @@
+#pragma once
+
+#include <vector>
+
+#include "solver/contact/contact_figures.h"
+#include "solver/contact/plate.h"
+
+namespace mammotwin {
+
+/// The gap of a point of the skin, for the deformed area that it stands for.
+struct WeighedGap {
+  double gap = 0;   ///< [mm], negative inside the plate
+  double area = 0;  ///< [mm²]
+};
+
+/// Gaps where a plate presses: at the points of the faces that look at it and lie, seen along its
+/// normal, within the convex hull of those that touch it. A skin that lies flat has none.
+std::vector<WeighedGap> pressed_gaps(const Model& model, const State& state, const Plate& plate,
+                                     const FaceList& faces, int points1d);
+
+/// The gap that `share` of the area stays under [mm]; 0 without any area.
+double gap_percentile(std::vector<WeighedGap> gaps, double share);
+
+}  // namespace mammotwin
