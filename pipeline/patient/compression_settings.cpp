@@ -125,6 +125,10 @@ void declare_compression(Settings& s, CompressionSettings& c) {
            "slip up to which friction is elastic");
   s.number("compress.gap_tolerance_mm", c.options.gap_tolerance, {0.0001, 0.1, "mm"},
            "largest penetration of a plate");
+  s.number("compress.grad_div", c.options.solid.grad_div, {0, 100},
+           "weight of the term that keeps each point's volume, over the shear modulus");
+  s.number("compress.grad_div_quartic", c.options.solid.quartic, {0, 1000},
+           "of that term, what grows with the fourth power; 0: none");
   s.flag("compress.gravity", c.standing_gravity,
          "the breast sags as the patient stands before the plates close");
 }

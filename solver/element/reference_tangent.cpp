@@ -137,7 +137,7 @@ void SolidElement::evaluate_reference(const Coefficients& x, const double* p,
     const PointKinematics point{F[q], inverse_jacobians_[q], weights_[q]};
     const Eigen::Matrix3d cof = cofactor(point.F);
     const double pressure = pressure_functions_.row(q).head(num_pressures_).dot(pressures);
-    const Dilation U = dilation(grad_div_[q], point.F.determinant());
+    const Dilation U = dilation(grad_div_[q], quartic_, point.F.determinant());
     const double total = pressure + U.slope;
     Material::Tangent A = materials_[q]->tangent(point.F);
     A += U.curvature * cof.reshaped() * cof.reshaped().transpose();

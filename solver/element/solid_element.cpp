@@ -143,6 +143,7 @@ void SolidElement::set_materials(const Materials& materials, const SolidOptions&
   materials_ = materials;
   num_pressures_ = static_cast<int>(options.pressure);
   pressure_functions_ = legendre_products();
+  quartic_ = options.quartic;
   for (int q = 0; q < kPoints; ++q) {
     const double mu = materials[q]->shear_modulus();
     bulk_[q] = options.bulk_ratio * mu;
@@ -174,7 +175,7 @@ void SolidElement::evaluate(const Coefficients& x, const double* p, bool with_ta
     if (!(J > 0)) return mark_invalid(system, J);
     const auto psi = pressure_functions_.row(q).head(num_pressures_);
     const double pressure = psi.dot(pressures);
-    const Dilation U = dilation(grad_div_[q], J);
+    const Dilation U = dilation(grad_div_[q], quartic_, J);
     const double total = pressure + U.slope;
     system.energy += w * (materials_[q]->energy(F) + pressure * (J - 1) + U.energy -
                           pressure * pressure / (2 * bulk_[q]));
@@ -242,7 +243,7 @@ std::array<double, kPoints> SolidElement::pressures(const Coefficients& x, const
   for (int q = 0; q < kPoints; ++q) {
     double pressure = 0;
     for (int m = 0; m < num_pressures_; ++m) pressure += pressure_functions_(q, m) * p[m];
-    total[q] = pressure + dilation(grad_div_[q], F[q].determinant()).slope;
+    total[q] = pressure + dilation(grad_div_[q], quartic_, F[q].determinant()).slope;
   }
   return total;
 }

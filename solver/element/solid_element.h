@@ -19,6 +19,7 @@ struct SolidOptions {
   PressureSpace pressure = PressureSpace::trilinear;
   double bulk_ratio = 1e4;  ///< κ/μ [-], at least 100; 1e4 costs 0.01 % in force
   double grad_div = 5;      ///< γ/μ [-], at least 0; keeps J near 1 where stiffness jumps
+  double quartic = 20;      ///< β [-], at least 0, of the grad-div term's far part (dilation.h)
 };
 
 /// One element's contributions to the linear system. Unknowns: tensor_basis.h.
@@ -94,6 +95,7 @@ class SolidElement {
   std::array<double, kPoints> weights_;
   Materials materials_;
   std::array<double, kPoints> bulk_, grad_div_;  ///< κ, γ [kPa]
+  double quartic_ = 0;                           ///< β
   Eigen::Matrix<double, kPoints, 8> pressure_functions_;
   int num_pressures_ = 0;
 };

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "solver/element/dilation.h"
 #include "solver/element/face.h"
 #include "solver/element/gauss.h"
 #include "solver/element/skin_membrane.h"
@@ -86,6 +87,21 @@ TEST(SolidElement, ResidualAndTangentAreDerivatives) {
     OneElement one(space);
     expect_consistent(one);
   }
+}
+
+// U'' and U' of the stabilisation by central differences, each better than 1e-8 of its size; the
+// quartic part alone is what is more than without it.
+TEST(Dilation, SlopeAndCurvatureAreDerivatives) {
+  constexpr double h = 1e-5;
+  for (const double beta : {0.0, 20.0})
+    for (const double J : {0.4, 0.8, 1.0, 1.05, 1.7}) {
+      const Dilation U = dilation(3, beta, J), up = dilation(3, beta, J + h),
+                     down = dilation(3, beta, J - h);
+      EXPECT_NEAR(U.slope, (up.energy - down.energy) / (2 * h), 1e-6 * U.curvature);
+      EXPECT_NEAR(U.curvature, (up.slope - down.slope) / (2 * h), 1e-6 * U.curvature);
+      const double d = (J - 1 / J) / 2;
+      EXPECT_NEAR(U.energy - dilation(3, 0, J).energy, 3 * beta / 4 * std::pow(d, 4), 1e-12);
+    }
 }
 
 TEST(SolidElement, PressureResidualIsDerivativeOfEnergy) {
