@@ -23,6 +23,22 @@ ElementSystem& workspace() {
   return system;
 }
 
+double smallest_modulus(const Model& model) {
+  double mu = std::numeric_limits<double>::infinity();
+  for (int e = 0; e < model.num_elements(); ++e)
+    for (int q = 0; q < kPoints; ++q)
+      mu = std::min(mu, model.element(e).material(q).shear_modulus());
+  return mu;
+}
+
+/// √Σ V^(4/3) [mm²]: the elements' faces, added up as their forces are in a flow.
+double combined_face_area(const Model& model) {
+  double squares = 0;
+  for (int e = 0; e < model.num_elements(); ++e)
+    squares += std::pow(model.element(e).volume(), 4.0 / 3);
+  return std::sqrt(squares);
+}
+
 Eigen::MatrixXd inverse_of_lower(const Eigen::MatrixXd& L) {
   const auto n = L.rows();
   return L.triangularView<Eigen::Lower>().solve(Eigen::MatrixXd::Identity(n, n));
@@ -38,11 +54,7 @@ Assembler::Assembler(const Model& model, const DofMap& dofs)
     pressure_factors_.push_back(inverse_of_lower(L));
   }
   eliminations_.resize(model.num_elements());
-  for (int e = 0; e < model.num_elements(); ++e)
-    smallest_flow_ += std::pow(kSmallStrain * model.element(e).material(0).shear_modulus() *
-                                   std::pow(model.element(e).volume(), 2.0 / 3),
-                               2);
-  smallest_flow_ = std::sqrt(smallest_flow_);
+  smallest_flow_ = kSmallStrain * smallest_modulus(model) * combined_face_area(model);
   values_.resize(pattern_.rows.size());
 }
 

@@ -120,6 +120,22 @@ TEST(Newton, AxialSqueezeByContactIsTheClosedForm) {
   }
 }
 
+// At rest nothing flows: what is left is the least flow, 1e-3 of the softest point's modulus times
+// √Σ V^(4/3). Wherever that point stands: the first of its element or another.
+TEST(Newton, BalanceAtRestIsJudgedByTheSoftestPoint) {
+  const HermiteMesh mesh = box_mesh({10, 10, 20}, {1, 1, 2});
+  DofMap dofs(mesh);
+  dofs.number(mesh);
+  for (const int softest : {0, 100}) {
+    const auto material = [&softest, count = 0](const Eigen::Vector3d&, double) mutable {
+      return std::make_shared<NeoHookean>(count++ == softest ? 0.5 : kC1);
+    };
+    const Model model(mesh, material, {});
+    const double flow = Assembler(model, dofs).balance(model.rest()).flow;
+    EXPECT_NEAR(flow, 1e-3 * 1 * 100 * std::sqrt(2), 1e-12);
+  }
+}
+
 /// Merits before and after every step of a solve.
 struct Descent {
   std::vector<std::pair<double, double>> steps;
