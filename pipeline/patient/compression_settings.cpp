@@ -82,9 +82,10 @@ void declare_compression(Settings& s, CompressionSettings& c) {
   s.number("materials.stiffness_factor", c.stiffness_factor, {0.01, 100},
            "on all stiffnesses: tissue, skin and springs");
   s.flag("materials.skin.membrane", c.skin.on, "skin resists stretch as a membrane");
-  s.number("materials.skin.c1_kpa", c.skin.c1, kModulus, "c1 of the skin membrane");
+  s.number("materials.skin.c1_kpa", c.skin.c1, kModulus,
+           "c1 of the skin; fat in its place has part of it, a membrane the rest");
   s.number("materials.skin.thickness_mm", c.skin.thickness, {0.1, 5, "mm"},
-           "thickness of the skin membrane");
+           "thickness of the skin");
   s.choice(
       "compress.chest_wall", c.boundary.chest_wall,
       {{"sliding", ChestWall::sliding}, {"free", ChestWall::free}, {"clamped", ChestWall::clamped}},

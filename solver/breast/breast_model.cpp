@@ -8,6 +8,7 @@
 
 #include "solver/element/skin_membrane.h"
 #include "solver/load/spring_bed.h"
+#include "solver/material/positive_modulus.h"
 
 namespace mammotwin {
 
@@ -100,9 +101,14 @@ double mean_modulus(const SolidElement& element) {
   return sum / kPoints;
 }
 
+/// Tissue fractions count skin as fat and the mesh reaches to its outside, so the solid holds fat
+/// where skin is: the membrane has what skin has more.
 void add_skin(const CompressionProblem& problem, Model& model) {
   if (!problem.skin.on) return;
-  const auto skin = std::make_shared<SkinMembrane>(problem.skin.c1, problem.skin.thickness);
+  const double c1 = positive_modulus("c1 (skin)", problem.skin.c1);
+  const double c1_fat = problem.laws.laws[0]->shear_modulus() / 2;
+  if (c1 <= c1_fat) return;
+  const auto skin = std::make_shared<SkinMembrane>(c1 - c1_fat, problem.skin.thickness);
   for (const auto& [e, face] : faces_labelled(problem.mesh, FaceLabel::skin))
     model.add_surface_potential(e, face, skin);
 }

@@ -32,6 +32,8 @@ struct TissueLaws {
   static TissueLaws defaults();
 };
 
+/// A membrane whose c1 is the skin's less that of fat, which the solid has in the skin's place
+/// (half its shear modulus at rest); skin no stiffer than fat has none.
 struct SkinOptions {
   bool on = true;
   double c1 = 3.3;         ///< [kPa] > 0
