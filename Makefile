@@ -27,7 +27,7 @@ unexport MAKEFLAGS MAKEOVERRIDES
 
 .PHONY: help patient segment fit unload compress register report slicer paraview synthesize cohort verify-results \
         evaluate-segmentation evaluate-fitting evaluate-compression evaluate-unload evaluate-registration \
-        evaluate-stability evaluate-outlines evaluate-mammograms evaluate-real-pairs evaluate-niftysim evaluate-victre measured validate bench chain programs configured \
+        evaluate-stability evaluate-stabilisation evaluate-outlines evaluate-mammograms evaluate-real-pairs evaluate-niftysim evaluate-victre measured validate bench chain programs configured \
         configured_to_test install docs test clean
 .NOTPARALLEL:  # ninja itself uses all cores
 .DEFAULT_GOAL := help
@@ -51,6 +51,8 @@ help:
 	@echo 'make evaluate-stability  presses the label maps of CASES again with their input changed in ways that must'
 	@echo '                       not matter: RESULTS/evaluation/stability.json; ONLY="Exam_02-left Exam_04",'
 	@echo '                       CHANGES="turn_5 mirror", VIEWS=cc (hours for all)'
+	@echo 'make evaluate-stabilisation  presses 042 and the real cases of CASES with more and less of the term'
+	@echo '                       that keeps the volume of each point: RESULTS/evaluation/stabilisation.json; ONLY=Exam_02-left'
 	@echo 'make evaluate-registration  registers SYNTHETIC=10 patients with mammograms of another model:'
 	@echo '                       RESULTS/evaluation/registration.json; JOBS=2 at a time'
 	@echo 'make evaluate-real-pairs CASES=folder   patients with lesions marked on mammograms (marks.csv):'
@@ -105,6 +107,10 @@ evaluate-compression: mammotwin-evaluate-compression
 evaluate-stability: mammotwin-evaluate-stability
 	@"$$BIN/mammotwin-evaluate-stability" "$$CASES" "$$RESULTS/evaluation/stability.json" \
 	  $${ONLY:+--only $$ONLY} $${CHANGES:+--changes $$CHANGES} $${VIEWS:+--views $$VIEWS}
+
+evaluate-stabilisation: mammotwin-evaluate-stabilisation
+	@"$$BIN/mammotwin-evaluate-stabilisation" sample_data/042/patient.toml "$$CASES" \
+	  "$$RESULTS/evaluation/stabilisation.json" $${ONLY:+--only $$ONLY}
 
 evaluate-registration: mammotwin-evaluate-registration
 	@"$$BIN/mammotwin-evaluate-registration" "$$RESULTS/evaluation/registration.json" \

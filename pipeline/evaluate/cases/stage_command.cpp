@@ -6,12 +6,14 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <fstream>
 #include <stdexcept>
 
 namespace mammotwin {
 namespace {
 
 namespace fs = std::filesystem;
+using nlohmann::json;
 
 std::vector<char*> pointers_to(std::vector<std::string>& words) {
   std::vector<char*> pointers;
@@ -54,6 +56,26 @@ StageEnd run_stage_command(const std::string& stage, const std::vector<std::stri
   end.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   end.cpu_seconds = seconds_of(usage.ru_utime) + seconds_of(usage.ru_stime);
   return end;
+}
+
+json stage_sidecar(const fs::path& product) {
+  std::ifstream in(product.string() + ".json");
+  return in ? json::parse(in) : json();
+}
+
+double run_to_product(const ProductRun& run) {
+  std::vector<std::string> arguments = run.inputs;
+  arguments.push_back(run.product.string());
+  arguments.insert(arguments.end(), {"--patient", run.patient_toml.string()});
+  arguments.insert(arguments.end(), run.options.begin(), run.options.end());
+  const fs::path log = fs::path(run.product).replace_extension(".log");
+  const StageEnd end = run_stage_command(run.stage, arguments, log, run.most_cpu_seconds);
+  if (end.exit_code == 0) return end.cpu_seconds;
+  const json sidecar = stage_sidecar(run.product);
+  const json reasons = sidecar.is_object() ? sidecar.value("reasons", json()) : json();
+  throw std::runtime_error(run.stage + ": " +
+                           (reasons.empty() ? "ended with code " + std::to_string(end.exit_code)
+                                            : reasons.front().get<std::string>()));
 }
 
 }  // namespace mammotwin

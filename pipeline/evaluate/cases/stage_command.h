@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -19,5 +20,20 @@ struct StageEnd {
 /// std::runtime_error where no process can be made.
 StageEnd run_stage_command(const std::string& stage, const std::vector<std::string>& arguments,
                            const std::filesystem::path& log, int most_cpu_seconds);
+
+/// The sidecar of a stage's product; null where there is none.
+nlohmann::json stage_sidecar(const std::filesystem::path& product);
+
+/// A stage that makes one main product.
+struct ProductRun {
+  std::string stage;
+  std::vector<std::string> inputs;
+  std::filesystem::path product, patient_toml;  ///< the log goes beside the product
+  std::vector<std::string> options = {};
+  int most_cpu_seconds = kMostStageCpuSeconds;
+};
+
+/// CPU seconds. Throws std::runtime_error with the stage's reason where it left no product.
+double run_to_product(const ProductRun& run);
 
 }  // namespace mammotwin

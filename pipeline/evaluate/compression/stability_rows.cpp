@@ -2,22 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <map>
 #include <optional>
-#include <random>
 #include <sstream>
 #include <stdexcept>
 
-#include "fitting/mesh/inverse_map.h"
 #include "pipeline/evaluate/cases/real_breasts.h"
 #include "pipeline/evaluate/cases/stage_command.h"
+#include "pipeline/evaluate/compression/pressed_places.h"
 #include "pipeline/frame/products.h"
-#include "pipeline/steps/breast_problem.h"
 #include "pipeline/synthesize/option_table.h"
-#include "registration/view/compressed_view.h"
 #include "segmentation/files/read_image.h"
-#include "segmentation/files/segmentation_file.h"
 #include "segmentation/files/write_image_file.h"
 
 namespace mammotwin {
@@ -27,7 +22,6 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 
 constexpr double kPressedTo_mm = 55;
-constexpr int kTissuePoints = 50, kPointSeed = 1;
 constexpr int kMostPressCpuSeconds = 1800;
 
 /// What one compression needs, and where its products go.
@@ -46,24 +40,11 @@ void write_labels(const fs::path& path, const Volume<std::uint16_t>& labels) {
              values.data(), 1, {});
 }
 
-json stage_sidecar(const fs::path& product) {
-  std::ifstream in(product.string() + ".json");
-  return in ? json::parse(in) : json();
-}
-
-/// CPU seconds. Throws std::runtime_error with the stage's reason where it left no product.
-double run_to_product(const std::string& stage, std::vector<std::string> arguments,
-                      const StabilityInputs& inputs, const fs::path& product, int most_seconds) {
-  arguments.push_back(product.string());
-  arguments.insert(arguments.end(), {"--patient", (inputs.folder / "patient.toml").string()});
-  const StageEnd end =
-      run_stage_command(stage, arguments, inputs.folder / (stage + ".log"), most_seconds);
-  if (end.exit_code == 0) return end.cpu_seconds;
-  const json sidecar = stage_sidecar(product);
-  const json reasons = sidecar.is_object() ? sidecar.value("reasons", json()) : json();
-  throw std::runtime_error(stage + ": " +
-                           (reasons.empty() ? "ended with code " + std::to_string(end.exit_code)
-                                            : reasons.front().get<std::string>()));
+/// CPU seconds.
+double run_stage(const std::string& stage, std::vector<std::string> arguments,
+                 const StabilityInputs& inputs, const fs::path& product, int most_seconds) {
+  return run_to_product(
+      {stage, std::move(arguments), product, inputs.folder / "patient.toml", {}, most_seconds});
 }
 
 void write_patient(const StabilityInputs& inputs, double thickness_mm,
@@ -78,15 +59,10 @@ void write_patient(const StabilityInputs& inputs, double thickness_mm,
   write_text_atomically(inputs.folder / "patient.toml", toml.str());
 }
 
-fs::path fractions_beside(const fs::path& segmentation) {
-  return segmentation.parent_path() / "fractions.nrrd";
-}
-
 void segment_and_fit(const StabilityInputs& inputs, bool segments) {
-  if (segments) run_to_product("segment", {}, inputs, inputs.segmentation, kMostStageCpuSeconds);
-  run_to_product("fit",
-                 {inputs.segmentation.string(), fractions_beside(inputs.segmentation).string()},
-                 inputs, inputs.prone, kMostStageCpuSeconds);
+  if (segments) run_stage("segment", {}, inputs, inputs.segmentation, kMostStageCpuSeconds);
+  run_stage("fit", {inputs.segmentation.string(), fractions_beside(inputs.segmentation).string()},
+            inputs, inputs.prone, kMostStageCpuSeconds);
 }
 
 StabilityInputs base_inputs(const StabilityCase& asked) {
@@ -123,66 +99,12 @@ StabilityInputs changed_inputs(const StabilityInputs& base, const InputChange& c
   return inputs;
 }
 
-/// Places in the view's frame, relative to the nipple.
-class PressedPlaces {
- public:
-  PressedPlaces(const StabilityInputs& inputs, const std::string& view)
-      : file_(read_mesh_file(inputs.folder / (view + ".vtu"))),
-        frame_(compressed_view(view, view + ".vtu", file_.metadata).frame),
-        prone_(prone_file(file_).mesh) {
-    const Segmentation s =
-        read_segmentation(inputs.segmentation, fractions_beside(inputs.segmentation));
-    nipple_ = in_frame(s.nipple_in_lps);
-  }
-  Eigen::Vector3d of(const Eigen::Vector3d& x_prone) const { return in_frame(x_prone) - nipple_; }
-
- private:
-  Eigen::Vector3d in_frame(const Eigen::Vector3d& x_prone) const {
-    return frame_.view_from_lps(file_.mesh.position(prone_.nearest(x_prone)));
-  }
-  MeshFile file_;
-  ViewFrame frame_;
-  InverseMap prone_;
-  Eigen::Vector3d nipple_ = Eigen::Vector3d::Zero();
-};
-
-/// Prone places to follow: the lesions' and the tissue's.
-struct FollowedPoints {
-  std::vector<Eigen::Vector3d> lesions, tissue;
-
-  explicit FollowedPoints(const StabilityInputs& base) {
-    const Segmentation s =
-        read_segmentation(base.segmentation, fractions_beside(base.segmentation));
-    for (const Lesion& lesion : s.lesions)
-      if (s.region.contains(lesion.centroid_in_lps)) lesions.push_back(lesion.centroid_in_lps);
-    const HermiteMesh mesh = read_mesh_file(base.prone).mesh;
-    std::mt19937 random(kPointSeed);
-    const auto share = [&] { return random() / 4294967296.0; };
-    for (int n = 0; n < kTissuePoints; ++n) {
-      const int element = static_cast<int>(share() * mesh.num_elements());
-      tissue.push_back(mesh.position({element, {share(), share(), share()}}));
-    }
-  }
-};
-
-/// Sorted distances between a point's place in one compression and its place in another.
-std::vector<double> moves(const std::vector<Eigen::Vector3d>& points, const PressedPlaces& base,
-                          const PressedPlaces& changed,
-                          const std::function<Eigen::Vector3d(Eigen::Vector3d)>& counterpart) {
-  std::vector<double> all;
-  for (const Eigen::Vector3d& x : points)
-    all.push_back((changed.of(counterpart(x)) - base.of(x)).norm());
-  std::sort(all.begin(), all.end());
-  return all;
-}
-
 json press_view(const StabilityInputs& inputs, const std::string& view, double& cpu_seconds) {
   const fs::path product = inputs.folder / (view + ".vtu");
-  cpu_seconds =
-      run_to_product("compress",
-                     {view, inputs.segmentation.string(),
-                      fractions_beside(inputs.segmentation).string(), inputs.prone.string()},
-                     inputs, product, kMostPressCpuSeconds);
+  cpu_seconds = run_stage("compress",
+                          {view, inputs.segmentation.string(),
+                           fractions_beside(inputs.segmentation).string(), inputs.prone.string()},
+                          inputs, product, kMostPressCpuSeconds);
   return stage_sidecar(product).at("quality");
 }
 
@@ -202,7 +124,7 @@ class StabilityRun {
       : asked_(asked),
         labels_(read_labels(asked.breast.file)),
         base_(base_inputs(asked)),
-        followed_(base_) {}
+        followed_(base_.segmentation, base_.prone) {}
 
   json base_row(const std::string& view) {
     json row = new_stability_row(asked_, view, "none");
@@ -251,12 +173,15 @@ class StabilityRun {
       if (mirror) x.x() = 2 * plane - x.x();
       return x;
     };
-    const PressedPlaces base(base_, view), changed(inputs, view);
+    const auto places = [&](const StabilityInputs& of) {
+      return PressedPlaces(of.folder / (view + ".vtu"), view, of.segmentation);
+    };
+    const PressedPlaces base = places(base_), changed = places(inputs);
     const auto tissue = moves(followed_.tissue, base, changed, counterpart);
     const auto lesions = moves(followed_.lesions, base, changed, counterpart);
     if (!lesions.empty()) row["lesion_mm"] = lesions.back();
-    row["tissue_median_mm"] = (tissue[kTissuePoints / 2 - 1] + tissue[kTissuePoints / 2]) / 2;
-    row["tissue_p95_mm"] = tissue[static_cast<std::size_t>(std::ceil(0.95 * kTissuePoints)) - 1];
+    row["tissue_median_mm"] = median_of_sorted(tissue);
+    row["tissue_p95_mm"] = tissue[static_cast<std::size_t>(std::ceil(0.95 * tissue.size())) - 1];
     row["force_change"] = row.at("force_N").get<double>() / base_force_.at(view).get<double>() - 1;
   }
 

@@ -1,0 +1,116 @@
+#include "pipeline/evaluate/compression/stabilisation_rows.h"
+
+#include <optional>
+
+#include "pipeline/evaluate/cases/stage_command.h"
+#include "pipeline/evaluate/compression/pressed_places.h"
+#include "solver/element/solid_element.h"
+
+namespace mammotwin {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+struct Stabilisation {
+  double weight, quartic;
+  bool is_default() const {
+    return weight == SolidOptions{}.grad_div && quartic == SolidOptions{}.quartic;
+  }
+  std::string name() const { return json(weight).dump() + "_" + json(quartic).dump(); }
+};
+
+/// The default first: the others are compared with it. Without weight there is no quartic part.
+std::vector<Stabilisation> stabilisations() {
+  const double quartic = SolidOptions{}.quartic;
+  std::vector<Stabilisation> all{{SolidOptions{}.grad_div, quartic}};
+  for (const Stabilisation& s : {Stabilisation{0, 0}, {5, 0}, {5, quartic}, {10, 0}, {10, quartic}})
+    if (!s.is_default()) all.push_back(s);
+  return all;
+}
+
+/// One breast under way: segmented and fitted, pressed by the default, then otherwise.
+class StabilisationRun {
+ public:
+  explicit StabilisationRun(const StabilisedBreast& breast)
+      : breast_(breast),
+        segmentation_(breast.folder / "segmentation.seg.nrrd"),
+        prone_(breast.folder / "prone.vtu") {
+    fs::create_directories(breast.folder);
+    run_to_product({"segment", {}, segmentation_, breast.patient_toml});
+    run_to_product({"fit",
+                    {segmentation_.string(), fractions_beside(segmentation_).string()},
+                    prone_,
+                    breast.patient_toml});
+    followed_.emplace(segmentation_, prone_);
+  }
+
+  json row(const std::string& view, const Stabilisation& s) const {
+    json row{{"name", breast_.name},        {"view", view},       {"weight", s.weight},
+             {"quartic", s.quartic},        {"converged", false}, {"reason", nullptr},
+             {"is_default", s.is_default()}};
+    for (const char* key :
+         {"force_N", "force_change", "lesion_median_mm", "lesion_max_mm", "tissue_median_mm",
+          "tissue_max_mm", "min_J", "max_J", "J_within_half", "newton_iterations", "cpu_seconds"})
+      row[key] = nullptr;
+    try {
+      row["cpu_seconds"] = press(view, s);
+    } catch (const std::exception& error) {
+      row["reason"] = error.what();
+      return row;
+    }
+    row["converged"] = true;
+    const json quality = stage_sidecar(pressed(view, s)).at("quality");
+    for (const char* key : {"force_N", "min_J", "max_J", "J_within_half", "newton_iterations"})
+      row[key] = quality.at(key);
+    compare_with_default(view, s, row);
+    return row;
+  }
+
+ private:
+  fs::path pressed(const std::string& view, const Stabilisation& s) const {
+    return breast_.folder / s.name() / (view + ".vtu");
+  }
+
+  double press(const std::string& view, const Stabilisation& s) const {
+    fs::create_directories(pressed(view, s).parent_path());
+    return run_to_product(
+        {"compress",
+         {view, segmentation_.string(), fractions_beside(segmentation_).string(), prone_.string()},
+         pressed(view, s),
+         breast_.patient_toml,
+         {"--grad-div", json(s.weight).dump(), "--grad-div-quartic", json(s.quartic).dump()}});
+  }
+
+  void compare_with_default(const std::string& view, const Stabilisation& s, json& row) const {
+    const fs::path base = pressed(view, stabilisations().front());
+    if (!fs::exists(base)) return;
+    const double force = stage_sidecar(base).at("quality").at("force_N");
+    row["force_change"] = row.at("force_N").get<double>() / force - 1;
+    const PressedPlaces before(base, view, segmentation_),
+        after(pressed(view, s), view, segmentation_);
+    const auto compare = [&](const std::vector<Eigen::Vector3d>& points, const std::string& what) {
+      if (points.empty()) return;
+      const auto sorted = moves(points, before, after, [](Eigen::Vector3d x) { return x; });
+      row[what + "_median_mm"] = median_of_sorted(sorted);
+      row[what + "_max_mm"] = sorted.back();
+    };
+    compare(followed_->lesions, "lesion");
+    compare(followed_->tissue, "tissue");
+  }
+
+  const StabilisedBreast& breast_;
+  const fs::path segmentation_, prone_;
+  std::optional<FollowedPoints> followed_;
+};
+
+}  // namespace
+
+void add_stabilisation_rows(const StabilisedBreast& breast,
+                            const std::function<void(const nlohmann::json&)>& add) {
+  const StabilisationRun run(breast);
+  for (const char* view : {"cc", "mlo"})
+    for (const Stabilisation& s : stabilisations()) add(run.row(view, s));
+}
+
+}  // namespace mammotwin
