@@ -6,6 +6,7 @@
 #include "pipeline/frame/command_line.h"
 #include "pipeline/patient/patient.h"
 #include "pipeline/steps/view_header.h"
+#include "registration/export/png_file.h"
 #include "registration/mammogram/findings_json.h"
 #include "registration/mammogram/findings_picture.h"
 #include "registration/mammogram/mammogram_header.h"

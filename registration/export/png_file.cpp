@@ -3,20 +3,26 @@
 #include <itkImage.h>
 #include <itkImageFileWriter.h>
 #include <itkPNGImageIO.h>
+#include <itkRGBPixel.h>
 
 #include <algorithm>
 #include <stdexcept>
 
-namespace mammotwin {
+#include "registration/mammogram/findings_picture.h"
 
-void write_png(const std::filesystem::path& path, const GreyPixels& pixels) {
-  using Image = itk::Image<std::uint16_t, 2>;
-  auto image = Image::New();
-  image->SetRegions(Image::SizeType{{static_cast<itk::SizeValueType>(pixels.columns),
-                                     static_cast<itk::SizeValueType>(pixels.rows)}});
+namespace mammotwin {
+namespace {
+
+template <class Pixel>
+void write(const std::filesystem::path& path, int columns, int rows,
+           const std::vector<Pixel>& pixels) {
+  using Image = itk::Image<Pixel, 2>;
+  const auto image = Image::New();
+  image->SetRegions(itk::Size<2>{
+      {static_cast<itk::SizeValueType>(columns), static_cast<itk::SizeValueType>(rows)}});
   image->Allocate();
-  std::copy(pixels.grey.begin(), pixels.grey.end(), image->GetBufferPointer());
-  auto writer = itk::ImageFileWriter<Image>::New();
+  std::copy(pixels.begin(), pixels.end(), image->GetBufferPointer());
+  const auto writer = itk::ImageFileWriter<Image>::New();
   writer->SetImageIO(itk::PNGImageIO::New());
   writer->SetFileName(path.string());
   writer->SetInput(image);
@@ -25,6 +31,19 @@ void write_png(const std::filesystem::path& path, const GreyPixels& pixels) {
   } catch (const itk::ExceptionObject& error) {
     throw std::runtime_error(path.string() + ": cannot be written: " + error.GetDescription());
   }
+}
+
+}  // namespace
+
+void write_png(const std::filesystem::path& path, const GreyPixels& pixels) {
+  write(path, pixels.columns, pixels.rows, pixels.grey);
+}
+
+void write_png(const std::filesystem::path& path, const ColourPicture& picture) {
+  std::vector<itk::RGBPixel<std::uint8_t>> pixels;
+  pixels.reserve(picture.pixels.size());
+  for (const ColourPicture::Colour& colour : picture.pixels) pixels.emplace_back(colour.data());
+  write(path, picture.columns, picture.rows, pixels);
 }
 
 }  // namespace mammotwin

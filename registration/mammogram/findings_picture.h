@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cstdint>
-#include <filesystem>
 #include <vector>
 
 #include "registration/mammogram/mammogram_findings.h"
@@ -30,8 +29,5 @@ struct ColourPicture {
 ColourPicture findings_picture(const MammogramImage& image, double pixel_mm,
                                const MammogramFindings& findings, int height,
                                const std::vector<Eigen::Vector2d>& marks = {});
-
-/// Throws std::runtime_error naming the path if it cannot be written.
-void write_png(const std::filesystem::path& path, const ColourPicture& picture);
 
 }  // namespace mammotwin

@@ -7,6 +7,7 @@
 #include "pipeline/evaluate/registration/mammogram_rows.h"
 #include "pipeline/frame/command_line.h"
 #include "pipeline/frame/products.h"
+#include "registration/export/png_file.h"
 #include "registration/mammogram/findings_picture.h"
 
 namespace mammotwin {
