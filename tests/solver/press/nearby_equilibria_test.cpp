@@ -98,7 +98,7 @@ TEST(NearbyEquilibria, StepIsTheDifferenceOfTwoSolves) {
 TEST(NearbyEquilibria, StepIsTheDifferenceOfTwoSolvesWithFriction) {
   const Pressed& rough = pressed(0.3);
   ASSERT_TRUE(rough.equilibrium.report.usable()) << rough.equilibrium.report.reason;
-  EXPECT_LT(error_of_step(rough, plates_moved, 3e-3), 1e-5);
+  EXPECT_LT(error_of_step(rough, plates_moved, 2e-3), 1e-5);  // a point lets go at 3e-3: 1.3e-5
   EXPECT_LT(error_of_step(rough, tissue_changed, 3e-3), 1e-5);
   EXPECT_LT(error_of_step(
                 rough, [](CompressionProblem& p, double q) { p.friction.coefficient += q; }, 3e-4),
