@@ -26,7 +26,7 @@ export P DATA RESULTS FORCE BIN SEED PATIENTS JOBS ONLY ENGINE CONFIG PREFIX CAS
 unexport MAKEFLAGS MAKEOVERRIDES
 
 .PHONY: help patient segment fit unload compress register report slicer paraview synthesize cohort verify-results \
-        evaluate-segmentation evaluate-fitting evaluate-compression evaluate-unload evaluate-registration \
+        evaluate-segmentation evaluate-fitting evaluate-compression evaluate-unload evaluate-gravity evaluate-registration \
         evaluate-stability evaluate-stabilisation evaluate-outlines evaluate-mammograms evaluate-real-pairs evaluate-niftysim evaluate-victre measured validate bench chain programs configured \
         configured_to_test install docs test clean
 .NOTPARALLEL:  # ninja itself uses all cores
@@ -45,6 +45,7 @@ help:
 	@echo 'make evaluate-segmentation  segments SYNTHETIC=20 synthetic patients, and MRI simulated from the'
 	@echo '                       label maps of CASES=folder: RESULTS/evaluation/segmentation.json; JOBS=2 at a time'
 	@echo 'make evaluate-fitting  fits every breast of CASES=folder: RESULTS/evaluation/fitting.json'
+	@echo 'make evaluate-gravity  lays every breast of CASES on its back: RESULTS/evaluation/gravity.json'
 	@echo 'make evaluate-unload   takes gravity off every breast of CASES: RESULTS/evaluation/unload.json'
 	@echo 'make evaluate-compression   compresses SYNTHETIC=200 drawn breasts and those of CASES=folder in'
 	@echo '                       both views: RESULTS/evaluation/compression.json; JOBS=2 at a time'
@@ -99,6 +100,10 @@ evaluate-fitting: mammotwin-evaluate-fitting
 
 evaluate-unload: mammotwin-evaluate-unload
 	@"$$BIN/mammotwin-evaluate-unload" "$$CASES" "$$RESULTS/evaluation/unload.json" --views
+
+evaluate-gravity: mammotwin-evaluate-gravity
+	@"$$BIN/mammotwin-evaluate-gravity" "$$CASES" "$$RESULTS/evaluation/gravity.json" \
+	  $${JOBS:+--jobs "$$JOBS"} $${ONLY:+--only $$ONLY}
 
 evaluate-compression: mammotwin-evaluate-compression
 	@"$$BIN/mammotwin-evaluate-compression" "$$RESULTS/evaluation/compression.json" --cases "$$CASES" \

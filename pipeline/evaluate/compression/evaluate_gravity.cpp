@@ -1,0 +1,71 @@
+// evaluate-gravity: lays every breast of a folder of cases on its back, unattended -> one table.
+
+#include <algorithm>
+
+#include "pipeline/evaluate/cases/evaluation_table.h"
+#include "pipeline/evaluate/compression/gravity_row.h"
+#include "pipeline/frame/command_line.h"
+#include "pipeline/synthesize/options.h"
+
+namespace mammotwin {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Arguments {
+  fs::path cases, table;
+  std::vector<std::string> only, unload_options;
+  int jobs = 2;
+};
+
+void declare(CommandLine& command, Arguments& args) {
+  command.option("cases", args.cases, "folder with label_maps/*.nii.gz and mimbcd_*/mri")
+      .required()
+      .existing_folder();
+  command
+      .option("table", args.table,
+              "gravity.json to write; each breast's files go to the folder gravity beside it")
+      .required();
+  command.option("--only", args.only, "breasts whose name-side contains one of these (texts)");
+  command.option("--jobs", args.jobs, "breasts at a time [1 to 64]").between(1, 64).with_default();
+  command.option("--unload", args.unload_options,
+                 "options of mammotwin-unload (such as --unload=--stiffness-factor "
+                 "--unload=0.4)");
+}
+
+std::string name_and_side(const RealBreast& breast) {
+  return breast.name + "-" + name_of(breast.side);
+}
+
+std::vector<RealBreast> breasts_asked(const Arguments& args) {
+  std::vector<RealBreast> breasts = real_breasts(args.cases);
+  if (!args.only.empty())
+    std::erase_if(breasts, [&](const RealBreast& breast) {
+      return std::none_of(args.only.begin(), args.only.end(), [&](const std::string& text) {
+        return name_and_side(breast).find(text) != std::string::npos;
+      });
+    });
+  if (breasts.empty()) throw std::runtime_error(args.cases.string() + ": no such breast in it");
+  return breasts;
+}
+
+int run(const Arguments& args) {
+  EvaluationTable table(args.table);
+  const auto breasts = breasts_asked(args);
+  work_through(breasts.size(), args.jobs, [&](std::size_t n) {
+    const fs::path folder = table.folder() / "gravity" / name_and_side(breasts[n]);
+    table.add(n, gravity_row(breasts[n], folder, args.unload_options));
+  });
+  return 0;
+}
+
+}  // namespace
+}  // namespace mammotwin
+
+int main(int argc, char** argv) {
+  using namespace mammotwin;
+  return run_plain_command<Arguments>(argc, argv, "evaluate-gravity",
+                                      "Lays every breast of a folder of cases on its back and "
+                                      "writes how far nipple and tissue move",
+                                      declare, run);
+}
