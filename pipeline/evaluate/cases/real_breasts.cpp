@@ -1,5 +1,6 @@
 #include "pipeline/evaluate/cases/real_breasts.h"
 
+#include <algorithm>
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -36,6 +37,16 @@ std::string labels_toml(const fs::path& label_map) {
   toml << "[labels]\npath = " << json(fs::canonical(label_map).string()) << "\n";
   for (const auto& [tissue, list] : values) toml << tissue << " = " << list << "\n";
   return toml.str();
+}
+
+std::string name_and_side(const RealBreast& breast) {
+  return breast.name + "-" + name_of(breast.side);
+}
+
+bool is_asked(const std::string& name, const std::vector<std::string>& only) {
+  return only.empty() || std::any_of(only.begin(), only.end(), [&](const std::string& part) {
+           return name.find(part) != std::string::npos;
+         });
 }
 
 std::vector<RealBreast> real_breasts(const fs::path& cases) {

@@ -1,11 +1,8 @@
 // evaluate-gravity: lays every breast of a folder of cases on its back, unattended -> one table.
 
-#include <algorithm>
-
 #include "pipeline/evaluate/cases/evaluation_table.h"
 #include "pipeline/evaluate/compression/gravity_row.h"
 #include "pipeline/frame/command_line.h"
-#include "pipeline/synthesize/options.h"
 
 namespace mammotwin {
 namespace {
@@ -33,18 +30,11 @@ void declare(CommandLine& command, Arguments& args) {
                  "--unload=0.4)");
 }
 
-std::string name_and_side(const RealBreast& breast) {
-  return breast.name + "-" + name_of(breast.side);
-}
-
 std::vector<RealBreast> breasts_asked(const Arguments& args) {
   std::vector<RealBreast> breasts = real_breasts(args.cases);
-  if (!args.only.empty())
-    std::erase_if(breasts, [&](const RealBreast& breast) {
-      return std::none_of(args.only.begin(), args.only.end(), [&](const std::string& text) {
-        return name_and_side(breast).find(text) != std::string::npos;
-      });
-    });
+  std::erase_if(breasts, [&](const RealBreast& breast) {
+    return !is_asked(name_and_side(breast), args.only);
+  });
   if (breasts.empty()) throw std::runtime_error(args.cases.string() + ": no such breast in it");
   return breasts;
 }

@@ -1,8 +1,6 @@
 // evaluate-stabilisation: breasts pressed with more and less of the term that keeps each point's
 // volume -> one table.
 
-#include <algorithm>
-
 #include "pipeline/evaluate/cases/evaluation_table.h"
 #include "pipeline/evaluate/cases/real_breasts.h"
 #include "pipeline/evaluate/compression/stabilisation_rows.h"
@@ -40,11 +38,8 @@ std::vector<StabilisedBreast> breasts_asked(const Arguments& args, const fs::pat
   const std::string first = patient.parent_path().filename();
   std::vector<StabilisedBreast> breasts{{first, patient, folder / first}};
   for (const RealBreast& real : real_breasts(args.cases)) {
-    StabilisedBreast breast{real.name + "-" + name_of(real.side), {}, {}};
-    const auto asked = [&](const std::string& text) {
-      return breast.name.find(text) != std::string::npos;
-    };
-    if (!args.only.empty() && std::none_of(args.only.begin(), args.only.end(), asked)) continue;
+    StabilisedBreast breast{name_and_side(real), {}, {}};
+    if (!is_asked(breast.name, args.only)) continue;
     breast.folder = folder / breast.name;
     breast.patient_toml = breast.folder / "patient.toml";
     fs::create_directories(breast.folder);

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "pipeline/evaluate/cases/evaluation_table.h"
+#include "pipeline/evaluate/cases/real_breasts.h"
 #include "pipeline/evaluate/compression/stability_rows.h"
 #include "pipeline/frame/command_line.h"
 
@@ -31,22 +32,15 @@ void declare(CommandLine& command, Arguments& args) {
   command.option("--views", args.views, "cc, mlo (default: both)");
 }
 
-bool is_asked(const std::vector<std::string>& asked, const std::string& name) {
-  return asked.empty() || std::find(asked.begin(), asked.end(), name) != asked.end();
-}
-
-bool contains_one_of(const std::string& name, const std::vector<std::string>& texts) {
-  return texts.empty() || std::any_of(texts.begin(), texts.end(), [&](const std::string& text) {
-           return name.find(text) != std::string::npos;
-         });
-}
-
 std::vector<InputChange> changes_asked(const Arguments& args) {
   std::vector<InputChange> changes = input_changes();
   for (const std::string& name : args.changes)
     if (std::none_of(changes.begin(), changes.end(), [&](auto& c) { return c.name == name; }))
       throw std::runtime_error("--changes: " + name + " is none of those that the help names");
-  std::erase_if(changes, [&](const auto& c) { return !is_asked(args.changes, c.name); });
+  if (!args.changes.empty())
+    std::erase_if(changes, [&](const auto& c) {
+      return std::find(args.changes.begin(), args.changes.end(), c.name) == args.changes.end();
+    });
   return changes;
 }
 
@@ -55,7 +49,7 @@ int run(const Arguments& args) {
   std::size_t breasts = 0;
   for (const LabelMapBreast& breast : label_map_breasts(args.cases)) {
     const std::string name = breast_name(breast);
-    if (!contains_one_of(name, args.only)) continue;
+    if (!is_asked(name, args.only)) continue;
     StabilityCase asked{breast, table.folder() / "stability" / name, changes_asked(args)};
     if (!args.views.empty()) asked.views = args.views;
     add_stability_rows(asked, [&](const nlohmann::json& row) { table.add(breasts, row); });

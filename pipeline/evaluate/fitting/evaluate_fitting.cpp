@@ -50,7 +50,7 @@ int run(const Arguments& args) {
   EvaluationTable table(args.table);
   std::size_t breasts = 0;
   for (const RealBreast& breast : real_breasts(args.cases)) {
-    const std::string name = breast.name + (breast.side == Side::left ? "-left" : "-right");
+    const std::string name = name_and_side(breast);
     if (name.find(args.only) == std::string::npos) continue;
     json row = fitting_row(breast, table.folder() / "fitting" / name, args.fit);
     const std::string line = line_of(row);
