@@ -10,22 +10,28 @@ namespace {
 
 constexpr int width = 16;  // pairs of four functions
 
-/// Sixteen numbers anywhere in an array; a machine without such registers uses several.
-using Sixteen = double __attribute__((vector_size(128), aligned(8), may_alias));
+/// Four numbers anywhere in an array; a machine without such registers uses two.
+using Four = double __attribute__((vector_size(32), aligned(8), may_alias));
 
 /// out[m] += Σ_k in[k][m] table[k]: contracts the slowest index of `in` and appends a pair of
-/// functions as the fastest. One body, three instruction sets; the loader picks one.
-__attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default"))) void contract(
+/// functions as the fastest. `count` is even: two m at a time share the table in their registers,
+/// which wider vectors would spill. One body, two instruction sets; the loader picks one.
+__attribute__((target_clones("arch=x86-64-v3", "default"))) void contract(
     const std::vector<double>& in, std::size_t from, int count, const std::vector<double>& table,
     std::vector<double>& out) {
   const int n = static_cast<int>(table.size()) / width;
-  for (int m = 0; m < count; ++m) {
-    Sixteen& sum_out = *reinterpret_cast<Sixteen*>(&out[static_cast<std::size_t>(width) * m]);
-    Sixteen sum = sum_out;
-    for (int k = 0; k < n; ++k)
-      sum += in[from + static_cast<std::size_t>(k) * count + m] *
-             *reinterpret_cast<const Sixteen*>(&table[static_cast<std::size_t>(width) * k]);
-    sum_out = sum;
+  for (int m = 0; m < count; m += 2) {
+    Four* to = reinterpret_cast<Four*>(&out[static_cast<std::size_t>(width) * m]);
+    Four a0 = to[0], a1 = to[1], a2 = to[2], a3 = to[3];
+    Four b0 = to[4], b1 = to[5], b2 = to[6], b3 = to[7];
+    for (int k = 0; k < n; ++k) {
+      const Four* t = reinterpret_cast<const Four*>(&table[static_cast<std::size_t>(width) * k]);
+      const double* x = &in[from + static_cast<std::size_t>(k) * count + m];
+      a0 += x[0] * t[0], a1 += x[0] * t[1], a2 += x[0] * t[2], a3 += x[0] * t[3];
+      b0 += x[1] * t[0], b1 += x[1] * t[1], b2 += x[1] * t[2], b3 += x[1] * t[3];
+    }
+    to[0] = a0, to[1] = a1, to[2] = a2, to[3] = a3;
+    to[4] = b0, to[5] = b1, to[6] = b2, to[7] = b3;
   }
 }
 
