@@ -86,18 +86,27 @@ void declare_compression(Settings& s, CompressionSettings& c) {
            "c1 of the skin; fat in its place has part of it, a membrane the rest");
   s.number("materials.skin.thickness_mm", c.skin.thickness, {0.1, 5, "mm"},
            "thickness of the skin");
+  s.number("materials.skin.stiffening", c.skin.stiffening, {0, 20},
+           "b of the skin: slack at first, stiff when stretched; 0: neo-Hookean");
   s.choice(
       "compress.chest_wall", c.boundary.chest_wall,
       {{"sliding", ChestWall::sliding}, {"free", ChestWall::free}, {"clamped", ChestWall::clamped}},
       "breast on the pectoral muscle: held on its surface against springs, freely, or fixed");
   s.number("compress.chest_wall_spring_kpa_per_mm", c.boundary.chest_wall_spring, {0, 10, "kPa/mm"},
            "springs against sliding");
+  s.number("compress.chest_wall_reach_mm", c.boundary.chest_wall_reach, {1, 1000, "mm"},
+           "about so far they give way before they stiffen; default linear springs");
+  s.number(
+      "compress.chest_wall_smoothing_mm", c.boundary.wall_smoothing, {0, 100, "mm"},
+      "hollows of the wall up to about 6 times as wide do not catch what slides on it; 0: all");
   s.choice(
       "compress.cut_faces", c.boundary.cut_faces,
       {{"springs", CutFaces::springs}, {"free", CutFaces::free}, {"clamped", CutFaces::clamped}},
       "where tissue goes on behind the model");
   s.number("compress.cut_face_depth_mm", c.boundary.cut_face_depth, {1, 1000, "mm"},
            "depth of the tissue behind a cut face: spring = shear modulus / depth");
+  s.number("compress.cut_face_reach_mm", c.boundary.cut_face_reach, {1, 1000, "mm"},
+           "about so far these springs give way before they stiffen; default linear");
   s.number("compress.plate_rounding_mm", c.plate_rounding_mm, {0.5, 50, "mm"},
            "radius of the plates' edges at the chest wall");
   s.number("compress.wall_clearance_mm", c.wall_clearance_mm, {0, 60, "mm"},

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
 #include "solver/element/skin_membrane.h"
+#include "solver/load/smooth_wall.h"
 #include "solver/load/spring_bed.h"
 #include "solver/material/positive_modulus.h"
 
@@ -108,9 +110,14 @@ void add_skin(const CompressionProblem& problem, Model& model) {
   const double c1 = positive_modulus("c1 (skin)", problem.skin.c1);
   const double c1_fat = problem.laws.laws[0]->shear_modulus() / 2;
   if (c1 <= c1_fat) return;
-  const auto skin = std::make_shared<SkinMembrane>(c1 - c1_fat, problem.skin.thickness);
+  const auto skin =
+      std::make_shared<SkinMembrane>(c1 - c1_fat, problem.skin.thickness, problem.skin.stiffening);
   for (const auto& [e, face] : faces_labelled(problem.mesh, FaceLabel::skin))
     model.add_surface_potential(e, face, skin);
+}
+
+std::shared_ptr<SpringBed> spring_bed(double k, std::optional<double> reach) {
+  return std::make_shared<SpringBed>(k, reach.value_or(std::numeric_limits<double>::infinity()));
 }
 
 void hold_chest_wall(const CompressionProblem& problem, const HermiteMesh& prone,
@@ -118,11 +125,17 @@ void hold_chest_wall(const CompressionProblem& problem, const HermiteMesh& prone
   const auto& options = problem.boundary;
   if (options.chest_wall == ChestWall::clamped)
     return hold_clamped(problem.mesh.mesh, breast.wall_faces, *breast.dofs);
-  breast.wall = std::make_shared<WallSurface>(prone, breast.wall_faces);
-  const auto hold = std::make_shared<WallHold>(
-      breast.wall, kWallPenalty * breast.penalty_unit(),
-      problem.prone.empty() ? WallRest::on_wall : WallRest::as_reference);
-  const auto springs = std::make_shared<SpringBed>(options.chest_wall_spring);
+  MeshFile imaged = problem.mesh;
+  imaged.mesh = prone;
+  const bool smooth = options.wall_smoothing > 0;
+  breast.wall = std::make_shared<WallSurface>(
+      smooth ? with_smooth_wall(imaged, breast.wall_faces, options.wall_smoothing) : prone,
+      breast.wall_faces);
+  const bool is_wall = problem.prone.empty() && !smooth;
+  const auto hold =
+      std::make_shared<WallHold>(breast.wall, kWallPenalty * breast.penalty_unit(),
+                                 is_wall ? WallRest::on_wall : WallRest::as_reference);
+  const auto springs = spring_bed(options.chest_wall_spring, options.chest_wall_reach);
   for (const auto& [e, face] : breast.wall_faces) {
     breast.model->add_surface_potential(e, face, hold);
     if (options.chest_wall == ChestWall::sliding)
@@ -138,7 +151,7 @@ void hold_cut_faces(const CompressionProblem& problem, BreastModel& breast) {
   if (options.cut_faces == CutFaces::free) return;
   for (const auto& [e, face] : faces) {
     const double k = mean_modulus(breast.model->element(e)) / options.cut_face_depth;
-    breast.model->add_surface_potential(e, face, std::make_shared<SpringBed>(k));
+    breast.model->add_surface_potential(e, face, spring_bed(k, options.cut_face_reach));
   }
 }
 

@@ -2,7 +2,10 @@
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
+#include <cmath>
 #include <limits>
+#include <stdexcept>
+#include <string>
 
 #include "solver/material/positive_modulus.h"
 
@@ -20,9 +23,14 @@ Eigen::Matrix3d dual_derivative(const Tangents& b, const Eigen::Matrix2d& invers
 
 }  // namespace
 
-SkinMembrane::SkinMembrane(double c1, double thickness)
+SkinMembrane::SkinMembrane(double c1, double thickness, double b)
     : stiffness_(positive_modulus("c1 (skin)", c1) *
-                 positive_modulus("thickness (skin)", thickness)) {}
+                 positive_modulus("thickness (skin)", thickness)),
+      b_(b) {
+  if (!(std::isfinite(b) && b >= 0))
+    throw std::invalid_argument("stiffening of the skin is " + std::to_string(b) +
+                                "; expected at least 0");
+}
 
 bool SkinMembrane::respond(const Eigen::Matrix<double, 9, 1>& y, const SurfacePoint& point,
                            int order, SurfaceResponse& response) const {
@@ -39,21 +47,26 @@ bool SkinMembrane::respond(const Eigen::Matrix<double, 9, 1>& y, const SurfacePo
     return true;
   }
   const double squared_thinning = reference.determinant() / squared_area;
-  response.energy = stiffness_ * (G.cwiseProduct(metric).sum() + squared_thinning - 3);
+  const double strain = G.cwiseProduct(metric).sum() + squared_thinning - 3;
+  const double growth = std::exp(b_ * strain);
+  response.energy = stiffness_ * (b_ > 0 ? std::expm1(b_ * strain) / b_ : strain);
   if (order == 0) return true;
   const Eigen::Matrix2d inverse_metric = metric.inverse();
   const Tangents b = a * inverse_metric;
-  const Tangents force = 2 * stiffness_ * (a * G - squared_thinning * b);
+  const Tangents force = 2 * stiffness_ * growth * (a * G - squared_thinning * b);
   response.gradient.tail<6>() = force.reshaped();
   if (order == 1) return true;
   const Eigen::Vector3d n = a.col(0).cross(a.col(1)).normalized();
   for (int alpha = 0; alpha < 2; ++alpha)
     for (int beta = 0; beta < 2; ++beta)
       response.hessian.block<3, 3>(3 + 3 * alpha, 3 + 3 * beta) =
-          2 * stiffness_ *
+          2 * stiffness_ * growth *
           (G(alpha, beta) * Eigen::Matrix3d::Identity() +
            squared_thinning * (2 * b.col(alpha) * b.col(beta).transpose() -
                                dual_derivative(b, inverse_metric, n, alpha, beta)));
+  const auto pull = force.reshaped();
+  response.hessian.bottomRightCorner<6, 6>() +=
+      b_ / (stiffness_ * growth) * pull * pull.transpose();
   return true;
 }
 
@@ -67,6 +80,8 @@ Eigen::Matrix<double, 9, 9> SkinMembrane::reference_derivative(const Eigen::Matr
   const Eigen::Matrix2d metric = a.transpose() * a, reference = A.transpose() * A;
   const Eigen::Matrix2d G = reference.inverse(), inverse_metric = metric.inverse();
   const double squared_thinning = reference.determinant() / metric.determinant();
+  const double growth = std::exp(b_ * (G.cwiseProduct(metric).sum() + squared_thinning - 3));
+  const Tangents pull = 2 * stiffness_ * growth * (a * G - squared_thinning * a * inverse_metric);
   Eigen::Matrix<double, 9, 9> derivative = Eigen::Matrix<double, 9, 9>::Zero();
   for (int beta = 0; beta < 2; ++beta)
     for (int i = 0; i < 3; ++i) {
@@ -74,9 +89,13 @@ Eigen::Matrix<double, 9, 9> SkinMembrane::reference_derivative(const Eigen::Matr
       dA(i, beta) = 1;
       const Eigen::Matrix2d change = dA.transpose() * A + A.transpose() * dA;
       const double trace = G.cwiseProduct(change).sum();
-      const Tangents force =
-          -2 * stiffness_ * (a * (G * change * G) + squared_thinning * trace * a * inverse_metric);
-      derivative.col(3 + 3 * beta + i).tail<6>() = force.reshaped();
+      const Tangents at_growth =
+          -2 * stiffness_ * growth *
+          (a * (G * change * G) + squared_thinning * trace * a * inverse_metric);
+      const double strain_change =
+          squared_thinning * trace - (G * change * G).cwiseProduct(metric).sum();
+      derivative.col(3 + 3 * beta + i).tail<6>() =
+          (at_growth + b_ * strain_change * pull).reshaped();
     }
   return derivative;
 }

@@ -84,17 +84,26 @@ int stride(int direction) { return direction == 0 ? 1 : direction == 1 ? 4 : 16;
 
 }  // namespace
 
+std::pair<int, int> face_parameter(const HermiteMesh& mesh, int element, int face, int a) {
+  const auto [d1, d2] = face_directions(face);
+  const int f = 2 * (face % 2) * stride(face / 2) + (a & 3) * stride(d1) + (a >> 2) * stride(d2);
+  return {mesh.corners(element)[corner_of_function(f)], parameter_of_function(f)};
+}
+
+Eigen::Matrix<double, 3, 16> face_coefficients(const HermiteMesh& mesh, int element, int face) {
+  Eigen::Matrix<double, 3, 16> coefficients;
+  for (int a = 0; a < 16; ++a) {
+    const auto [node, parameter] = face_parameter(mesh, element, face, a);
+    coefficients.col(a) = mesh.node(node).col(parameter);
+  }
+  return coefficients;
+}
+
 WallSurface::WallSurface(const HermiteMesh& mesh, const std::vector<std::pair<int, int>>& faces) {
   if (faces.empty()) throw std::invalid_argument("the chest wall has no faces");
   for (const auto& [element, face] : faces) {
-    const auto [d1, d2] = face_directions(face);
     Patch patch;
-    for (int a = 0; a < 16; ++a) {
-      const int f =
-          2 * (face % 2) * stride(face / 2) + (a & 3) * stride(d1) + (a >> 2) * stride(d2);
-      patch.coefficients.col(a) =
-          mesh.node(mesh.corners(element)[corner_of_function(f)]).col(parameter_of_function(f));
-    }
+    patch.coefficients = face_coefficients(mesh, element, face);
     for (int k = 0; k < kSamples1d * kSamples1d; ++k) {
       const Eigen::Vector2d xi(k % kSamples1d, k / kSamples1d);
       patch.samples.col(k) = jet(patch.coefficients, xi / (kSamples1d - 1.0)).s;

@@ -11,6 +11,13 @@
 
 namespace mammotwin {
 
+/// Which nodal parameter of the mesh weighs function a of 16 of an element's face: (node,
+/// parameter).
+std::pair<int, int> face_parameter(const HermiteMesh& mesh, int element, int face, int a);
+
+/// All 16 of a face, as columns.
+Eigen::Matrix<double, 3, 16> face_coefficients(const HermiteMesh& mesh, int element, int face);
+
 /// The undeformed chest wall: bicubic Hermite patches, continued straight on beyond their rim, and
 /// the signed distance to them.
 class WallSurface {

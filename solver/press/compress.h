@@ -38,6 +38,7 @@ struct SkinOptions {
   bool on = true;
   double c1 = 3.3;         ///< [kPa] > 0
   double thickness = 1.5;  ///< [mm] > 0
+  double stiffening = 0;   ///< b >= 0 of its law (SkinMembrane); 0: neo-Hookean
 };
 
 enum class ChestWall {
@@ -54,8 +55,14 @@ enum class CutFaces {
 struct BoundaryOptions {
   ChestWall chest_wall = ChestWall::sliding;
   double chest_wall_spring = 0.08;  ///< [kPa/mm] >= 0, for `sliding`
+  /// [mm] > 0: about so far the springs give way before they stiffen (SpringBed); empty: linear.
+  std::optional<double> chest_wall_reach;
+  /// ℓ [mm] >= 0 of the smooth wall that the breast slides along (with_smooth_wall); 0: the fitted
+  /// one, with its hollows.
+  double wall_smoothing = 0;
   CutFaces cut_faces = CutFaces::springs;
-  double cut_face_depth = 50;  ///< [mm] > 0: spring = shear modulus / this, for `springs`
+  double cut_face_depth = 50;            ///< [mm] > 0: spring = shear modulus / this, for `springs`
+  std::optional<double> cut_face_reach;  ///< [mm] > 0, as of the chest wall
 };
 
 /// With the plates (contact/plate_friction.h).
@@ -132,7 +139,7 @@ struct CompressionReport {
   double max_penetration_mm = 0;
   double retained_fraction = 1;  ///< of the tissue in front of the plates' edges, how much stays
   bool slipped_out = false;      ///< backwards from between the plates
-  double wall_gap_mm = 0;        ///< largest distance of the chest-wall face from its surface
+  double wall_gap_mm = 0;        ///< most that the chest-wall face left its distance to the wall
   double seconds = 0;
   int dof = 0;
   std::vector<CompressionStep> history;

@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kCm2PerMm2 = 1e-2;
 
-/// Largest distance of the chest-wall face from its surface [mm].
+/// Most that the chest-wall face came nearer to or farther from its surface [mm].
 double wall_gap(const Press& press, const BreastModel& breast, const State& state) {
   if (!breast.wall) return 0;
   double largest = 0;
@@ -25,7 +25,8 @@ double wall_gap(const Press& press, const BreastModel& breast, const State& stat
     const auto x = press.model().coefficients(state.x, e);
     for (const Face& face : press.model().faces(e))
       for (int q = 0; face.face() == number && q < face.num_points(); ++q)
-        largest = std::max(largest, std::abs(breast.wall->gap(face.deformed(x, q).head<3>()).gap));
+        largest = std::max(largest, std::abs(breast.wall->gap(face.deformed(x, q).head<3>()).gap -
+                                             breast.wall->gap(face.point(q).X).gap));
   }
   return largest;
 }

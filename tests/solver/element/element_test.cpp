@@ -140,11 +140,13 @@ TEST(SolidElement, RefusesAFoldedMesh) {
 }
 
 TEST(SkinMembrane, ResidualAndTangentAreDerivatives) {
-  for (int face = 0; face < 6; ++face) {
-    OneElement one;
-    one.model.add_surface_potential(0, face, std::make_shared<SkinMembrane>(3.3, 1.5));
-    expect_consistent(one);
-  }
+  for (const double stiffening : {0.0, 2.0})
+    for (int face = 0; face < 6; ++face) {
+      OneElement one;
+      one.model.add_surface_potential(0, face,
+                                      std::make_shared<SkinMembrane>(3.3, 1.5, stiffening));
+      expect_consistent(one);
+    }
 }
 
 TEST(FollowerPressure, ResidualAndTangentAreDerivatives) {
@@ -168,8 +170,11 @@ TEST(SkinMembrane, EnergyOfEquibiaxialStretch) {
   y << 0, 0, 0, 0, stretch * 10, 0, 0, 0, stretch * 8;  // turned out of its plane as well
   SurfaceResponse response;
   skin.respond(y, point, 0, response);
-  EXPECT_NEAR(response.energy, 1.5 * 3.3 * (2 * stretch * stretch + std::pow(stretch, -4) - 3),
-              1e-12);
+  const double strain = 2 * stretch * stretch + std::pow(stretch, -4) - 3;
+  EXPECT_NEAR(response.energy, 1.5 * 3.3 * strain, 1e-12);
+  SkinMembrane(3.3, 1.5, 2).respond(y, point, 0, response);
+  EXPECT_NEAR(response.energy, 1.5 * 3.3 / 2 * (std::exp(2 * strain) - 1), 1e-12);
+  EXPECT_THROW(SkinMembrane(3.3, 1.5, -1), std::invalid_argument);
 }
 
 }  // namespace

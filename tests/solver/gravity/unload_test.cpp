@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "solver/element/skin_membrane.h"
 #include "solver/load/spring_bed.h"
 #include "solver/load/wall_surface.h"
@@ -85,15 +87,19 @@ TEST(ReferenceTangent, CouplingIsThatOfTheForwardProblem) {
 TEST(ReferenceTangent, HoldsWithSkin) {
   Changeable one;
   one.law = std::make_shared<NeoHookean>(0.01);
-  one.potential = std::make_shared<SkinMembrane>(3.3, 1.5);
-  expect_consistent(one);
+  for (const double stiffening : {0.0, 2.0}) {
+    one.potential = std::make_shared<SkinMembrane>(3.3, 1.5, stiffening);
+    expect_consistent(one);
+  }
 }
 
 TEST(ReferenceTangent, HoldsWithSprings) {
   Changeable one;
   one.law = std::make_shared<NeoHookean>(0.01);
-  one.potential = std::make_shared<SpringBed>(0.5);
-  expect_consistent(one);
+  for (const double reach : {1.0, std::numeric_limits<double>::infinity()}) {
+    one.potential = std::make_shared<SpringBed>(0.5, reach);
+    expect_consistent(one);
+  }
 }
 
 TEST(ReferenceTangent, HoldsOnAWall) {

@@ -2,6 +2,7 @@
 
 #include <random>
 
+#include "solver/load/smooth_wall.h"
 #include "solver/load/spring_bed.h"
 #include "solver/load/wall_surface.h"
 #include "tests/solver/test_meshes.h"
@@ -107,6 +108,47 @@ TEST(WallSurface, PointsOnUnevenPatchesAreFoundOnThem) {
   EXPECT_GT(patches, 400);
 }
 
+/// RMS distance of two walls' points of the same coordinates [mm].
+double distance(const HermiteMesh& a, const HermiteMesh& b) {
+  double squares = 0;
+  int count = 0;
+  for (int e = 0; e < a.num_elements(); ++e)
+    for (int k = 0; k < 25; ++k, ++count) {
+      const MeshPoint at{e, {k % 5 / 4.0, k / 5 / 4.0, 0}};
+      squares += (a.position(at) - b.position(at)).squaredNorm();
+    }
+  return std::sqrt(squares / count);
+}
+
+TEST(SmoothWall, LosesHollowsAndKeepsTheChest) {
+  const MeshFile even{bent_slab(), {}, {}, {}, {}, {}};
+  std::vector<std::pair<int, int>> faces;
+  for (int e = 0; e < even.mesh.num_elements(); ++e) faces.push_back({e, 4});
+  MeshFile uneven = even;
+  auto nodes = even.mesh.nodes();
+  std::mt19937 random(7);
+  for (auto& node : nodes)
+    node.col(0) += (2 * (random() / 4294967295.0) - 1) * node.col(0).normalized();
+  uneven.mesh = HermiteMesh(nodes, even.mesh.elements());
+  const auto smooth = [&](const MeshFile& file, double length) {
+    return with_smooth_wall(file, faces, length);
+  };
+  EXPECT_LT(distance(smooth(even, 5), even.mesh), 0.2);
+  const double hollows = distance(uneven.mesh, even.mesh);
+  EXPECT_GT(hollows, 0.3);
+  EXPECT_LT(distance(smooth(uneven, 15), smooth(even, 15)), 0.6 * hollows);
+  EXPECT_NEAR(distance(smooth(uneven, 1), smooth(even, 1)), hollows, 0.1 * hollows);
+}
+
+TEST(SmoothWall, LeavesAPlaneAsItIs) {
+  MeshFile file{distorted(box_mesh({80, 80, 20}, {3, 3, 1}), 0, 1), {}, {}, {}, {}, {}};
+  std::vector<std::pair<int, int>> faces;
+  for (int e = 0; e < file.mesh.num_elements(); ++e) faces.push_back({e, 4});
+  const HermiteMesh smooth = with_smooth_wall(file, faces, 30);
+  for (int node = 0; node < file.mesh.num_nodes(); ++node)
+    EXPECT_NEAR((smooth.node(node) - file.mesh.node(node)).norm(), 0, 1e-9) << node;
+}
+
 TEST(SpringBed, PullsBackInProportion) {
   SurfaceResponse response;
   SurfacePoint point{};
@@ -118,6 +160,28 @@ TEST(SpringBed, PullsBackInProportion) {
   EXPECT_DOUBLE_EQ(response.gradient[2], 0.04);
   EXPECT_DOUBLE_EQ(response.hessian(2, 2), 0.02);
   EXPECT_THROW(SpringBed(-1), std::invalid_argument);
+}
+
+TEST(SpringBed, StiffensBeyondItsReach) {
+  SurfaceResponse response;
+  SurfacePoint origin{};
+  origin.X.setZero();
+  Eigen::Matrix<double, 9, 1> y = Eigen::Matrix<double, 9, 1>::Zero();
+  const SpringBed springs(0.02, 20);
+  const auto pull = [&](double x) {
+    y[0] = x;
+    EXPECT_TRUE(springs.respond(y, origin, 2, response));
+    return response.gradient[0];
+  };
+  EXPECT_NEAR(pull(2), 0.02 * 2, 0.001);  // exp(0.01)
+  EXPECT_NEAR(pull(40) / pull(20), 2 * std::exp(3), 1e-9);
+  pull(40);
+  EXPECT_NEAR(response.energy, 0.02 / 2 * 400 * (std::exp(4) - 1), 1e-9);
+  constexpr double h = 1e-4;
+  const double tangent = (pull(20 + h) - pull(20 - h)) / (2 * h);
+  pull(20);
+  EXPECT_NEAR(response.hessian(0, 0), tangent, 1e-7);
+  EXPECT_THROW(SpringBed(0.02, 0), std::invalid_argument);
 }
 
 }  // namespace
