@@ -120,7 +120,9 @@ std::optional<double> Unloading::naive_error() const {
   CompressionProblem reversed = problem_;
   reversed.prone.clear();
   reversed.gravity = -problem_.gravity;
-  const HangResult naive = hang(reversed, reload_options());
+  HangOptions options = reload_options();
+  options.load.max_iterations = 30;  // soft tissue stood on its head buckles, and for long
+  const HangResult naive = hang(reversed, options);
   if (!naive.report.usable()) return std::nullopt;
   return reload(naive.deformed, 1).error_mm;
 }
