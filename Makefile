@@ -102,8 +102,8 @@ evaluate-unload: mammotwin-evaluate-unload
 	@"$$BIN/mammotwin-evaluate-unload" "$$CASES" "$$RESULTS/evaluation/unload.json" --views
 
 evaluate-gravity: mammotwin-evaluate-gravity
-	@"$$BIN/mammotwin-evaluate-gravity" "$$CASES" "$$RESULTS/evaluation/gravity.json" \
-	  $${JOBS:+--jobs "$$JOBS"} $${ONLY:+--only $$ONLY}
+	@"$$BIN/mammotwin-evaluate-gravity" "$$CASES" "$$RESULTS/evaluation/$${TABLE:-gravity}.json" \
+	  $${JOBS:+--jobs "$$JOBS"} $${ONLY:+--only $$ONLY} $(addprefix --unload=,$(UNLOAD))
 
 evaluate-compression: mammotwin-evaluate-compression
 	@"$$BIN/mammotwin-evaluate-compression" "$$RESULTS/evaluation/compression.json" --cases "$$CASES" \
