@@ -125,11 +125,10 @@ void hold_chest_wall(const CompressionProblem& problem, const HermiteMesh& prone
   const auto& options = problem.boundary;
   if (options.chest_wall == ChestWall::clamped)
     return hold_clamped(problem.mesh.mesh, breast.wall_faces, *breast.dofs);
-  MeshFile imaged = problem.mesh;
-  imaged.mesh = prone;
   const bool smooth = options.wall_smoothing > 0;
   breast.wall = std::make_shared<WallSurface>(
-      smooth ? with_smooth_wall(imaged, breast.wall_faces, options.wall_smoothing) : prone,
+      smooth ? with_smooth_wall(prone, problem.mesh.ties, breast.wall_faces, options.wall_smoothing)
+             : prone,
       breast.wall_faces);
   const bool is_wall = problem.prone.empty() && !smooth;
   const auto hold =
@@ -138,7 +137,7 @@ void hold_chest_wall(const CompressionProblem& problem, const HermiteMesh& prone
   const auto springs = spring_bed(options.chest_wall_spring, options.chest_wall_reach);
   for (const auto& [e, face] : breast.wall_faces) {
     breast.model->add_surface_potential(e, face, hold);
-    if (options.chest_wall == ChestWall::sliding)
+    if (options.chest_wall == ChestWall::sliding && options.chest_wall_spring > 0)
       breast.model->add_surface_potential(e, face, springs);
   }
 }

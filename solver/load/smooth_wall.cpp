@@ -86,16 +86,15 @@ Eigen::Vector2d patch_size(const Eigen::Matrix<double, 3, 16>& c) {
 
 }  // namespace
 
-HermiteMesh with_smooth_wall(const MeshFile& mesh, const std::vector<std::pair<int, int>>& faces,
-                             double length) {
-  WallParameters parameters(mesh.ties);
+HermiteMesh with_smooth_wall(const HermiteMesh& mesh, const std::vector<ParameterTie>& ties,
+                             const std::vector<std::pair<int, int>>& faces, double length) {
+  WallParameters parameters(ties);
   std::vector<Eigen::Triplet<double>> entries;
   std::vector<std::pair<int, Eigen::RowVector3d>> loads;
   for (const auto& [element, face] : faces) {
     std::array<WallParameters::Free, 16> free{};
-    for (int a = 0; a < 16; ++a)
-      free[a] = parameters.of(face_parameter(mesh.mesh, element, face, a));
-    const Eigen::Matrix<double, 3, 16> c = face_coefficients(mesh.mesh, element, face);
+    for (int a = 0; a < 16; ++a) free[a] = parameters.of(face_parameter(mesh, element, face, a));
+    const Eigen::Matrix<double, 3, 16> c = face_coefficients(mesh, element, face);
     const PatchEnergy energy = patch_energy(patch_size(c), length);
     const Eigen::Matrix<double, 16, 3> load = energy.mass * c.transpose();
     for (int a = 0; a < 16; ++a) {
@@ -115,14 +114,14 @@ HermiteMesh with_smooth_wall(const MeshFile& mesh, const std::vector<std::pair<i
   if (solver.info() != Eigen::Success)
     throw std::runtime_error("the chest wall of the mesh cannot be smoothed: a face has no size");
   const Eigen::MatrixX3d smooth = solver.solve(right);
-  std::vector<HermiteMesh::Node> nodes = mesh.mesh.nodes();
+  std::vector<HermiteMesh::Node> nodes = mesh.nodes();
   for (const auto& [element, face] : faces)
     for (int a = 0; a < 16; ++a) {
-      const NodeParameter at = face_parameter(mesh.mesh, element, face, a);
+      const NodeParameter at = face_parameter(mesh, element, face, a);
       const WallParameters::Free free = parameters.of(at);
       nodes[at.first].col(at.second) = free.factor * smooth.row(free.number).transpose();
     }
-  return HermiteMesh(nodes, mesh.mesh.elements());
+  return HermiteMesh(nodes, mesh.elements());
 }
 
 }  // namespace mammotwin

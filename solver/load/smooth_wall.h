@@ -17,7 +17,7 @@ namespace mammotwin {
 ///
 /// by lengths along the faces, free at its rim: a wave of length λ keeps 1/(1 + (2πℓ/λ)⁴) of its
 /// height. length ℓ > 0 [mm]; faces: (element, face).
-HermiteMesh with_smooth_wall(const MeshFile& mesh, const std::vector<std::pair<int, int>>& faces,
-                             double length);
+HermiteMesh with_smooth_wall(const HermiteMesh& mesh, const std::vector<ParameterTie>& ties,
+                             const std::vector<std::pair<int, int>>& faces, double length);
 
 }  // namespace mammotwin

@@ -121,32 +121,31 @@ double distance(const HermiteMesh& a, const HermiteMesh& b) {
 }
 
 TEST(SmoothWall, LosesHollowsAndKeepsTheChest) {
-  const MeshFile even{bent_slab(), {}, {}, {}, {}, {}};
+  const HermiteMesh even = bent_slab();
   std::vector<std::pair<int, int>> faces;
-  for (int e = 0; e < even.mesh.num_elements(); ++e) faces.push_back({e, 4});
-  MeshFile uneven = even;
-  auto nodes = even.mesh.nodes();
+  for (int e = 0; e < even.num_elements(); ++e) faces.push_back({e, 4});
+  auto nodes = even.nodes();
   std::mt19937 random(7);
   for (auto& node : nodes)
     node.col(0) += (2 * (random() / 4294967295.0) - 1) * node.col(0).normalized();
-  uneven.mesh = HermiteMesh(nodes, even.mesh.elements());
-  const auto smooth = [&](const MeshFile& file, double length) {
-    return with_smooth_wall(file, faces, length);
+  const HermiteMesh uneven(nodes, even.elements());
+  const auto smooth = [&](const HermiteMesh& mesh, double length) {
+    return with_smooth_wall(mesh, {}, faces, length);
   };
-  EXPECT_LT(distance(smooth(even, 5), even.mesh), 0.2);
-  const double hollows = distance(uneven.mesh, even.mesh);
+  EXPECT_LT(distance(smooth(even, 5), even), 0.2);
+  const double hollows = distance(uneven, even);
   EXPECT_GT(hollows, 0.3);
   EXPECT_LT(distance(smooth(uneven, 15), smooth(even, 15)), 0.6 * hollows);
   EXPECT_NEAR(distance(smooth(uneven, 1), smooth(even, 1)), hollows, 0.1 * hollows);
 }
 
 TEST(SmoothWall, LeavesAPlaneAsItIs) {
-  MeshFile file{distorted(box_mesh({80, 80, 20}, {3, 3, 1}), 0, 1), {}, {}, {}, {}, {}};
+  const HermiteMesh plane = box_mesh({80, 80, 20}, {3, 3, 1});
   std::vector<std::pair<int, int>> faces;
-  for (int e = 0; e < file.mesh.num_elements(); ++e) faces.push_back({e, 4});
-  const HermiteMesh smooth = with_smooth_wall(file, faces, 30);
-  for (int node = 0; node < file.mesh.num_nodes(); ++node)
-    EXPECT_NEAR((smooth.node(node) - file.mesh.node(node)).norm(), 0, 1e-9) << node;
+  for (int e = 0; e < plane.num_elements(); ++e) faces.push_back({e, 4});
+  const HermiteMesh smooth = with_smooth_wall(plane, {}, faces, 30);
+  for (int node = 0; node < plane.num_nodes(); ++node)
+    EXPECT_NEAR((smooth.node(node) - plane.node(node)).norm(), 0, 1e-9) << node;
 }
 
 TEST(SpringBed, PullsBackInProportion) {
