@@ -22,6 +22,13 @@ using Mask = Volume<std::uint8_t>;
 constexpr double least_lesion_ml = 0.1;
 constexpr double side_skin_mm = 2.5;  // of the flanks, where the map has none
 
+template <class Visit>
+void for_each_voxel(const Vector3i& size, const Visit& visit) {
+  for (int k = 0; k < size.z(); ++k)
+    for (int j = 0; j < size.y(); ++j)
+      for (int i = 0; i < size.x(); ++i) visit(i, j, k);
+}
+
 std::uint8_t code(Substance s) { return static_cast<std::uint8_t>(s); }
 
 std::uint8_t code(ForeignTissue tissue) {
@@ -152,6 +159,50 @@ MapBody body_of_map(const Volume<std::uint16_t>& map, const LabelValues& values,
   continue_flanks(body.substance, front, last);
   fill_thorax(front, seed, body.substance);
   return body;
+}
+
+namespace {
+
+struct Width {
+  double low = 1e9, high = -1e9;
+  void hold(double x) { low = std::min(low, x), high = std::max(high, x); }
+};
+
+/// Most anterior tissue in the ten middle columns: the skin over the breastbone.
+double front_between_breasts(const Mask& body) {
+  double front = 1e9;
+  for (int k = 0; k < body.size.z(); ++k)
+    for (int i = body.size.x() / 2 - 5; i < body.size.x() / 2 + 5; ++i)
+      for (int j = 0; j < body.size.y(); ++j)
+        if (body(i, j, k)) {
+          front = std::min(front, body.position(i, j, k).y());
+          break;
+        }
+  return front;
+}
+
+}  // namespace
+
+void press_between_plates(MapBody& body, double share) {
+  Mask& s = body.substance;
+  const double sternum = front_between_breasts(s);
+  Width widths[2];
+  const auto hangs = [&](int i, int j, int k) {
+    return s(i, j, k) != code(Substance::air) && s.position(i, j, k).y() < sternum;
+  };
+  for_each_voxel(s.size, [&](int i, int j, int k) {
+    if (const double x = s.position(i, j, k).x(); hangs(i, j, k)) widths[x > 0].hold(x);
+  });
+  const auto beyond = [&](double x) {
+    const Width& w = widths[x > 0];
+    return std::abs(x - (w.low + w.high) / 2) - share * (w.high - w.low) / 2;
+  };
+  for_each_voxel(s.size, [&](int i, int j, int k) {
+    const double out = beyond(s.position(i, j, k).x());
+    if (!hangs(i, j, k) || out < -side_skin_mm) return;
+    s(i, j, k) = code(out > 0 ? Substance::air : Substance::skin);
+    body.lesion(i, j, k) = 0;
+  });
 }
 
 TissueMap MapBody::sample(double voxel_mm, int samples) const {

@@ -20,6 +20,11 @@ struct MapBody {
   TissueMap sample(double voxel_mm, int samples) const;
 };
 
+/// Presses both breasts between two coil plates each: tissue in front of the breastbone's skin that
+/// reaches farther across than `share` of the breast's half width is cut off, and 2.5 mm of skin
+/// lie along the cut.
+void press_between_plates(MapBody& body, double share);
+
 /// Builds it. The front of the muscle is its foremost voxel in each column (pieces of fewer than
 /// 2000 voxels are none; gaps up to 25 mm are bridged in a slice); behind it lie muscle of 10 to
 /// 25 mm, ribs, lung, heart and liver, drawn by `seed`. Beside the muscle, fat and skin of the

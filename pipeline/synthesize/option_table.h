@@ -24,7 +24,7 @@ void visit_numbers(Options& o, const Visit& visit) {
   visit("lesion_min_mm", a.lesion_min_mm, 8, 20, "mm", "smallest lesion: ball of the same volume");
   visit("lesion_max_mm", a.lesion_max_mm, 8, 20, "mm", "largest lesion: ball of the same volume");
   auto& s = o.scan;
-  visit("voxel_mm", s.voxel_mm, 0.8, 5, "mm", "edge of the cubic voxels");
+  visit("voxel_mm", s.voxel_mm, 0.7, 5, "mm", "edge of the cubic voxels");
   visit("samples", s.samples, 2, 6, "-", "points a voxel and axis that make its fractions");
   visit("blur_voxels", s.blur_voxels, 0, 2, "voxels", "sigma of the Gaussian point spread");
   visit("shading", s.shading, 0, 2, "-", "exponent on the coil's sensitivity");
@@ -32,6 +32,9 @@ void visit_numbers(Options& o, const Visit& visit) {
   visit("texture", s.texture, 0, 2, "-", "septa in fat and mottle in gland over the usual");
   visit("lesion_to_gland", s.lesion_to_gland, 0.8, 4, "-",
         "intensity of lesion over gland, suppressed");
+  visit("muscle_to_fat", s.muscle_to_fat, 0, 4, "-", "intensity of muscle over fat; 0: usual");
+  visit("organs_to_fat", s.organs_to_fat, 0, 4, "-", "of heart and liver over fat; 0: usual");
+  visit("ghosts", s.ghosts, 0, 0.3, "-", "copies of the body beside it, over its intensity");
   auto& v = o.views;
   visit("compressed_fraction", v.compressed_fraction, 0.2, 0.8, "-",
         "1 - thickness over free extent");

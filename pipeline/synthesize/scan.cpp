@@ -127,13 +127,40 @@ double shading_ratio(const Volume<float>& shading, const TissueMap& tissue) {
 
 }  // namespace
 
-std::array<double, num_substances> intensities(const ScanOptions& o) {
+namespace {
+
+std::array<double, num_substances> usual_intensities(const ScanOptions& o) {
   //      air skin fat  gland lesion                muscle rib  lung  heart liver
   if (o.contrast == ScanContrast::fat_suppressed)
     return {0, 2.0, 1.0, 1.8, 1.8 * o.lesion_to_gland, 1.55, 0.95, 0.25, 1.4, 1.3};
   if (o.contrast_agent)  // gland takes up a tenth, a lesion doubles, blood is bright
     return {0, 0.5, 1.0, 0.5, 0.5 * o.lesion_to_gland, 0.44, 0.8, 0.06, 0.8, 0.7};
   return {0, 0.45, 1.0, 0.45, 0.42, 0.40, 0.8, 0.06, 0.4, 0.5};
+}
+
+/// Copies of the body that movement leaves along x, in bands of slices that come and go.
+void add_ghosts(double strength, std::uint64_t seed, Volume<float>& signal) {
+  constexpr double shift_share = 0.45;  // of the field of view
+  const Volume<float> body = signal;
+  const int shift = static_cast<int>(shift_share * signal.size.x());
+  const LatticeNoise bands(seed, 93, 40);
+  for_voxels(signal.size, [&](int i, int j, int k) {
+    const double here = std::clamp(0.5 + bands(Vector3d(0, 0, body.position(0, 0, k).z())), 0., 1.);
+    const double copies = (i >= shift ? body(i - shift, j, k) : 0) +
+                          (i + shift < body.size.x() ? body(i + shift, j, k) : 0);
+    signal(i, j, k) += static_cast<float>(strength * here * copies);
+  });
+}
+
+}  // namespace
+
+std::array<double, num_substances> intensities(const ScanOptions& o) {
+  auto level = usual_intensities(o);
+  const auto set = [&](Substance s, double value) { level[static_cast<int>(s)] = value; };
+  if (o.muscle_to_fat > 0) set(Substance::muscle, o.muscle_to_fat);
+  if (o.organs_to_fat > 0)
+    set(Substance::heart, o.organs_to_fat), set(Substance::liver, o.organs_to_fat);
+  return level;
 }
 
 double coil_radius_mm(ScanContrast contrast) {
@@ -147,6 +174,7 @@ Scan scan(const TissueMap& tissue, const Coil& coil, const ScanOptions& o, std::
     const auto weights = gaussian(o.blur_voxels);
     for (int axis = 0; axis < 3; ++axis) signal = blur_along(signal, weights, axis);
   }
+  if (o.ghosts > 0) add_ghosts(o.ghosts, seed, signal);
   const Volume<float> shading = coil.shading(signal, o.shading);
   Scan result{signal.like<std::int16_t>(), shading_ratio(shading, tissue)};
   for_voxels(signal.size, [&](int i, int j, int k) {

@@ -33,6 +33,7 @@ void declare(CommandLine& command, Arguments& args) {
 std::vector<SegmentationCase> chosen_cases(const Arguments& args) {
   std::vector<SegmentationCase> cases = drawn_cases(args.synthetic);
   for (SegmentationCase& c : label_map_cases(args.cases)) cases.push_back(std::move(c));
+  for (SegmentationCase& c : varied_cases(args.cases)) cases.push_back(std::move(c));
   const auto is_wanted = [&](const SegmentationCase& c) {
     return std::any_of(args.only.begin(), args.only.end(), [&](const std::string& text) {
       return c.name.find(text) != std::string::npos;

@@ -83,6 +83,53 @@ SegmentationCase drawn_pre_post(const SegmentationCase& drawn, PatientOptions op
 
 }  // namespace
 
+std::vector<SegmentationCase> varied_cases(const std::filesystem::path& folder) {
+  struct Variation {
+    const char *exam, *name;
+    Side side;
+    ScanOptions scan;
+    double plates = 0;  ///< share of the breast's half width between coil plates; 0: none
+  };
+  std::vector<Variation> all;
+  const auto add = [&](const char* exam, Side side, const char* name) -> Variation& {
+    return all.emplace_back(Variation{
+        exam, name, side, map_scan(static_cast<int>(all.size()), ScanContrast::fat_suppressed)});
+  };
+  constexpr Side left = Side::left, right = Side::right;
+  add("Exam_04", left, "muscle_0.6").scan.muscle_to_fat = 0.6;
+  add("Exam_07", right, "muscle_0.8").scan.muscle_to_fat = 0.8;
+  add("Exam_08", left, "muscle_1.0").scan.muscle_to_fat = 1.0;
+  add("Exam_14", right, "muscle_1.2").scan.muscle_to_fat = 1.2;
+  add("Exam_18", left, "muscle_1.6").scan.muscle_to_fat = 1.6;
+  add("Exam_18", left, "muscle_2.8").scan.muscle_to_fat = 2.8;
+  add("Exam_21", right, "bright_organs").scan.organs_to_fat = 2.2;
+  add("Exam_15", left, "ghosts").scan.ghosts = 0.12;
+  add("Exam_04", right, "plates").plates = 0.85;
+  add("Exam_18", right, "voxel_0.75").scan.voxel_mm = 0.75;
+  add("Exam_07", left, "voxel_1.3").scan.voxel_mm = 1.3;
+  Variation& other = add("Exam_21", left, "muscle_0.6");
+  other.scan = map_scan(static_cast<int>(all.size()), ScanContrast::not_suppressed);
+  other.scan.muscle_to_fat = 0.6;
+
+  std::vector<SegmentationCase> cases;
+  for (const LabelMapBreast& breast : label_map_breasts(folder))
+    for (std::size_t n = 0; n < all.size(); ++n) {
+      const Variation& v = all[n];
+      if (breast.exam != v.exam || breast.side != v.side) continue;
+      const auto seed = 3000 + n;
+      SegmentationCase c = case_of(breast, static_cast<int>(n), v.scan.contrast);
+      c.name += std::string("-") + v.name;
+      c.varied = true;
+      c.make = [breast, v, seed] {
+        MapBody body = body_of_map(read_labels(breast.file), label_map_values(), seed);
+        if (v.plates > 0) press_between_plates(body, v.plates);
+        return make_map_patient(body, breast.side, v.scan, seed);
+      };
+      cases.push_back(std::move(c));
+    }
+  return cases;
+}
+
 std::vector<SegmentationCase> drawn_cases(int count) {
   std::vector<SegmentationCase> cases;
   for (int n = 0; n < count; ++n) {

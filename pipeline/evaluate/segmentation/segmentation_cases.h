@@ -15,6 +15,7 @@ struct SegmentationCase {
   ScanContrast contrast = ScanContrast::fat_suppressed;
   std::function<SyntheticPatient()> make;
   std::function<SyntheticPatient()> make_pre = {};  ///< before contrast agent; empty if not imaged
+  bool varied = false;                              ///< one of varied_cases
 };
 
 /// Patients drawn from seeds 1000, 1001, ...: they differ in everything that the study of
@@ -27,5 +28,10 @@ std::vector<SegmentationCase> drawn_cases(int count);
 /// The unsuppressed ones stand there again (`pre_post`), imaged before and after contrast agent:
 /// only then is their lesion 1.78 times as bright as gland, and brighter than before.
 std::vector<SegmentationCase> label_map_cases(const std::filesystem::path& cases);
+
+/// Some of these breasts imaged as other scanners and patients would have it: muscle of 0.6 to 2.8
+/// of fat, heart and liver brighter than muscle, ghosts beside the body, breasts pressed flat
+/// between coil plates, voxels of 0.75 and 1.3 mm.
+std::vector<SegmentationCase> varied_cases(const std::filesystem::path& cases);
 
 }  // namespace mammotwin

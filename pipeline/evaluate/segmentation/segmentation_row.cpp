@@ -87,10 +87,13 @@ void add_quality(const SegmentResult& result, double true_skin, json& row) {
 }
 
 constexpr const char* pre_post = ", before and after contrast agent";
+constexpr const char* varied = ", varied";
 
 json empty_row(const SegmentationCase& c) {
   json row = {{"name", c.name},
-              {"contrast", name_of(c.contrast) + (c.make_pre ? pre_post : "")},
+              {"contrast", name_of(c.contrast) + (c.make_pre ? pre_post
+                                                  : c.varied ? varied
+                                                             : "")},
               {"reason", nullptr}};
   for (const char* key :
        {"breast_dice", "fibroglandular_dice", "clear_fibroglandular_dice",
@@ -180,8 +183,10 @@ json segmentation_row(const SegmentationCase& c, const std::filesystem::path& im
 std::string segmentation_summary(const json& cases) {
   std::ostringstream out;
   out << std::setprecision(3);
-  for (const std::string& contrast : {std::string("fat_suppressed"), std::string("not_suppressed"),
-                                      std::string("not_suppressed") + pre_post})
+  for (const std::string& contrast :
+       {std::string("fat_suppressed"), std::string("not_suppressed"),
+        std::string("not_suppressed") + pre_post, std::string("fat_suppressed") + varied,
+        std::string("not_suppressed") + varied})
     for (const bool drawn : {true, false}) {
       std::vector<const json*> rows;
       for (const json& row : cases)

@@ -54,5 +54,29 @@ TEST(MapBody, MixesTransitionHalfAndHalf) {
   EXPECT_NEAR(m[Substance::fibroglandular], 13.5, 0.5);
 }
 
+/// Two ridges of fat, 60 mm wide and 40 mm high, on a slab; nothing between and beside them.
+TEST(MapBody, PlatesPressTheBreastsFlat) {
+  MapBody body;
+  body.substance = Volume<std::uint8_t>({100, 40, 4}, Eigen::Vector3d::Constant(2), {-99, 0, 0}, 0);
+  body.lesion = body.substance;
+  for (int k = 0; k < 4; ++k)
+    for (int i = 0; i < 100; ++i)
+      for (int j = 0; j < 40; ++j) {
+        const double away = std::abs(std::abs(body.substance.position(i, j, k).x()) - 50);
+        if (j >= 20 || away < 30) body.substance(i, j, k) = code(Substance::fat);
+      }
+  press_between_plates(body, 0.8);  // at 50 +- 0.8 * 29 mm
+  const auto at = [&](double x, int j) {
+    return body.substance(static_cast<int>(std::lround((x + 99) / 2)), j, 1);
+  };
+  for (const double side : {-1., 1.}) {
+    EXPECT_EQ(at(side * 75, 5), code(Substance::air));
+    EXPECT_EQ(at(side * 73, 5), code(Substance::skin));
+    EXPECT_EQ(at(side * 69, 5), code(Substance::fat));
+    EXPECT_EQ(at(side * 27, 5), code(Substance::skin));
+    EXPECT_EQ(at(side * 75, 25), code(Substance::fat)) << "behind the breastbone's skin";
+  }
+}
+
 }  // namespace
 }  // namespace mammotwin

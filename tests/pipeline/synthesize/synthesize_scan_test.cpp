@@ -25,5 +25,39 @@ TEST(Scan, OnlyContrastAgentLiftsALesionOverGland) {
   EXPECT_EQ(uptake(Substance::fat), 0);
 }
 
+TEST(Scan, MuscleAndOrgansAreAsBrightAsAsked) {
+  ScanOptions options;
+  const double usual = level(options, Substance::liver);
+  options.muscle_to_fat = 0.6;
+  EXPECT_EQ(level(options, Substance::muscle), 0.6);
+  EXPECT_EQ(level(options, Substance::liver), usual);
+  options.organs_to_fat = 2.2;
+  EXPECT_EQ(level(options, Substance::heart), 2.2);
+  EXPECT_EQ(level(options, Substance::liver), 2.2);
+}
+
+/// A block of fat in the left half of the image; nothing else that could be seen.
+TEST(Scan, GhostsLieBesideTheBody) {
+  TissueMap tissue{Volume<VoxelMixture>({40, 10, 60}, Eigen::Vector3d::Constant(2), {0, 0, 0}), 1};
+  for (int k = 0; k < 60; ++k)
+    for (int j = 0; j < 10; ++j)
+      for (int i = 0; i < 40; ++i)
+        ++tissue.mixtures(i, j, k)[i < 15 ? Substance::fat : Substance::air];
+  const Coil coil({{0, 0, 0}}, 1e6, {0, 0, 0});
+  ScanOptions options;
+  options.noise = options.texture = options.blur_voxels = 0;
+  const auto brightest_at = [&](int column) {
+    const Scan image = scan(tissue, coil, options, 1, {0, 0, 0});
+    int brightest = 0;
+    for (int k = 0; k < 60; ++k) brightest = std::max<int>(brightest, image.image(column, 5, k));
+    return brightest;
+  };
+  EXPECT_EQ(brightest_at(25), 0);
+  options.ghosts = 0.2;
+  EXPECT_GT(brightest_at(25), 0.05 * fat_grey) << "18 columns, 0.45 of 40, beside column 7";
+  EXPECT_LE(brightest_at(25), 0.2 * fat_grey + 1);
+  EXPECT_EQ(brightest_at(16), 0) << "neither body nor its copy";
+}
+
 }  // namespace
 }  // namespace mammotwin
