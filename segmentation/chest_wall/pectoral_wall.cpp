@@ -49,20 +49,11 @@ std::vector<double> median_filtered(const std::vector<double>& map, int rows, in
   return out;
 }
 
-PectoralWall laid_out(const Volume<float>& image, const BreastFrame& frame) {
-  PectoralWall wall;
-  wall.axis_x = frame.midline_x;
-  wall.axis_y = frame.sternal_y + axis_behind_mm;
-  wall.first_angle = -widest_degrees * degree;
-  wall.angle_step = step_degrees * degree;
-  wall.angles = static_cast<int>(std::lround(2 * widest_degrees / step_degrees)) + 1;
-  const double top = image.position(0, 0, image.size.z() - 1).z();
-  const double low = std::max(image.origin.z(), frame.z_low - beyond_slices_mm);
-  const double high = std::min(top, frame.z_high + beyond_slices_mm);
-  wall.first_z = low;
-  wall.z_step = row_mm;
-  wall.rows = std::max(1, static_cast<int>((high - low) / row_mm) + 1);
-  return wall;
+constexpr double breastbone_degrees = 12;
+
+/// Of some rays in all; all, where there are none.
+double share_of(const std::vector<std::size_t>& some, const std::vector<std::size_t>& all) {
+  return all.empty() ? 1 : static_cast<double>(some.size()) / static_cast<double>(all.size());
 }
 
 struct FoundDepths {
@@ -90,10 +81,26 @@ FoundDepths search(const PolarRays& rays, const std::vector<WallContrast>& contr
 
 }  // namespace
 
+PectoralWall wall_grid(const Volume<float>& image, const BreastFrame& frame) {
+  PectoralWall wall;
+  wall.axis_x = frame.midline_x;
+  wall.axis_y = frame.sternal_y + axis_behind_mm;
+  wall.first_angle = -widest_degrees * degree;
+  wall.angle_step = step_degrees * degree;
+  wall.angles = static_cast<int>(std::lround(2 * widest_degrees / step_degrees)) + 1;
+  const double top = image.position(0, 0, image.size.z() - 1).z();
+  const double low = std::max(image.origin.z(), frame.z_low - beyond_slices_mm);
+  const double high = std::min(top, frame.z_high + beyond_slices_mm);
+  wall.first_z = low;
+  wall.z_step = row_mm;
+  wall.rows = std::max(1, static_cast<int>((high - low) / row_mm) + 1);
+  return wall;
+}
+
 PectoralWall find_pectoral_wall(const Volume<float>& corrected, const Volume<std::uint8_t>& body,
                                 const BreastFrame& frame, const WallContrast& contrast,
                                 double stiffness, WallEvidence evidence) {
-  PectoralWall wall = laid_out(corrected, frame);
+  PectoralWall wall = wall_grid(corrected, frame);
   const PolarRays rays = cast_rays(corrected, body, wall);
   std::vector<WallContrast> contrasts(rays.exit.size(), contrast);
   const std::vector<UsualRadius> usual =
@@ -150,27 +157,31 @@ std::vector<std::size_t> PectoralWall::rays_before(Side side, double z_low, doub
   return rays;
 }
 
-double PectoralWall::doubt(Side side, double z_low, double z_high) const {
+std::vector<std::size_t> PectoralWall::unsupported(Side side, double z_low, double z_high) const {
   constexpr double supported = -0.5;
-  const std::vector<std::size_t> rays = rays_before(side, z_low, z_high);
-  if (rays.empty()) return 1;
-  double weak = 0;
-  for (const std::size_t n : rays) weak += cost[n] > supported;
-  return weak / static_cast<double>(rays.size());
+  std::vector<std::size_t> rays = rays_before(side, z_low, z_high);
+  std::erase_if(rays, [&](std::size_t n) { return cost[n] <= supported; });
+  return rays;
+}
+
+double PectoralWall::doubt(Side side, double z_low, double z_high) const {
+  return share_of(unsupported(side, z_low, z_high), rays_before(side, z_low, z_high));
+}
+
+std::vector<std::size_t> PectoralWall::before_fat(Side side, double z_low, double z_high) const {
+  constexpr float least = 0.02F;  // noise can leave nothing of a value
+  std::vector<std::size_t> rays = rays_before(side, z_low, z_high, breastbone_degrees);
+  std::erase_if(rays, [&](std::size_t n) {
+    const double value = std::log(std::max(behind[n], least));
+    const double middle = (std::log(contrast[n].fat) + std::log(contrast[n].muscle)) / 2;
+    return contrast[n].muscle > contrast[n].fat ? value >= middle : value <= middle;
+  });
+  return rays;
 }
 
 double PectoralWall::fat_behind(Side side, double z_low, double z_high) const {
-  constexpr double breastbone_degrees = 12;
-  const std::vector<std::size_t> rays = rays_before(side, z_low, z_high, breastbone_degrees);
-  if (rays.empty()) return 1;
-  constexpr float least = 0.02F;  // noise can leave nothing of a value
-  double fat = 0;
-  for (const std::size_t n : rays) {
-    const double value = std::log(std::max(behind[n], least));
-    const double middle = (std::log(contrast[n].fat) + std::log(contrast[n].muscle)) / 2;
-    fat += contrast[n].muscle > contrast[n].fat ? value < middle : value > middle;
-  }
-  return fat / static_cast<double>(rays.size());
+  return share_of(before_fat(side, z_low, z_high),
+                  rays_before(side, z_low, z_high, breastbone_degrees));
 }
 
 }  // namespace mammotwin

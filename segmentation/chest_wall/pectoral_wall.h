@@ -36,13 +36,15 @@ struct PectoralWall {
   /// True if a point lies behind the front; beyond the last angle the last radius holds.
   bool is_behind(const Eigen::Vector3d& x_in_lps) const;
 
-  /// Share of the wall in front of one side (within 50 degrees, in the breasts' slices) that the
-  /// image does not support.
+  /// Rays in front of one side (within 50 degrees, in the breasts' slices) where the image does not
+  /// support the wall; and their share.
+  std::vector<std::size_t> unsupported(Side side, double z_low, double z_high) const;
   double doubt(Side side, double z_low, double z_high) const;
 
-  /// Share of that part, away from the breastbone, behind which it is rather as bright as fat
-  /// than as muscle, by the logarithm. Sees a wall on a wrong edge, whose cost is good. Over the
-  /// breastbone (12 degrees) there are but 4 mm of muscle, and bone is as bright as fat.
+  /// Of those away from the breastbone, the ones behind which it is rather as bright as fat than as
+  /// muscle, by the logarithm; and their share. Sees a wall on a wrong edge, whose cost is good.
+  /// Over the breastbone (12 degrees) there are but 4 mm of muscle, and bone is as bright as fat.
+  std::vector<std::size_t> before_fat(Side side, double z_low, double z_high) const;
   double fat_behind(Side side, double z_low, double z_high) const;
 
   /// Rays in front of one side, as indices into `radius`, from some angle off the midline on.
@@ -52,6 +54,9 @@ struct PectoralWall {
 
 /// What decides where the wall is: the image alone, or with it where it usually is.
 enum class WallEvidence { image, image_and_prior };
+
+/// The rays along which a wall is looked for in an image; no radius yet.
+PectoralWall wall_grid(const Volume<float>& image, const BreastFrame& frame);
 
 /// Finds the front of the pectoral muscle in a bias-corrected image with fat at 1.
 ///

@@ -28,6 +28,9 @@ constexpr double least_beyond = 1.3, least_between = 1.7;
 constexpr double least_spread = 0.05;
 // Muscle over fat, as far as the study saw it (1.4 to 2.0, 0.4) and a little more.
 constexpr double least_bright = 1.2, most_bright = 2.2, least_dark = 0.2, most_dark = 0.7;
+constexpr double study_bright = 2.0, study_dark = 0.65;
+// Around a ratio beyond these, and what is still no fat.
+constexpr double ratio_factor = 1.4, still_bright = 1.08, still_dark = 0.92;
 
 double deviation(const float* ray, int low, int high) {
   low = std::clamp(low, 0, PolarRays::depths - 1);
@@ -72,10 +75,15 @@ void add_gland(Sides& sides, double fat_to_muscle, WallContrast& contrast) {
   contrast.spread = std::max(least_spread, spread);
 }
 
+/// As far from fat as the study saw, or around what was learnt of this image.
 WallContrast within_reason(WallContrast c, const WallContrast& usual) {
-  const bool bright = usual.muscle > usual.fat;
-  c.muscle = c.fat * std::clamp(c.muscle / c.fat, bright ? least_bright : least_dark,
-                                bright ? most_bright : most_dark);
+  const double ratio = usual.muscle / usual.fat;
+  double low = ratio > 1 ? least_bright : least_dark, high = ratio > 1 ? most_bright : most_dark;
+  if (ratio > 1 && (ratio < least_bright || ratio > study_bright))
+    low = std::max(still_bright, ratio / ratio_factor), high = ratio * ratio_factor;
+  if (ratio < 1 && (ratio < least_dark || ratio > study_dark))
+    low = ratio / ratio_factor, high = std::min(still_dark, ratio * ratio_factor);
+  c.muscle = c.fat * std::clamp(c.muscle / c.fat, low, high);
   return c;
 }
 

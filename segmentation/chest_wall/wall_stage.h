@@ -17,7 +17,8 @@ struct WallStage {
   std::optional<PreMatch> pre_match;  ///< of the image before contrast agent, in front of the wall
 };
 
-/// Finds it in the image; then again in its mean with the image before contrast agent, if there is
+/// Finds it in the image, with muscle as bright as the study saw it or, where the image does not
+/// support that, as learnt from it (muscle_brightness.h); then again in its mean with the image before contrast agent, if there is
 /// one and the patient did not move in between: there the heart is as dark as muscle when fat is
 /// not suppressed, and noise is less. `side`: whose breast is compared for movement.
 WallStage find_wall(const BodyStage& body, const BeforeAgent& before, Side side, double stiffness);
