@@ -35,16 +35,36 @@ void crop(SegmentResult& result) {
   if (!result.image.values.empty()) result.image = cropped(result.image, box.low, box.high);
 }
 
-void place_nipple(const SegmentInput& input, Segmentation& s, SegmentQuality& quality) {
+/// What shows the nipple: the image, fat at 1, with papilla and gland brighter than fat; or gland.
+Volume<float> look_of(const SegmentResult& result) {
+  constexpr float gland_over_fat = 0.8F;
+  const Volume<Fractions>& fractions = result.segmentation.fractions;
+  Volume<float> look = fractions.like<float>(0);
+  const bool has_image = !result.image.values.empty();
+  const bool suppressed = result.quality.contrast == "fat-suppressed";
+  for (std::size_t v = 0; v < look.values.size(); ++v) {
+    const Fractions& f = fractions.values[v];
+    if (!has_image)
+      look.values[v] = 1 + gland_over_fat * (f.fibroglandular + f.lesion);
+    else if (suppressed)
+      look.values[v] = result.image.values[v];
+    else
+      look.values[v] = std::max(0.0F, 2 - result.image.values[v]);
+  }
+  return look;
+}
+
+void place_nipple(const SegmentInput& input, SegmentResult& result) {
+  Segmentation& s = result.segmentation;
   if (input.nipple_in_lps) {
     s.nipple_in_lps = *input.nipple_in_lps;
   } else if (input.nipple_markups) {
     s.nipple_in_lps = read_markups_point(*input.nipple_markups);
   } else {
-    const Nipple nipple = find_nipple(s.labels, s.region);
+    const Nipple nipple = find_nipple(s.labels, s.region, look_of(result));
     s.nipple_in_lps = nipple.tip_in_lps;
     if (!input.label_map) label_papilla(nipple, s);
-    judge_nipple(nipple, quality);
+    judge_nipple(nipple, result.quality);
     return;
   }
   auto breast = s.labels.like<std::uint8_t>(0);
@@ -112,9 +132,10 @@ void hand_on_mri(const SegmentInput& input, SegmentResult& result) {
 
 void judge_volumes(SegmentQuality& q) {
   if (q.breast_volume_ml < limits::least_breast_ml || q.breast_volume_ml > limits::most_breast_ml)
-    q.doubt(SegmentStatus::look, "the breast's volume is " +
-                                     std::to_string(static_cast<int>(q.breast_volume_ml)) +
-                                     " ml; expected 30 to 4000 ml (are the units mm?)");
+    q.doubt(SegmentStatus::look,
+            {"region", "the breast's volume is " +
+                           std::to_string(static_cast<int>(q.breast_volume_ml)) +
+                           " ml; expected 30 to 4000 ml (are the units mm?)"});
 }
 
 }  // namespace
@@ -141,7 +162,7 @@ SegmentResult segment(const SegmentInput& input, const SegmentOptions& options,
   crop(result);
   const FoundRegion found = find_region(s.labels, s.region.side, LabelsHold::one_side);
   s.region = found.region;
-  place_nipple(input, s, q);
+  place_nipple(input, result);
   judge_region(found, s, q);
   if (input.label_map) hand_on_mri(input, result);
   tell(0.95, "measuring");

@@ -23,6 +23,8 @@ inline constexpr double signal_to_noise = 8;  ///< noise of an eighth of fat: cl
 /// Of the tissue in front of the breastbone's skin, outside the breast's region: what a rounded
 /// corner costs; beyond the second the result is of another breast.
 inline constexpr double pendant_outside = 0.03, pendant_outside_refused = 0.15;
+/// Standard deviation of the nipple's place, from what else looks like it.
+inline constexpr double nipple_sd_mm = 8;
 inline constexpr double volume_ratio = 0.4;  ///< smaller over larger breast, at least
 
 }  // namespace mammotwin::limits

@@ -41,36 +41,43 @@ Side choose_side(const SegmentInput& input, const std::vector<PlacedSeed>& seeds
 void judge_position(const std::string& position, SegmentQuality& quality) {
   quality.patient_position = position;
   if (!position.empty() && position.back() != 'P')
-    quality.doubt(SegmentStatus::look,
-                  "the header says that the patient lay " + position +
-                      ", not prone (HFP, FFP); the image must show breasts that hang forwards");
+    quality.doubt(
+        SegmentStatus::look,
+        {"position", "the header says that the patient lay " + position +
+                         ", not prone (HFP, FFP); the image must show breasts that hang forwards"});
 }
 
 /// Height over the skin between the breasts in the first and last slice, over the apex's.
 void judge_end_slices(const BodyStage& body, Side side, SegmentQuality& quality) {
-  constexpr double most_share = 0.5;
+  constexpr double most_share = 0.5, end_slice_radius_mm = 30;
   const double apex = body.frame.sternal_y - body.frame.apex(side).y();
   double share = 0;
+  Eigen::Vector3d place = body.frame.apex(side);
   for (const int k : {0, body.body.size.z() - 1})
     for (int i = 0; i < body.body.size.x(); ++i) {
       if (!is_on_side(body.body.position(i, 0, 0).x(), body.frame.midline_x, side)) continue;
       int j = 0;
       while (j < body.body.size.y() && !body.body(i, j, k)) ++j;
-      if (j < body.body.size.y())
-        share = std::max(share, (body.frame.sternal_y - body.body.position(i, j, k).y()) / apex);
+      if (j == body.body.size.y()) continue;
+      const Eigen::Vector3d skin = body.body.position(i, j, k);
+      if (const double here = (body.frame.sternal_y - skin.y()) / apex; here > share)
+        share = here, place = skin;
     }
   quality.clipped_share = share;
   if (share > most_share)
     quality.doubt(SegmentStatus::look,
-                  "the breast may be cut by the first or last slice: it stands out there by " +
-                      std::to_string(std::lround(100 * share)) + " % of its height");
+                  {"region",
+                   "the breast may be cut by the first or last slice: it stands out there by " +
+                       std::to_string(std::lround(100 * share)) + " % of its height",
+                   place, end_slice_radius_mm});
 }
 
 void judge_noise(SegmentQuality& quality) {
   if (*quality.signal_to_noise < limits::signal_to_noise)
-    quality.doubt(SegmentStatus::look, "the image is noisy: fat is only " +
-                                           std::to_string(std::lround(*quality.signal_to_noise)) +
-                                           " times as bright as the noise; expected at least 8");
+    quality.doubt(SegmentStatus::look,
+                  {"noise", "the image is noisy: fat is only " +
+                                std::to_string(std::lround(*quality.signal_to_noise)) +
+                                " times as bright as the noise; expected at least 8"});
 }
 
 /// Tissue in front of the wall and of the skin between the breasts, smaller over larger side.
@@ -86,7 +93,8 @@ void judge_symmetry(const BodyStage& body, const WallStage& wall, SegmentQuality
       }
   quality.volume_ratio = std::min(left, right) / std::max({left, right, 1.0});
   if (*quality.volume_ratio < limits::volume_ratio)
-    quality.doubt(SegmentStatus::look, "the two breasts differ in volume by more than 2.5 times");
+    quality.doubt(SegmentStatus::look,
+                  {"region", "the two breasts differ in volume by more than 2.5 times"});
 }
 
 /// Why no voxel is a lesion's: what lies where it was said to be.
@@ -134,7 +142,7 @@ void judge_movement(const std::optional<PreMatch>& match, SegmentQuality& qualit
          << " mm off the one after it; expected " << limits::pre_shift_mm
          << " mm at most (did the patient move?): lesions outlined in their difference may be "
             "wrong";
-  quality.doubt(SegmentStatus::look, reason.str());
+  quality.doubt(SegmentStatus::look, {"movement", reason.str()});
 }
 
 /// The image before contrast agent, if one is named, laid on the one after it.

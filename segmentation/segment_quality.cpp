@@ -1,7 +1,9 @@
 #include "segmentation/segment_quality.h"
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 namespace mammotwin {
 namespace {
@@ -23,6 +25,16 @@ json lesions_json(const std::vector<Lesion>& lesions) {
   return list;
 }
 
+json doubts_json(const std::vector<Doubt>& doubts) {
+  json list = json::array();
+  for (const Doubt& doubt : doubts)
+    list.push_back({{"what", doubt.what},
+                    {"reason", doubt.reason},
+                    {"place_lps_mm", doubt.place_in_lps ? point(*doubt.place_in_lps) : json()},
+                    {"radius_mm", doubt.radius_mm}});
+  return list;
+}
+
 json candidates_json(const std::vector<LesionCandidate>& candidates) {
   json list = json::array();
   for (const LesionCandidate& c : candidates)
@@ -34,9 +46,18 @@ json candidates_json(const std::vector<LesionCandidate>& candidates) {
 
 }  // namespace
 
-void SegmentQuality::doubt(SegmentStatus at_least, const std::string& reason) {
+std::string place_text(const Eigen::Vector3d& x) {
+  std::ostringstream text;
+  text << "(" << std::lround(x.x()) << ", " << std::lround(x.y()) << ", " << std::lround(x.z())
+       << ") mm LPS";
+  return text.str();
+}
+
+void SegmentQuality::doubt(SegmentStatus at_least, const Doubt& doubt) {
   status = std::max(status, at_least);
-  reasons.push_back(reason);
+  reasons.push_back(doubt.reason +
+                    (doubt.place_in_lps ? "; look at " + place_text(*doubt.place_in_lps) : ""));
+  doubts.push_back(doubt);
 }
 
 std::string to_string(SegmentStatus status) {
@@ -66,6 +87,7 @@ json to_json(const SegmentQuality& q) {
       {"skin_thickness_range_mm",
        {optional_number(q.skin_thickness_low_mm), optional_number(q.skin_thickness_high_mm)}},
       {"nipple_lps_mm", point(q.nipple_in_lps)},
+      {"nipple_sd_mm", optional_number(q.nipple_sd_mm)},
       {"chest_wall_doubt", optional_number(q.chest_wall_doubt)},
       {"chest_wall_fat_behind", optional_number(q.chest_wall_fat_behind)},
       {"chest_wall_disputed", optional_number(q.chest_wall_disputed)},
@@ -75,6 +97,7 @@ json to_json(const SegmentQuality& q) {
       {"clipped_share", optional_number(q.clipped_share)},
       {"pendant_outside", optional_number(q.pendant_outside)},
       {"volume_ratio", optional_number(q.volume_ratio)},
+      {"doubts", doubts_json(q.doubts)},
       {"lesion_candidates", candidates_json(q.candidates)},
       {"lesion_agreement", q.lesion_agreement},
       {"notes", q.notes}};

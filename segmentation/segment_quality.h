@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "segmentation/contrast_agent/enhancement.h"
+#include "segmentation/doubt.h"
 #include "segmentation/segmentation.h"
 
 namespace mammotwin {
@@ -17,6 +18,7 @@ enum class SegmentStatus { ok, look, refused };
 struct SegmentQuality {
   SegmentStatus status = SegmentStatus::ok;
   std::vector<std::string> reasons;  ///< why the status is not ok, in sentences
+  std::vector<Doubt> doubts;         ///< the same, one a reason: what and where
   std::vector<std::string> notes;    ///< what was chosen or assumed, in sentences
 
   Side side = Side::left;
@@ -28,6 +30,7 @@ struct SegmentQuality {
   std::optional<double> skin_thickness_low_mm, skin_thickness_high_mm;  ///< range it may have
   Eigen::Vector3d nipple_in_lps = Eigen::Vector3d::Zero();              ///< [mm]
 
+  std::optional<double> nipple_sd_mm;           ///< Nipple's, where it was looked for
   std::optional<double> chest_wall_doubt;       ///< share of the wall without support, 0 to 1
   std::optional<double> chest_wall_fat_behind;  ///< share of the wall with fat behind it
   std::optional<double> chest_wall_disputed;    ///< share where it may as well lie elsewhere
@@ -41,8 +44,8 @@ struct SegmentQuality {
   std::vector<LesionCandidate> candidates;
   std::vector<double> lesion_agreement;  ///< Dice of two methods, one a lesion
 
-  /// Adds a reason and makes the status at least this bad.
-  void doubt(SegmentStatus at_least, const std::string& reason);
+  /// Adds a doubt and its reason, which names the place, and makes the status at least this bad.
+  void doubt(SegmentStatus at_least, const Doubt& doubt);
 };
 
 std::string to_string(SegmentStatus status);

@@ -61,7 +61,7 @@ void Patient::declare_inputs(Settings& s) {
         "values of `labels.path` that are " + to_string(tissue) +
             (tissue == ForeignTissue::transition ? " (half fat, half fibroglandular)" : ""));
   s.point("nipple.point_lps_mm", nipple_lps_mm_, {-kFarthestMm, kFarthestMm, "mm"},
-          "the nipple, patient LPS; default: what stands out of the skin there");
+          "the nipple, patient LPS; default: what shows on the skin");
   s.path("nipple.markups", nipple_markups_, "the nipple as 3D Slicer markups (.mrk.json)");
 }
 

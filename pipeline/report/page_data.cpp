@@ -5,6 +5,7 @@
 #include "pipeline/report/answer_data.h"
 #include "pipeline/report/base64.h"
 #include "pipeline/report/figures/convergence_figure.h"
+#include "pipeline/report/figures/doubt_figure.h"
 #include "pipeline/report/figures/fit_course_figure.h"
 #include "pipeline/report/figures/fit_error.h"
 #include "pipeline/report/figures/force_figure.h"
@@ -50,6 +51,16 @@ json view_row_data(const std::vector<Figure>& figures) {
   }
   return {
       {"figures", list}, {"width", word::number(width, 0)}, {"height", word::number(height, 0)}};
+}
+
+/// Pictures of what the segmentation doubts, where it says where.
+void add_doubts(const PatientResults& results, json& page) {
+  page["doubts"] = json::array();
+  const json* sidecar = results.sidecar("segmentation.seg.nrrd");
+  if (!sidecar) return;
+  for (const json& doubt : sidecar->value(json::json_pointer("/quality/doubts"), json::array()))
+    if (const auto figure = doubt_figure(results, doubt))
+      page["doubts"].push_back(figure_data(*figure));
 }
 
 void add_mri(const PatientResults& results, json& page) {
@@ -215,6 +226,7 @@ json page_data(const PatientResults& results, const std::string& version) {
   page["unload_summary"] = unload_summary(results);
   add_lesions(results, page);
   add_views(results, page);
+  add_doubts(results, page);
   add_mri(results, page);
   add_fit(results, page);
   add_quality(results, page);

@@ -123,7 +123,7 @@ Contrast decided_contrast(const BodyStage& stage, std::optional<bool> given,
          << (outshone ? "brighter" : "darker")
          << " than fat, so whether fat is suppressed is unsure; it was taken as "
          << (outshone ? "suppressed" : "not suppressed") << ": set mri.fat_suppressed";
-  quality.doubt(SegmentStatus::look, reason.str());
+  quality.doubt(SegmentStatus::look, {"contrast", reason.str()});
   return contrast;
 }
 

@@ -8,12 +8,7 @@
 namespace mammotwin {
 namespace {
 
-std::string place(const Eigen::Vector3d& x) {
-  std::ostringstream text;
-  text << "(" << std::lround(x.x()) << ", " << std::lround(x.y()) << ", " << std::lround(x.z())
-       << ") mm LPS";
-  return text.str();
-}
+constexpr double outside_radius_mm = 20;  // shown of what lies outside
 
 void judge_outside(const OutsideRegion& outside, SegmentQuality& quality) {
   quality.pendant_outside = outside.share;
@@ -21,22 +16,24 @@ void judge_outside(const OutsideRegion& outside, SegmentQuality& quality) {
   std::ostringstream reason;
   reason << std::lround(100 * outside.share) << " % (" << std::lround(outside.volume_ml)
          << " ml) of the tissue that hangs in front of the breastbone's skin lies outside the "
-            "breast's region, in the middle at "
-         << place(outside.middle_in_lps) << "; expected at most "
+            "breast's region; expected at most "
          << std::lround(100 * limits::pendant_outside)
          << " % (does the chest wall reach the skin there, or is the outline wrong?)";
-  quality.doubt(outside.share > limits::pendant_outside_refused ? SegmentStatus::refused
-                                                                : SegmentStatus::look,
-                reason.str());
+  quality.doubt(
+      outside.share > limits::pendant_outside_refused ? SegmentStatus::refused
+                                                      : SegmentStatus::look,
+      {"region", reason.str(), outside.middle_in_lps, std::cbrt(outside.volume_ml * 1000)});
 }
 
 void judge_lesions(const Segmentation& s, SegmentQuality& quality) {
   for (const Lesion& lesion : s.lesions)
     if (!s.region.contains(lesion.centroid_in_lps))
       quality.doubt(SegmentStatus::refused,
-                    "lesion " + lesion.id + " at " + place(lesion.centroid_in_lps) +
-                        " lies outside the breast's region; no later stage would see it (is the "
-                        "side right?)");
+                    {"lesion " + lesion.id,
+                     "lesion " + lesion.id +
+                         " lies outside the breast's region; no later stage would see it (is the "
+                         "side right?)",
+                     lesion.centroid_in_lps, outside_radius_mm});
 }
 
 }  // namespace
@@ -46,29 +43,27 @@ void judge_region(const FoundRegion& found, const Segmentation& s, SegmentQualit
   judge_lesions(s, quality);
   if (!s.region.contains(s.nipple_in_lps))
     quality.doubt(SegmentStatus::refused,
-                  "the nipple at " + place(s.nipple_in_lps) +
-                      " lies outside the breast's region; expected it inside");
+                  {"nipple", "the nipple lies outside the breast's region; expected it inside",
+                   s.nipple_in_lps, outside_radius_mm});
 }
 
 void judge_nipple(const Nipple& nipple, SegmentQuality& quality) {
-  constexpr double nearly = 0.6, elsewhere_mm = 15;
-  if (!(nipple.stands_out_mm > 0))
+  constexpr double shown_mm = 15;
+  quality.nipple_sd_mm = nipple.sd_mm;
+  if (!nipple.is_found)
     return quality.doubt(SegmentStatus::look,
-                         "no nipple stands out of the skin: it was taken as the most anterior "
-                         "point, " +
-                             place(nipple.tip_in_lps) +
-                             "; give nipple.point_lps_mm where it is seen");
-  std::ostringstream note;
-  note.precision(2);
-  note << "the nipple was found as what stands out of the skin by " << nipple.stands_out_mm
-       << " mm";
-  quality.notes.push_back(note.str());
-  const double apart = (nipple.rival_in_lps - nipple.tip_in_lps).norm();
-  if (nipple.rival_share > nearly && apart > elsewhere_mm)
-    quality.doubt(SegmentStatus::look,
-                  "the nipple was taken at " + place(nipple.tip_in_lps) + ", but the skin at " +
-                      place(nipple.rival_in_lps) +
-                      " stands out nearly as well; give nipple.point_lps_mm if it is there");
+                         {"nipple",
+                          "no nipple shows on the skin: it was taken as the most anterior point; "
+                          "give nipple.point_lps_mm where it is seen",
+                          nipple.tip_in_lps, shown_mm});
+  std::ostringstream text;
+  text << "standard deviation " << std::lround(nipple.sd_mm) << " mm";
+  if (nipple.sd_mm <= limits::nipple_sd_mm)
+    return quality.notes.push_back("the nipple was found by what it shows, " + text.str());
+  text << "; it may as well lie at " << place_text(nipple.rival_in_lps)
+       << "; give nipple.point_lps_mm where it is seen";
+  quality.doubt(SegmentStatus::look,
+                {"nipple", "the nipple shows weakly, " + text.str(), nipple.tip_in_lps, shown_mm});
 }
 
 }  // namespace mammotwin

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "segmentation/body/most_anterior_point.h"
+#include "segmentation/body/skin_look.h"
 #include "segmentation/image/components.h"
 #include "segmentation/image/crop.h"
 #include "segmentation/image/distance.h"
@@ -20,27 +22,80 @@ using Mask = Volume<std::uint8_t>;
 constexpr double ball_mm = 9;   // a papilla is 10 to 14 mm wide
 constexpr double least_mm = 2;  // over the ball: less is the outline's own unevenness
 constexpr double least_ml = 0.08, most_ml = 3;
-constexpr double nearness_mm = 30;  // to the most anterior point
-constexpr double reach_mm = 50;     // what lies farther off is not looked at
-constexpr double tip_mm = 1;        // the tip is the middle of what stands out as far as this
+constexpr double tip_mm = 1;         // the tip is the middle of what stands out as far as this
+constexpr double same_place_mm = 8;  // a papilla's tip from the place of the best sum
+constexpr double nearness_mm = 25;   // to the most anterior point
+constexpr double reach_mm = 60;      // what lies farther off is not looked at
+constexpr double beyond_mm = 20;     // of the crop: what smoothing reaches
+constexpr double off_edge_mm = 5, off_midline_mm = 15;  // of the region: labels end there
+constexpr double least_evidence = 5;
+constexpr double apart_mm = 12;      // between candidates
+constexpr double at_best_sd_mm = 2;  // of the place of one candidate
+constexpr double not_found_sd_mm = 25;
+constexpr std::size_t most_candidates = 6;
 
-/// The body around a point, within the region.
-Mask body_near(const Mask& labels, const BreastRegion& region, const Vector3d& x) {
-  const Vector3d reach = Vector3d::Constant(reach_mm + 2 * ball_mm);
+struct Near {
+  Mask body;
+  Volume<float> look;
+};
+
+Near cut_near(const Mask& labels, const Volume<float>& look, const Vector3d& x) {
+  const Vector3d reach = Vector3d::Constant(reach_mm + beyond_mm);
   const Vector3i low = labels.index(x - reach).array().ceil().max(0).cast<int>();
   const Vector3i high = labels.index(x + reach)
                             .array()
                             .floor()
                             .min((labels.size.array() - 1).cast<double>())
                             .cast<int>();
-  Mask body = cropped(labels, low, high);
-  for (int k = 0; k < body.size.z(); ++k)
-    for (int j = 0; j < body.size.y(); ++j)
-      for (int i = 0; i < body.size.x(); ++i) {
-        std::uint8_t& value = body(i, j, k);
-        value = value != label::air && region.contains(body.position(i, j, k));
-      }
-  return body;
+  Near near{cropped(labels, low, high), cropped(look, low, high)};
+  for (std::uint8_t& value : near.body.values) value = value != label::air;
+  return near;
+}
+
+/// Away from where the labels end.
+bool is_well_inside(const BreastRegion& r, const Vector3d& x) {
+  const double left = r.side == Side::left ? off_midline_mm : off_edge_mm;
+  const double right = r.side == Side::left ? off_edge_mm : off_midline_mm;
+  return x.x() > r.x_min + left && x.x() < r.x_max - right && x.z() > r.z_min + off_edge_mm &&
+         x.z() < r.z_max - off_edge_mm;
+}
+
+struct Candidate {
+  SkinPoint at;
+  double score = 0;
+};
+
+/// The best places, apart from each other, the best first.
+std::vector<Candidate> candidates(std::vector<SkinPoint> skin, const BreastRegion& region,
+                                  const Vector3d& front) {
+  std::vector<Candidate> all;
+  for (const SkinPoint& point : skin) {
+    if (!is_well_inside(region, point.x_in_lps)) continue;
+    const double near = (point.x_in_lps - front).norm() / nearness_mm;
+    all.push_back({point, point.sum() - 0.5 * near * near});
+  }
+  std::stable_sort(all.begin(), all.end(),
+                   [](const Candidate& a, const Candidate& b) { return a.score > b.score; });
+  std::vector<Candidate> best;
+  for (const Candidate& c : all) {
+    const bool is_new = std::all_of(best.begin(), best.end(), [&](const Candidate& other) {
+      return (c.at.x_in_lps - other.at.x_in_lps).norm() > apart_mm;
+    });
+    if (is_new) best.push_back(c);
+    if (best.size() == most_candidates) break;
+  }
+  return best;
+}
+
+/// Root mean square distance of the candidates from the first, by how nearly they are as good.
+double deviation(const std::vector<Candidate>& best) {
+  double sum = 0, weights = 0;
+  for (const Candidate& c : best) {
+    const double weight = std::exp(c.score - best.front().score);
+    sum += weight * (c.at.x_in_lps - best.front().at.x_in_lps).squaredNorm();
+    weights += weight;
+  }
+  return std::sqrt(sum / weights + at_best_sd_mm * at_best_sd_mm);
 }
 
 struct Bump {
@@ -67,45 +122,50 @@ std::vector<Bump> measure(const Components& parts, const Volume<float>& height) 
   return bumps;
 }
 
-}  // namespace
-
-Nipple find_nipple(const Mask& labels, const BreastRegion& region) {
-  const Vector3d front = most_anterior_point(labels, region);
-  const Mask body = body_near(labels, region, front);
+/// What stands out at the nipple, if anything does; the tip moves to its middle.
+void take_papilla(const Mask& body, Nipple& nipple) {
   const Mask smooth = opened(body, ball_mm);
   auto standing = body;
   for (std::size_t v = 0; v < standing.values.size(); ++v)
     standing.values[v] = body.values[v] && !smooth.values[v];
-  Nipple best;
-  best.tip_in_lps = front;
-  double best_score = 0, rival_score = 0;
-  int best_id = 0;
   const Components parts = connected_components(standing);
   const std::vector<Bump> bumps = measure(parts, distance_to(smooth));
+  int papilla = 0;
+  double nearest = same_place_mm;
   for (int id = 1; id < static_cast<int>(bumps.size()); ++id) {
     const Bump& bump = bumps[id];
     const double ml = static_cast<double>(bump.voxels) * body.voxel_volume() / 1000;
-    const double away = (bump.tip - front).norm();
-    if (bump.height < least_mm || ml < least_ml || ml > most_ml || away > reach_mm) continue;
-    const double near = away / nearness_mm;
-    const double score = bump.height * std::exp(-0.5 * near * near);
-    if (score <= best_score) {
-      if (score > rival_score) rival_score = score, best.rival_in_lps = bump.tip;
-      continue;
-    }
-    rival_score = best_score;
-    best.rival_in_lps = best.tip_in_lps;
-    best_score = score;
-    best_id = id;
-    best.tip_in_lps = bump.tip;
-    best.stands_out_mm = bump.height;
+    const double away = (bump.tip - nipple.tip_in_lps).norm();
+    if (bump.height < least_mm || ml < least_ml || ml > most_ml || away > nearest) continue;
+    nearest = away;
+    papilla = id;
   }
-  if (best_id == 0) return best;
-  best.rival_share = rival_score / best_score;
-  best.papilla = body.like<std::uint8_t>(0);
+  if (papilla == 0) return;
+  nipple.tip_in_lps = bumps[papilla].tip;
+  nipple.papilla = body.like<std::uint8_t>(0);
   for (std::size_t v = 0; v < body.values.size(); ++v)
-    best.papilla.values[v] = parts.ids.values[v] == best_id;
-  return best;
+    nipple.papilla.values[v] = parts.ids.values[v] == papilla;
+}
+
+}  // namespace
+
+Nipple find_nipple(const Mask& labels, const BreastRegion& region, const Volume<float>& look) {
+  const Vector3d front = most_anterior_point(labels, region);
+  const Near near = cut_near(labels, look, front);
+  const std::vector<Candidate> best =
+      candidates(skin_around(near.body, near.look, front, reach_mm), region, front);
+  Nipple nipple;
+  nipple.tip_in_lps = nipple.rival_in_lps = front;
+  nipple.sd_mm = not_found_sd_mm;
+  if (best.empty()) return nipple;
+  nipple.evidence = best.front().at.sum();
+  nipple.is_found = nipple.evidence >= least_evidence;
+  nipple.rival_in_lps = best[best.size() > 1 && nipple.is_found ? 1 : 0].at.x_in_lps;
+  if (!nipple.is_found) return nipple;
+  nipple.tip_in_lps = best.front().at.x_in_lps;
+  nipple.sd_mm = deviation(best);
+  take_papilla(near.body, nipple);
+  return nipple;
 }
 
 void label_papilla(const Nipple& nipple, Segmentation& s) {

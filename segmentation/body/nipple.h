@@ -9,19 +9,25 @@ namespace mammotwin {
 
 struct Nipple {
   Eigen::Vector3d tip_in_lps = Eigen::Vector3d::Zero();  ///< [mm]
-  /// Of the skin round it; 0: none does, and the tip is the most anterior point.
-  double stands_out_mm = 0;
-  /// Of the others that stand out, the best one's score over this one's (0 to 1), and its tip.
-  double rival_share = 0;
-  Eigen::Vector3d rival_in_lps = Eigen::Vector3d::Zero();  ///< [mm]
+  /// How surely it shows: SkinPoint's sum there. Where nothing shows, the tip is the most anterior
+  /// point.
+  double evidence = 0;
+  bool is_found = false;
+  /// Of the tip, from the other places on the skin that look like it [mm].
+  double sd_mm = 0;
+  Eigen::Vector3d rival_in_lps = Eigen::Vector3d::Zero();  ///< the best place besides the tip [mm]
   Volume<std::uint8_t> papilla;  ///< what stands out, on a part of the labels' grid; or empty
 };
 
-/// The nipple as what stands out of the skin near the breast's most anterior point: what an
-/// opening by a ball of 9 mm takes away, by 2 mm and more and 0.08 to 3 ml. Of several the one that
-/// stands out most, nearness to the most anterior point (30 mm) weighed in. Flat or pressed nipples
-/// are not found so: then it is the most anterior point.
-Nipple find_nipple(const Volume<std::uint8_t>& labels, const BreastRegion& region);
+/// The nipple, by what papilla, areola and ducts show (skin_look.h) and nearness to the most
+/// anterior point (25 mm): the place of the best sum; its standard deviation weighs the other
+/// candidates, 12 mm and more apart, by the exponential of what they fall short. Retracted and flat
+/// nipples show by brightness, in the skin and below it. Where something stands out there, as an
+/// opening by a ball of 9 mm takes away, that is the papilla and its tip the nipple.
+///
+/// `look`: on the labels' grid, papilla and gland brighter than fat.
+Nipple find_nipple(const Volume<std::uint8_t>& labels, const BreastRegion& region,
+                   const Volume<float>& look);
 
 /// Calls fibroglandular tissue in the papilla skin, as which it counts: it is as bright as gland.
 void label_papilla(const Nipple& nipple, Segmentation& s);

@@ -1,6 +1,7 @@
 #include "segmentation/chest_wall/judge_wall.h"
 
 #include <cmath>
+#include <numbers>
 #include <sstream>
 
 #include "segmentation/segment_limits.h"
@@ -15,51 +16,68 @@ void judge_dispute(const WallDispute& dispute, SegmentQuality& quality) {
   if (dispute.share <=
       (dispute.prior_chosen ? limits::chest_wall_disputed : limits::chest_wall_unlike_others))
     return;
-  const Eigen::Vector3d& x = dispute.middle_in_lps;
   std::ostringstream reason;
   reason << "over " << std::lround(100 * dispute.share)
          << " % of its front the chest wall may as well lie "
          << std::lround(std::abs(dispute.median_mm)) << " mm "
-         << (dispute.median_mm > 0 ? "further forward" : "deeper")
-         << " than found, in the middle at (" << std::lround(x.x()) << ", " << std::lround(x.y())
-         << ", " << std::lround(x.z()) << ") mm LPS: "
+         << (dispute.median_mm > 0 ? "further forward" : "deeper") << " than found: "
          << (dispute.prior_chosen ? "taken was where other women's lies, not the other edge there"
                                   : "taken was the image's edge, which is not where other women's "
                                     "lies");
-  quality.doubt(SegmentStatus::look, reason.str());
+  quality.doubt(SegmentStatus::look, {"chest wall", reason.str(), dispute.patch.middle_in_lps,
+                                      dispute.patch.radius_mm()});
+}
+
+/// Doubts the wall where some of its rays lie.
+void doubt_rays(const PectoralWall& wall, const std::vector<std::size_t>& rays,
+                const std::string& reason, SegmentQuality& quality) {
+  const WallPatch patch = largest_patch(wall, rays);
+  quality.doubt(SegmentStatus::look, {"chest wall",
+                                      reason + "; its largest piece has " +
+                                          std::to_string(std::lround(patch.area_cm2)) + " cm2",
+                                      patch.middle_in_lps, patch.radius_mm()});
 }
 
 }  // namespace
 
 void judge_wall(const BodyStage& body, const WallStage& wall, Side side, SegmentQuality& quality) {
-  quality.chest_wall_doubt = wall.wall.doubt(side, body.frame.z_low, body.frame.z_high);
+  const double low = body.frame.z_low, high = body.frame.z_high;
+  quality.chest_wall_doubt = wall.wall.doubt(side, low, high);
   if (*quality.chest_wall_doubt > limits::chest_wall_doubt)
-    quality.doubt(SegmentStatus::look,
-                  "the image does not support " +
-                      std::to_string(std::lround(100 * *quality.chest_wall_doubt)) +
-                      " % of the chest wall found; expected at most 10 %");
-  quality.chest_wall_fat_behind = wall.wall.fat_behind(side, body.frame.z_low, body.frame.z_high);
+    doubt_rays(wall.wall, wall.wall.unsupported(side, low, high),
+               "the image does not support " +
+                   std::to_string(std::lround(100 * *quality.chest_wall_doubt)) +
+                   " % of the chest wall found; expected at most 10 %",
+               quality);
+  quality.chest_wall_fat_behind = wall.wall.fat_behind(side, low, high);
   if (*quality.chest_wall_fat_behind > limits::chest_wall_fat_behind)
-    quality.doubt(SegmentStatus::look,
-                  "behind " + std::to_string(std::lround(100 * *quality.chest_wall_fat_behind)) +
-                      " % of the chest wall found there is fat rather than muscle; expected at "
-                      "most 8 %: it may stand on gland or a lesion in front of the muscle");
+    doubt_rays(wall.wall, wall.wall.before_fat(side, low, high),
+               "behind " + std::to_string(std::lround(100 * *quality.chest_wall_fat_behind)) +
+                   " % of the chest wall found there is fat rather than muscle; expected at most "
+                   "8 %: it may stand on gland or a lesion in front of the muscle",
+               quality);
   judge_dispute(wall.dispute, quality);
 }
 
 void judge_lesions_on_wall(const HalfBreast& half, const Volume<std::uint8_t>& lesions,
                            SegmentQuality& quality) {
   constexpr double most_cm2 = 3;  // a ball of 2 cm pressed flat
-  constexpr double cm2 = 100;     // [mm^2]
+  constexpr double mm2_per_cm2 = 100;
   const double voxel_mm = std::cbrt(half.body.voxel_volume());
-  double area = 0;
-  for (std::size_t v = 0; v < lesions.values.size(); ++v)
-    if (lesions.values[v] && half.above_wall.values[v] < 1.5 * voxel_mm)
-      area += voxel_mm * voxel_mm / cm2;
-  if (area > most_cm2)
-    quality.doubt(SegmentStatus::look, "a lesion lies on the chest wall over " +
-                                           std::to_string(std::lround(area)) +
-                                           " cm2; the muscle's front cannot be told from it there");
+  int touching = 0;
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (int k = 0; k < lesions.size.z(); ++k)
+    for (int j = 0; j < lesions.size.y(); ++j)
+      for (int i = 0; i < lesions.size.x(); ++i)
+        if (lesions(i, j, k) && half.above_wall(i, j, k) < 1.5 * voxel_mm)
+          ++touching, sum += lesions.position(i, j, k);
+  const double mm2 = touching * voxel_mm * voxel_mm;
+  if (mm2 <= most_cm2 * mm2_per_cm2) return;
+  quality.doubt(SegmentStatus::look, {"chest wall",
+                                      "a lesion lies on the chest wall over " +
+                                          std::to_string(std::lround(mm2 / mm2_per_cm2)) +
+                                          " cm2; the muscle's front cannot be told from it there",
+                                      sum / touching, std::sqrt(mm2 / std::numbers::pi)});
 }
 
 }  // namespace mammotwin

@@ -20,16 +20,17 @@ WallDispute dispute(const PectoralWall& chosen, const PectoralWall& other, Side 
                     double z_high) {
   WallDispute found;
   std::vector<double> off;
+  std::vector<std::size_t> where;
   const std::vector<std::size_t> rays = chosen.rays_before(side, z_low, z_high);
   for (const std::size_t n : rays) {
     const double by = other.radius[n] - chosen.radius[n];
     if (std::abs(by) <= differs_mm) continue;
     off.push_back(by);
-    found.middle_in_lps += chosen.position(n, chosen.radius[n]);
+    where.push_back(n);
   }
   if (off.empty()) return found;
   found.share = static_cast<double>(off.size()) / static_cast<double>(rays.size());
-  found.middle_in_lps /= static_cast<double>(off.size());
+  found.patch = largest_patch(chosen, where);
   found.median_mm = median(off);
   return found;
 }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "segmentation/chest_wall/pectoral_wall.h"
+#include "segmentation/chest_wall/wall_patch.h"
 
 namespace mammotwin {
 
@@ -10,7 +10,7 @@ struct WallDispute {
   double median_mm =
       0;  ///< the other wall's radius less the chosen one's; positive: further forward
   bool prior_chosen = false;
-  Eigen::Vector3d middle_in_lps = Eigen::Vector3d::Zero();  ///< of where they differ [mm]
+  WallPatch patch;  ///< the largest piece of the chosen wall where they differ
 };
 
 struct SettledWall {

@@ -1,5 +1,6 @@
 #include "segmentation/lesion/lesion_stage.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <sstream>
@@ -15,6 +16,7 @@ namespace {
 
 constexpr double outside_tolerance_mm = 4;  // a click on the edge is no error
 constexpr double least_agreement = 0.5, least_contrast_if_brighter = 1.3;
+constexpr double least_radius_mm = 5;  // of what is shown of a doubtful lesion
 
 std::string text(const Eigen::Vector3d& x) {
   std::ostringstream out;
@@ -85,30 +87,29 @@ SharpImage sharp_image(const HalfImages& images) {
 void judge(const FoundLesion& found, const PlacedSeed& seed, bool brighter,
            SegmentQuality& quality) {
   quality.lesion_agreement.push_back(found.agreement);
-  if (found.is_sphere) {
+  const auto doubt = [&](const std::string& reason) {
     quality.doubt(SegmentStatus::look,
-                  "lesion " + seed.id +
-                      " does not stand out from its surroundings: a ball of 5 mm "
-                      "round the point was taken; give radius_mm or a label map");
+                  {"lesion " + seed.id, "lesion " + seed.id + reason, seed.point_in_lps,
+                   std::max(found.inscribed_mm, least_radius_mm)});
+  };
+  if (found.is_sphere) {
+    doubt(
+        " does not stand out from its surroundings: a ball of 5 mm round the point was taken; give "
+        "radius_mm or a label map");
     return;
   }
   if (!brighter)
-    quality.doubt(SegmentStatus::look,
-                  "lesion " + seed.id +
-                      " was outlined without fat suppression and contrast agent, "
-                      "where it looks like gland: its extent rests on the fat around it; give "
-                      "radius_mm or a label map if it lies in gland");
+    doubt(
+        " was outlined without fat suppression and contrast agent, where it looks like gland: its "
+        "extent rests on the fat around it; give radius_mm or a label map if it lies in gland");
   if (brighter && found.contrast() < least_contrast_if_brighter)
-    quality.doubt(SegmentStatus::look, "lesion " + seed.id +
-                                           " is less than 1.3 times as bright as "
-                                           "its surroundings: its edge is uncertain");
+    doubt(" is less than 1.3 times as bright as its surroundings: its edge is uncertain");
   if (found.is_cut)
-    quality.doubt(SegmentStatus::look, "lesion " + seed.id +
-                                           " goes on where the search for it ends: raise "
-                                           "segment.lesion_reach_mm, or give a label map");
+    doubt(
+        " goes on where the search for it ends: raise segment.lesion_reach_mm, or give a label "
+        "map");
   if (found.agreement < least_agreement)
-    quality.doubt(SegmentStatus::look,
-                  "two methods disagree on the extent of lesion " + seed.id + " (Dice under 0.5)");
+    doubt(": two methods disagree on its extent (Dice under 0.5)");
 }
 
 /// Labels lesion n; a voxel that an earlier one has, too, stays with the nearer point: lesions

@@ -32,7 +32,7 @@ void judge_suppression(const Volume<float>& image, const Volume<std::uint8_t>& i
   reason.precision(0);
   reason << "fat suppression seems to have failed in " << ml
          << " ml of the breast: bright fat there passes for fibroglandular tissue";
-  quality.doubt(SegmentStatus::look, reason.str());
+  quality.doubt(SegmentStatus::look, {"fat suppression", reason.str()});
 }
 
 }  // namespace mammotwin

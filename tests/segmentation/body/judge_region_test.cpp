@@ -44,20 +44,23 @@ TEST(JudgeRegion, RefusesARegionWithoutTheNippleOrALesion) {
   expect_mentions(lost.reasons.front(), {"lesion L2", "(-7, 0, 0) mm LPS"});
 }
 
-TEST(JudgeNipple, DoubtsOneThatDoesNotStandOutOrHasARival) {
-  const auto status = [](double stands_out, double rival, const Eigen::Vector3d& rival_at) {
+TEST(JudgeNipple, DoubtsOneThatDoesNotShowOrMayLieElsewhere) {
+  const auto judged = [](bool found, double sd) {
     SegmentQuality quality;
     Nipple nipple;
-    nipple.stands_out_mm = stands_out;
-    nipple.rival_share = rival;
-    nipple.rival_in_lps = rival_at;
+    nipple.is_found = found;
+    nipple.sd_mm = sd;
+    nipple.rival_in_lps = {30, -10, 40};
     judge_nipple(nipple, quality);
-    return quality.status;
+    return quality;
   };
-  EXPECT_EQ(status(0, 0, Eigen::Vector3d::Zero()), SegmentStatus::look);
-  EXPECT_EQ(status(4, 0.3, {0, 0, 40}), SegmentStatus::ok);
-  EXPECT_EQ(status(4, 0.8, {0, 0, 40}), SegmentStatus::look);
-  EXPECT_EQ(status(4, 0.8, {0, 0, 8}), SegmentStatus::ok) << "the same nipple";
+  EXPECT_EQ(judged(true, 3).status, SegmentStatus::ok);
+  EXPECT_EQ(judged(false, 25).status, SegmentStatus::look);
+  const SegmentQuality unsure = judged(true, 12);
+  EXPECT_EQ(unsure.status, SegmentStatus::look);
+  expect_mentions(unsure.reasons.front(), {"12 mm", "(30, -10, 40) mm LPS", "look at (0, 0, 0)"});
+  ASSERT_EQ(unsure.doubts.size(), 1U);
+  EXPECT_EQ(unsure.doubts[0].what, "nipple");
 }
 
 }  // namespace

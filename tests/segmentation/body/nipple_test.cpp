@@ -31,18 +31,61 @@ Volume<std::uint8_t> dome(const Eigen::Vector3d& direction, double height) {
 
 const BreastRegion region{Side::left, -60, 60, -60, 60};
 
+Volume<float> plain(const Volume<std::uint8_t>& labels) { return labels.like<float>(1); }
+
+/// The image with a ball that is half as bright again as the rest.
+Volume<float> with_spot(const Volume<std::uint8_t>& labels, const Eigen::Vector3d& x, double mm) {
+  Volume<float> look = plain(labels);
+  for (int k = 0; k < look.size.z(); ++k)
+    for (int j = 0; j < look.size.y(); ++j)
+      for (int i = 0; i < look.size.x(); ++i)
+        if ((look.position(i, j, k) - x).norm() < mm) look(i, j, k) = 1.5F;
+  return look;
+}
+
 TEST(Nipple, IsThePegBesideTheMostAnteriorPoint) {
   constexpr double off = 25 * std::numbers::pi / 180;
   const Eigen::Vector3d direction(std::sin(off), -std::cos(off), 0);
-  const Nipple nipple = find_nipple(dome(direction, 6), region);
+  const Volume<std::uint8_t> labels = dome(direction, 6);
+  const Nipple nipple = find_nipple(labels, region, plain(labels));
   // The peg's tip, 56 mm from the middle: 24 mm beside the most anterior point.
+  EXPECT_TRUE(nipple.is_found);
   EXPECT_LT((nipple.tip_in_lps - (middle + 56 * direction)).norm(), 1.5);
-  EXPECT_GT(nipple.stands_out_mm, 4);
+  EXPECT_LT(nipple.sd_mm, 4);
+  EXPECT_FALSE(nipple.papilla.values.empty());
 }
 
-TEST(Nipple, IsTheMostAnteriorPointWhereNothingStandsOut) {
-  const Nipple nipple = find_nipple(dome(-Eigen::Vector3d::UnitY(), 0), region);
-  EXPECT_EQ(nipple.stands_out_mm, 0);
+/// A flat nipple, as an areola that takes up agent with ducts behind it, 24 mm beside the apex.
+TEST(Nipple, ShowsByBrightnessWhereNothingStandsOut) {
+  constexpr double off = 28 * std::numbers::pi / 180;
+  const Eigen::Vector3d place =
+      middle + dome_mm * Eigen::Vector3d(std::sin(off), -std::cos(off), 0);
+  const Volume<std::uint8_t> labels = dome(-Eigen::Vector3d::UnitY(), 0);
+  const Nipple nipple = find_nipple(labels, region, with_spot(labels, place, 9));
+  EXPECT_TRUE(nipple.is_found);
+  EXPECT_LT((nipple.tip_in_lps - place).norm(), 4) << "9 mm of it are as bright";
+  EXPECT_LT(nipple.sd_mm, 8);
+}
+
+TEST(Nipple, IsUnsureOfTwoPlacesThatLookAlike) {
+  constexpr double off = 20 * std::numbers::pi / 180;
+  const Volume<std::uint8_t> labels = dome(-Eigen::Vector3d::UnitY(), 0);
+  const auto at = [&](double angle) -> Eigen::Vector3d {
+    return middle + dome_mm * Eigen::Vector3d(std::sin(angle), -std::cos(angle), 0);
+  };
+  Volume<float> look = with_spot(labels, at(off), 8);
+  const Volume<float> other = with_spot(labels, at(-off), 8);
+  for (std::size_t v = 0; v < look.values.size(); ++v)
+    look.values[v] = std::max(look.values[v], other.values[v]);
+  const Nipple nipple = find_nipple(labels, region, look);
+  // 34 mm apart and of equal weight: 24 mm.
+  EXPECT_GT(nipple.sd_mm, 12);
+}
+
+TEST(Nipple, IsTheMostAnteriorPointWhereNothingShows) {
+  const Volume<std::uint8_t> labels = dome(-Eigen::Vector3d::UnitY(), 0);
+  const Nipple nipple = find_nipple(labels, region, plain(labels));
+  EXPECT_FALSE(nipple.is_found);
   EXPECT_LT((nipple.tip_in_lps - Eigen::Vector3d(0, 10, 0)).norm(), 1.5);
 }
 
@@ -53,7 +96,7 @@ TEST(Nipple, PapillaIsSkinAndNotGland) {
   for (std::uint8_t& value : s.labels.values)
     if (value == label::fat) value = label::fibroglandular;
   s.fractions = s.labels.like<Fractions>(pure_fractions(label::fibroglandular));
-  label_papilla(find_nipple(s.labels, region), s);
+  label_papilla(find_nipple(s.labels, region, plain(s.labels)), s);
   const auto at = [&](double along) {
     const Eigen::Vector3i v =
         s.labels.index(middle + along * direction).array().round().cast<int>();
