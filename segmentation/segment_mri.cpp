@@ -212,7 +212,7 @@ SegmentResult segment_image(const Mri& mri, const SegmentInput& input,
   if (fat_suppressed)
     judge_suppression(
         widely_corrected(cropped(body.image, box), wall.wide_log_bias, pure_interior(half)),
-        masks.statistics, result.quality);
+        masks.statistics, half.depth, body.frame.sternal_y, result.quality);
   const TissueImage tissue = tissue_image(images, wall.pre_match, body.noise_spread());
   const Volume<float> restored = restored_within(masks.interior, images.denoised, tissue);
   const TissueSplit split =

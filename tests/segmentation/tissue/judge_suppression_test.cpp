@@ -1,0 +1,41 @@
+#include "segmentation/tissue/judge_suppression.h"
+
+#include "tests/segmentation/message.h"
+
+namespace mammotwin {
+namespace {
+
+/// A block of fat with its skin at y = 0, and a block of 42 x 30 x 42 mm that is 3 times as bright,
+/// its front `deep` mm below the skin.
+SegmentQuality judged(double deep, double sternal_y) {
+  Volume<float> image({60, 60, 60}, Eigen::Vector3d::Constant(2), {0, 0, 0}, 1);
+  auto depth = image;
+  for (int k = 0; k < 60; ++k)
+    for (int j = 0; j < 60; ++j)
+      for (int i = 0; i < 60; ++i) {
+        const Eigen::Vector3d x = image.position(i, j, k);
+        depth(i, j, k) = static_cast<float>(x.y());
+        const Eigen::Vector3d away = (x - Eigen::Vector3d(60, deep + 14, 60)).cwiseAbs();
+        const bool in = away.x() <= 20 && away.y() <= 14 && away.z() <= 20;
+        if (in) image(i, j, k) = 3;
+      }
+  SegmentQuality quality;
+  judge_suppression(image, image.like<std::uint8_t>(1), depth, sternal_y, quality);
+  return quality;
+}
+
+TEST(JudgeSuppression, DoubtsBrightFatBelowTheSkin) {
+  const SegmentQuality quality = judged(0, 200);
+  EXPECT_EQ(quality.status, SegmentStatus::look);
+  // Twice fat is the middle of the step: the block of 53 ml, without its rounded edges.
+  EXPECT_NEAR(*quality.failed_suppression_ml, 47, 7);
+  expect_mentions(quality.reasons.at(0), {"ml of the breast", "look at (60, 1", ", 60) mm LPS"});
+}
+
+TEST(JudgeSuppression, LeavesBrightGlandAndWhatLiesBehindTheBreastbonesSkin) {
+  EXPECT_EQ(judged(40, 200).status, SegmentStatus::ok) << "gland or a lesion";
+  EXPECT_EQ(judged(0, -1).status, SegmentStatus::ok) << "the flank";
+}
+
+}  // namespace
+}  // namespace mammotwin
