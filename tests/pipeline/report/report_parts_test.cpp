@@ -5,6 +5,7 @@
 #include "fitting/mesh/block_mesh.h"
 #include "pipeline/report/base64.h"
 #include "pipeline/report/depth_image.h"
+#include "pipeline/report/figures/doubt_figure.h"
 #include "pipeline/report/figures/fit_course_figure.h"
 #include "pipeline/report/figures/fit_error.h"
 #include "pipeline/report/lesion_outline.h"
@@ -267,6 +268,21 @@ TEST(QualityLimit, SaysWhatIsExpectedAndWhetherItHolds) {
   EXPECT_TRUE(thickness->held);
   EXPECT_FALSE(expectation("cc.vtu", "force_N", quality));
   EXPECT_FALSE(expectation("prone.vtu", "volume_change", quality));
+}
+
+TEST(DoubtFigure, ShowsWhereTheSegmentationIsDoubted) {
+  const PatientResults results = fake_results(Side::left);
+  const Eigen::Vector3d x = results.segmentation->nipple_in_lps;
+  nlohmann::json doubt = {{"what", "nipple"},
+                          {"reason", "the nipple shows weakly"},
+                          {"place_lps_mm", {x.x(), x.y(), x.z()}},
+                          {"radius_mm", 15}};
+  const auto figure = doubt_figure(results, doubt);
+  ASSERT_TRUE(figure);
+  EXPECT_NE(figure->caption.find("nipple at L"), std::string::npos) << figure->caption;
+  EXPECT_NE(figure->caption.find("shows weakly"), std::string::npos);
+  doubt["place_lps_mm"] = nullptr;
+  EXPECT_FALSE(doubt_figure(results, doubt)) << "of the whole image";
 }
 
 }  // namespace
