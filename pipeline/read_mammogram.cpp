@@ -10,6 +10,7 @@
 #include "registration/mammogram/findings_json.h"
 #include "registration/mammogram/findings_picture.h"
 #include "registration/mammogram/mammogram_header.h"
+#include "registration/mammogram/mammogram_pixels.h"
 
 namespace mammotwin {
 namespace {
@@ -24,9 +25,11 @@ struct Arguments {
 };
 
 void declare(CommandLine& command, Arguments& args) {
-  command.option("mammogram", args.mammogram, "DICOM or grey PNG").required().existing_file();
+  command.option("mammogram", args.mammogram, "DICOM, or grey PNG or JPEG")
+      .required()
+      .existing_file();
   command.option("--view", args.view, "cc or mlo; default the header's").one_of({"cc", "mlo"});
-  command.option("--pixel-mm", args.pixel_mm, "pixel on the detector [mm], for a PNG")
+  command.option("--pixel-mm", args.pixel_mm, "pixel on the detector [mm], for a picture")
       .between(0.02, 0.5);
   command
       .option("--patient", args.patient,
@@ -62,9 +65,8 @@ int run(const Arguments& args) {
   }
   if (!(pixel_mm > 0))
     throw std::runtime_error(args.mammogram.string() +
-                             ": a PNG says no pixel size; give --pixel-mm");
-  const MammogramImage image =
-      dicom ? read_mammogram_dicom(args.mammogram) : read_mammogram_png(args.mammogram);
+                             ": a picture says no pixel size; give --pixel-mm");
+  const MammogramImage image = read_mammogram(args.mammogram);
   const MammogramFindings found =
       find_breast(image, pixel_mm, view == "mlo", said_in(patient, settings));
   document["findings"] = findings_json(found);

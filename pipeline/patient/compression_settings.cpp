@@ -66,6 +66,9 @@ Detector ViewSettings::detector(const std::string& view, Side side) const {
     detector.pixels = PixelGrid{*pixel_spacing_mm, *columns, *rows, chest_wall.value_or(as_hung),
                                 lateral_at_top.value_or(true)};
   }
+  if (slice_count)
+    detector.slices = SliceStack{*slice_count, slice_spacing_mm.value(), lowest_slice_mm.value(),
+                                 first_slice_at_support.value()};
   check_detector(detector);
   return detector;
 }
@@ -145,8 +148,10 @@ void declare_compression(Settings& s, CompressionSettings& c) {
 
 void declare_view(Settings& s, const std::string& view, ViewSettings& v) {
   const std::string prefix = "views." + view + ".";
-  s.path(prefix + "mammogram", v.mammogram,
-         "the view's mammogram (DICOM, or PNG with `detector` keys): the breast is brought to it");
+  s.path(
+      prefix + "mammogram", v.mammogram,
+      "the view's mammogram (DICOM, also tomosynthesis; or PNG or JPEG with `detector` keys): the "
+      "breast is brought to it");
   s.numbers(prefix + "nipple_pixel", v.nipple_pixel, {-20000, 20000, "pixels"},
             "column and row of the nipple in the mammogram; default: its marker, or what is found");
   s.points(prefix + "pectoral", v.pectoral, 2, {-20000, 20000, "pixels"},
@@ -163,8 +168,10 @@ void declare_view(Settings& s, const std::string& view, ViewSettings& v) {
   s.number(prefix + "lift_mm", v.lift_mm, {-50, 50, "mm"},
            "how far the plates' middle lies above the breast's centroid");
   const std::string detector = prefix + "detector.";
-  s.number(detector + "source_distance_mm", v.source_distance_mm, {300, 1500, "mm"},
-           "X-ray source to detector; default the DICOM mammogram's, else 660");
+  s.number(
+      detector + "source_distance_mm", v.source_distance_mm, {300, 1500, "mm"},
+      "X-ray source to detector; default the DICOM mammogram's, else 660; tomosynthesis slices: "
+      "endless, their pixels have one size at any height");
   s.number(detector + "support_gap_mm", v.support_gap_mm, {0, 50, "mm"},
            "detector to the support's surface; default the DICOM mammogram's, else 0");
   s.number(detector + "pixel_spacing_mm", v.pixel_spacing_mm, {0.01, 2, "mm"},
@@ -176,6 +183,13 @@ void declare_view(Settings& s, const std::string& view, ViewSettings& v) {
            "image edge at the chest wall; default: left for a left breast");
   s.choice(detector + "lateral", v.lateral_at_top, {{"top", true}, {"bottom", false}},
            "image edge towards the patient's side (CC) or head (MLO); default: top");
+  s.number(detector + "slice_spacing_mm", v.slice_spacing_mm, {0.3, 15, "mm"},
+           "from slice to slice of a tomosynthesis volume; default its header's");
+  s.number(detector + "lowest_slice_mm", v.lowest_slice_mm, {-20, 50, "mm"},
+           "middle of the slice nearest to the support, above it; default half the spacing");
+  s.choice(detector + "first_slice", v.first_slice_at_support,
+           {{"support", true}, {"paddle", false}},
+           "where slice 1 lies; default what the header's positions say");
 }
 
 }  // namespace mammotwin

@@ -64,6 +64,10 @@ struct ViewSettings {
   std::optional<int> columns, rows;
   std::optional<ImageEdge> chest_wall;
   std::optional<bool> lateral_at_top;
+  /// Of a tomosynthesis volume; how many there are is its header's to say.
+  std::optional<int> slice_count;
+  std::optional<double> slice_spacing_mm, lowest_slice_mm;
+  std::optional<bool> first_slice_at_support;
 
   double angle() const { return angle_deg.value_or(default_angle_deg); }
 

@@ -16,6 +16,8 @@ std::vector<AnnotatedMark> marks_of(const PredictedView& view) {
     if (!view.ellipses.empty()) mark.ellipse = view.ellipses[i].on_detector;
     mark.prone_in_lps = lesion.landmark.prone_in_lps;
     mark.height_mm = lesion.in_view.z();
+    if (lesion.slice)
+      mark.slice = view.registered.projection.detector().slices->nearest(*lesion.slice);
   }
   return marks;
 }

@@ -6,7 +6,7 @@
 #include "pipeline/steps/view_header.h"
 #include "pipeline/steps/view_problem.h"
 #include "registration/mammogram/mammogram_findings.h"
-#include "registration/mammogram/mammogram_header.h"
+#include "registration/mammogram/mammogram_pixels.h"
 
 namespace mammotwin {
 namespace {
@@ -22,8 +22,7 @@ ViewEvidence evidence_of(const Patient& patient, const RegisteredView& view) {
   if (!detector.pixels)
     throw std::runtime_error(key + ".mammogram is given, but not " + key +
                              ".detector.pixel_spacing_mm, columns and rows");
-  const MammogramImage image =
-      is_dicom(path) ? read_mammogram_dicom(path) : read_mammogram_png(path);
+  const MammogramImage image = read_mammogram(path);
   if (image.columns != detector.pixels->columns || image.rows != detector.pixels->rows)
     throw std::runtime_error(
         "the " + geometry.name + " mammogram has " + std::to_string(image.columns) + " x " +

@@ -1,22 +1,20 @@
 #include "pipeline/steps/view_header.h"
 
 #include <algorithm>
-#include <array>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
+
+#include "registration/mammogram/mammogram_picture.h"
 
 namespace mammotwin {
 namespace {
 
 /// A file that is neither must not be taken for a view without a mammogram.
-void require_png(const std::filesystem::path& path, const std::string& key) {
-  constexpr char signature[] = "\x89PNG\r\n\x1a\n";  // PNG specification, 5.2
-  std::array<char, sizeof signature - 1> first{};
-  std::ifstream(path, std::ios::binary).read(first.data(), first.size());
-  if (!std::equal(first.begin(), first.end(), signature))
+void require_picture(const std::filesystem::path& path, const std::string& key) {
+  if (!is_mammogram_picture(path))
     throw std::runtime_error(key +
-                             ": the file is no DICOM and no PNG; expected one of them (is it "
+                             ": the file is no DICOM, PNG or JPEG; expected one of them (is it "
                              "damaged? copy or export it again)");
 }
 
@@ -52,13 +50,33 @@ void take(const HeaderGeometry& header, ViewSettings& view) {
   view.rows = pixels.rows;
   view.chest_wall = pixels.chest_wall;
   view.lateral_at_top = pixels.lateral_at_top;
+  if (const auto& slices = header.detector.slices) {
+    view.slice_count = slices->count;
+    view.slice_spacing_mm = slices->spacing_mm;
+    view.lowest_slice_mm = slices->lowest_mm;
+    view.first_slice_at_support = slices->first_at_support;
+  }
+}
+
+/// A picture says how large it is, and nothing else.
+void take_picture_size(const Patient& patient, ViewSettings& view) {
+  if (!view.mammogram || !view.pixel_spacing_mm || view.columns || view.rows) return;
+  const PictureSize size = mammogram_picture_size(patient.resolve(*view.mammogram));
+  view.columns = size.columns;
+  view.rows = size.rows;
 }
 
 }  // namespace
 
 HeaderOverrides overrides_of(const ViewSettings& view) {
-  return {view.thickness_mm,     view.angle_deg,  view.source_distance_mm, view.support_gap_mm,
-          view.pixel_spacing_mm, view.chest_wall, view.lateral_at_top};
+  return {view.thickness_mm,
+          view.angle_deg,
+          view.source_distance_mm,
+          view.support_gap_mm,
+          view.pixel_spacing_mm,
+          view.chest_wall,
+          view.lateral_at_top,
+          {view.slice_spacing_mm, view.lowest_slice_mm, view.first_slice_at_support}};
 }
 
 SaidFindings said_in(const Patient& patient, const ViewSettings& view) {
@@ -68,7 +86,7 @@ SaidFindings said_in(const Patient& patient, const ViewSettings& view) {
   if (!view.outline) return said;
   const std::filesystem::path path = patient.resolve(*view.outline);
   if (path.extension() == ".png")
-    said.mask = read_mammogram_png(path);
+    said.mask = read_mammogram_picture(path);
   else
     said.outline = read_contour(path);
   return said;
@@ -80,7 +98,7 @@ std::optional<std::filesystem::path> dicom_mammogram(const Patient& patient,
   if (!named) return std::nullopt;
   const std::filesystem::path path = patient.resolve(*named);
   if (is_dicom(path)) return path;
-  require_png(path, "views." + view + ".mammogram");
+  require_picture(path, "views." + view + ".mammogram");
   return std::nullopt;
 }
 
@@ -88,7 +106,10 @@ ViewSettings with_header(const Patient& patient, const std::string& name, Side s
                          std::vector<std::string>& remarks) {
   ViewSettings view = patient.view(name);
   const auto path = dicom_mammogram(patient, name);
-  if (!path) return view;
+  if (!path) {
+    take_picture_size(patient, view);
+    return view;
+  }
   const std::string role = "the " + name + " mammogram";  // files are named after patients
   try {
     const HeaderGeometry header =

@@ -7,7 +7,7 @@
 namespace mammotwin {
 
 /// The view's mammogram where it is a DICOM file. Throws std::runtime_error naming the setting
-/// where it is named and is neither that nor a PNG.
+/// where it is named and is neither that nor a picture (PNG or JPEG).
 std::optional<std::filesystem::path> dicom_mammogram(const Patient& patient,
                                                      const std::string& view);
 

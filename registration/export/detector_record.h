@@ -6,8 +6,8 @@
 
 namespace mammotwin {
 
-/// What a sidecar says of the detector that a view was registered with: source_distance_mm and
-/// support_gap_mm.
+/// What a sidecar says of the detector that a view was registered with: source_distance_mm,
+/// support_gap_mm and, of a tomosynthesis volume, slices.
 nlohmann::json detector_record(const Detector& detector);
 
 /// The detector of such a record; what it does not say is as by default.

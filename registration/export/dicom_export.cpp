@@ -139,6 +139,13 @@ void refer(DcmItem& source, DcmItem& object) {
   put(image, DCM_ReferencedSOPInstanceUID, text_of(source, DCM_SOPInstanceUID));
 }
 
+void refer_to_slice(DcmItem& source, int slice, DcmItem& annotation) {
+  DcmItem& image = new_item(annotation, DCM_ReferencedImageSequence);
+  put(image, DCM_ReferencedSOPClassUID, text_of(source, DCM_SOPClassUID));
+  put(image, DCM_ReferencedSOPInstanceUID, text_of(source, DCM_SOPInstanceUID));
+  put(image, DCM_ReferencedFrameNumber, std::to_string(slice));
+}
+
 /// DICOM's pixel coordinates begin with 1 at the first pixel's centre.
 std::vector<Float32> on_image(const Detector& detector, const std::vector<Eigen::Vector2d>& uv) {
   std::vector<Float32> data;
@@ -240,6 +247,7 @@ void write_presentation_state(const fs::path& path, const fs::path& mammogram,
   for (const AnnotatedMark& mark : marks) {
     DcmItem& annotation = new_item(object, DCM_GraphicAnnotationSequence);
     put(annotation, DCM_GraphicLayer, "LESIONS");
+    if (mark.slice) refer_to_slice(source, *mark.slice, annotation);
     annotate(detector, mark, annotation);
   }
   DcmItem& layer = new_item(object, DCM_GraphicLayerSequence);

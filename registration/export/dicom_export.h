@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,7 @@ struct AnnotatedMark {
   SearchEllipse ellipse;                                   ///< 90 % [mm]
   Eigen::Vector3d prone_in_lps = Eigen::Vector3d::Zero();  ///< in MRI [mm]
   double height_mm = 0;                                    ///< above the support
+  std::optional<int> slice = {};                           ///< of a tomosynthesis volume, from 1
 };
 
 /// The three write a DICOM object of the study of `mammogram` (a DICOM file with pixels laid out as
@@ -25,7 +27,8 @@ struct AnnotatedMark {
 /// identifiers derive from them, `mammogram`, the kind of object and `key` ("cc").
 /// Throw std::runtime_error naming the file that cannot be read or written.
 
-/// Grayscale softcopy presentation state: each mark's ellipse and name drawn on the mammogram.
+/// Grayscale softcopy presentation state: each mark's ellipse and name drawn on the mammogram, of
+/// a tomosynthesis volume on its slice.
 void write_presentation_state(const std::filesystem::path& path,
                               const std::filesystem::path& mammogram, const Detector& detector,
                               const std::vector<AnnotatedMark>& marks, const std::string& key);

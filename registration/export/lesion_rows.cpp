@@ -52,6 +52,7 @@ LesionRow view_row(const std::string& patient, const CompressedView& view,
     row.pixel_column = lesion.in_image->x();
     row.pixel_row = lesion.in_image->y();
   }
+  row.slice = lesion.slice;
   row.baseline_u_mm = lesion.baseline_on_detector.x();
   row.baseline_v_mm = lesion.baseline_on_detector.y();
   const Eigen::Vector2d offset = lesion.on_detector - nipple.on_detector;

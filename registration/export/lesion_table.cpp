@@ -38,6 +38,7 @@ const std::array kLesionColumns = {
     MAMMOTWIN_COLUMN(detector_v_mm),
     MAMMOTWIN_COLUMN(pixel_column),
     MAMMOTWIN_COLUMN(pixel_row),
+    MAMMOTWIN_COLUMN(slice),
     MAMMOTWIN_COLUMN(ellipse_major_mm),
     MAMMOTWIN_COLUMN(ellipse_minor_mm),
     MAMMOTWIN_COLUMN(ellipse_angle_deg),

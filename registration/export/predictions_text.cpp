@@ -27,6 +27,7 @@ std::string line_of(const LesionRow& row) {
                      number(row.depth_mm) + "  lateral " + number(row.lateral_mm) + "  height " +
                      number(row.height_mm) + "  on the detector (" + number(row.detector_u_mm) +
                      ", " + number(row.detector_v_mm) + ")";
+  if (row.slice) line += "  slice " + number(row.slice);
   if (row.ellipse_major_mm)
     line += "  90 % ellipse " + number(row.ellipse_major_mm) + " x " + number(row.ellipse_minor_mm);
   return line + "\n";

@@ -115,26 +115,35 @@ bool has_more_than(float floor, const MammogramImage& image) {
 
 }  // namespace
 
-void blacken_borders(MammogramImage& image) {
+void paint_over_borders(MammogramImage& image) {
   constexpr double kWhite = 0.97, kMostBorder = 0.1;
+  constexpr int kBlurred = 2;  // lines between white and image that are neither
   const auto [low, high] = std::minmax_element(image.grey.begin(), image.grey.end());
-  const float dark = *low, white = static_cast<float>(dark + kWhite * (*high - dark));
+  const float white = static_cast<float>(*low + kWhite * (*high - *low));
   const auto column = [&](int c) {
-    if (!is_white(image.rows, white, [&](int r) { return image.at(c, r); })) return false;
-    for (int r = 0; r < image.rows; ++r) image.at(c, r) = dark;
-    return true;
+    return is_white(image.rows, white, [&](int r) { return image.at(c, r); });
   };
   const auto row = [&](int r) {
-    if (!is_white(image.columns, white, [&](int c) { return image.at(c, r); })) return false;
-    for (int c = 0; c < image.columns; ++c) image.at(c, r) = dark;
-    return true;
+    return is_white(image.columns, white, [&](int c) { return image.at(c, r); });
   };
-  const int wide = static_cast<int>(kMostBorder * image.columns);
-  const int high_rows = static_cast<int>(kMostBorder * image.rows);
-  for (int c = 0; c < wide && column(c); ++c) continue;
-  for (int c = image.columns - 1; c >= image.columns - wide && column(c); --c) continue;
-  for (int r = 0; r < high_rows && row(r); ++r) continue;
-  for (int r = image.rows - 1; r >= image.rows - high_rows && row(r); --r) continue;
+  const auto copy_column = [&](int to, int from) {
+    for (int r = 0; r < image.rows; ++r) image.at(to, r) = image.at(from, r);
+  };
+  const auto copy_row = [&](int to, int from) {
+    for (int c = 0; c < image.columns; ++c) image.at(c, to) = image.at(c, from);
+  };
+  // Lines from one edge inwards; `line` numbers them from it.
+  const auto paint = [&](int size, const auto& is_border, const auto& copy, const auto& line) {
+    int wide = 0;
+    while (wide < kMostBorder * size && is_border(line(wide))) ++wide;
+    if (wide == 0) return;
+    const int inside = std::min(size - 1, wide + kBlurred);
+    for (int n = 0; n < inside; ++n) copy(line(n), line(inside));
+  };
+  paint(image.columns, column, copy_column, [](int n) { return n; });
+  paint(image.columns, column, copy_column, [&](int n) { return image.columns - 1 - n; });
+  paint(image.rows, row, copy_row, [](int n) { return n; });
+  paint(image.rows, row, copy_row, [&](int n) { return image.rows - 1 - n; });
 }
 
 namespace {
@@ -177,9 +186,7 @@ AirLevel air_level(const MammogramImage& image, float floor, double least_share)
   return *first;
 }
 
-MammogramImage breast_mask(const MammogramImage& given, double pixel_mm, double least_share) {
-  MammogramImage image = given;
-  blacken_borders(image);
+MammogramImage breast_mask(const MammogramImage& image, double pixel_mm, double least_share) {
   float floor = -std::numeric_limits<float>::infinity();
   std::string fault;
   for (int frame = 0; frame < kMostFrames && has_more_than(floor, image); ++frame) {

@@ -19,9 +19,10 @@ struct AirLevel {
 /// and `least_share` of the range of greys. Throws std::runtime_error where nothing is dark.
 AirLevel air_level(const MammogramImage& image, float floor, double least_share);
 
-/// White lines along the image's edges, as film readers and collimators leave them, become as dark
-/// as anything.
-void blacken_borders(MammogramImage& image);
+/// White lines along the image's edges, as film readers and collimators leave them, show what lies
+/// beside them: a breast goes on to the edge, and so does air. On the image as stored: shrunk, thin
+/// lines are white no more.
+void paint_over_borders(MammogramImage& image);
 
 /// The breast: 1, else 0; the largest bright region that lies at the left or right edge, without
 /// white borders, labels and what is thinner than 2 mm. Where the darkest grey is the frame of an

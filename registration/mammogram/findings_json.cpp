@@ -39,17 +39,23 @@ json findings_json(const MammogramFindings& f) {
 json geometry_json(const HeaderGeometry& g) {
   const PixelGrid& grid = *g.detector.pixels;
   const auto known = [](const std::optional<double>& x) { return x ? json(*x) : json(); };
-  return {{"angle_deg", g.angle_deg},
-          {"thickness_mm", known(g.thickness_mm)},
-          {"force_N", known(g.force_N)},
-          {"source_distance_mm", g.detector.source_distance_mm},
-          {"support_gap_mm", g.detector.support_gap_mm},
-          {"pixel_spacing_mm", grid.spacing_mm},
-          {"columns", grid.columns},
-          {"rows", grid.rows},
-          {"chest_wall", grid.chest_wall == ImageEdge::left ? "left" : "right"},
-          {"lateral", grid.lateral_at_top ? "top" : "bottom"},
-          {"remarks", g.remarks}};
+  json geometry{{"angle_deg", g.angle_deg},
+                {"thickness_mm", known(g.thickness_mm)},
+                {"force_N", known(g.force_N)},
+                {"source_distance_mm", g.detector.source_distance_mm},
+                {"support_gap_mm", g.detector.support_gap_mm},
+                {"pixel_spacing_mm", grid.spacing_mm},
+                {"columns", grid.columns},
+                {"rows", grid.rows},
+                {"chest_wall", grid.chest_wall == ImageEdge::left ? "left" : "right"},
+                {"lateral", grid.lateral_at_top ? "top" : "bottom"},
+                {"remarks", g.remarks}};
+  if (const auto& s = g.detector.slices)
+    geometry["slices"] = {{"count", s->count},
+                          {"spacing_mm", s->spacing_mm},
+                          {"lowest_mm", s->lowest_mm},
+                          {"first", s->first_at_support ? "support" : "paddle"}};
+  return geometry;
 }
 
 }  // namespace mammotwin

@@ -7,6 +7,8 @@
 #include <map>
 #include <stdexcept>
 
+#include "registration/view/view_frame.h"
+
 namespace mammotwin {
 namespace {
 
@@ -70,9 +72,12 @@ void check_kind(const MammogramHeader& h, HeaderGeometry& geometry) {
   if (!h.positioner_type.empty() && h.positioner_type.rfind("MAMMOGRAPHIC", 0) != 0)
     geometry.remarks.push_back(std::string(kPositioner) + " is \"" + h.positioner_type +
                                "\"; expected MAMMOGRAPHIC");
-  if (h.frames && *h.frames > 1)
-    refuse(kFrames,
-           "is " + std::to_string(*h.frames) + ": tomosynthesis cannot be used; give the 2-D view");
+  if (h.frames && *h.frames > 1 && !h.slices)
+    refuse(kFrames, "is " + std::to_string(*h.frames) +
+                        ", and the file is no Breast Tomosynthesis Image; expected one image or "
+                        "such a volume: projections and other series of frames cannot be used");
+  if (h.slices && h.frames.value_or(1) < 2)
+    refuse(kFrames, "is 1; expected all slices of a tomosynthesis volume");
   if (h.implant == "YES") refuse(kImplant, "is YES: the model knows no implant");
   if (h.partial_view == "YES") refuse(kPartial, "is YES: a partial view has no outline to match");
   if (h.presentation_intent.empty())
@@ -184,6 +189,7 @@ std::optional<double> force_of(const MammogramHeader& h, HeaderGeometry& geometr
 }
 
 double distance_of(const MammogramHeader& h, const std::string& view, HeaderGeometry& geometry) {
+  if (h.slices) return kParallel_mm;
   if (!h.source_to_detector_mm) {
     geometry.remarks.push_back(std::string(kDistance) + " is missing; taken as " +
                                text_of(Detector{}.source_distance_mm) + " mm");
@@ -200,6 +206,7 @@ double distance_of(const MammogramHeader& h, const std::string& view, HeaderGeom
 /// 18 mm of support), which a gap beyond any usual support tells.
 double gap_of(const MammogramHeader& h, double distance, std::optional<double> thickness,
               HeaderGeometry& geometry) {
+  if (h.slices) return 0;
   constexpr double kUsual = 30, kMost = 50;  // [mm] of supports over detectors
   if (!h.source_to_patient_mm) return 0;
   const double gap = distance - *h.source_to_patient_mm;
@@ -225,6 +232,11 @@ double square(const char* tag, const std::vector<double>& spacing, const std::st
 }
 
 double spacing_of(const MammogramHeader& h, const std::string& view, HeaderGeometry& geometry) {
+  if (h.slices) {
+    if (h.pixel_spacing_mm.empty())
+      refuse(kPixelSpacing, "is missing; views." + view + ".detector.pixel_spacing_mm replaces it");
+    return square(kPixelSpacing, h.pixel_spacing_mm, view);
+  }
   if (h.imager_spacing_mm.empty() && h.pixel_spacing_mm.empty())
     refuse(kImagerSpacing, std::string("is missing, and so is ") + kPixelSpacing + "; views." +
                                view + ".detector.pixel_spacing_mm replaces them");
@@ -313,6 +325,9 @@ HeaderGeometry header_geometry(const MammogramHeader& h, const std::string& view
   grid.chest_wall = o.chest_wall ? *o.chest_wall : chest_wall_of(h, view);
   grid.lateral_at_top = o.lateral_at_top ? *o.lateral_at_top : lateral_at_top_of(h, view, side);
   g.detector.pixels = grid;
+  if (h.slices)
+    g.detector.slices = slice_stack(h, view_axes(side, g.angle_deg).row(2), g.thickness_mm,
+                                    o.slices, view, g.remarks);
   check_detector(g.detector);
   return g;
 }

@@ -24,6 +24,11 @@ constexpr double kFaintBulge_mm = 1.5;
 /// A marker lies on the skin: so far from the skin line at most.
 constexpr double kMarkerReach_mm = 15;
 
+MammogramImage without_borders(MammogramImage image) {
+  paint_over_borders(image);
+  return image;
+}
+
 /// The vertical edge that more of the breast touches.
 ImageEdge chest_wall_edge(const MammogramImage& mask) {
   double left = 0, right = 0;
@@ -77,7 +82,7 @@ class Reading {
         pixel_mm_(pixel_mm),
         oblique_(oblique),
         said_(said),
-        upright_(image, pixel_mm) {}
+        upright_(without_borders(image), pixel_mm) {}
 
   MammogramFindings run() {
     read_outline();

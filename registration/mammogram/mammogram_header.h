@@ -1,13 +1,18 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "registration/mammogram/mammogram_image.h"
-
 namespace mammotwin {
+
+/// Where a tomosynthesis volume says that its slices lie.
+struct SliceTags {
+  std::optional<double> spacing_mm, thickness_mm;            ///< (0018,0088), (0018,0050)
+  std::optional<Eigen::Vector3d> first_in_lps, last_in_lps;  ///< (0020,0032) of these slices
+};
 
 /// What a mammogram's DICOM header says of its geometry, as it stands there: text without padding,
 /// empty where a tag is missing. No identifier is read.
@@ -24,18 +29,14 @@ struct MammogramHeader {
       element_spacing_mm;  ///< between rows, between columns; the last of the detector itself
   std::optional<int> collimated_left, collimated_right;  ///< columns of (0018,1702) and (0018,1704)
   std::optional<int> rows, columns, frames;
+  std::optional<SliceTags> slices;  ///< of a Breast Tomosynthesis Image
 };
 
-/// Throws std::runtime_error naming the file where it is no DICOM file.
+/// Throws std::runtime_error naming the file where it is no DICOM file, or a tomosynthesis volume
+/// without its functional groups.
 MammogramHeader read_mammogram_header(const std::filesystem::path& path);
 
 /// True where the file begins as DICOM files do.
 bool is_dicom(const std::filesystem::path& path);
-
-/// Grey values, dense tissue bright: MONOCHROME1 is turned over; detector counts (FOR PROCESSING)
-/// become what was absorbed (detector_counts.h); padding becomes air. Uncompressed, RLE, JPEG and
-/// JPEG-LS files; colour where red, green and blue are equal. Throws std::runtime_error, naming
-/// JPEG 2000 where it is that.
-MammogramImage read_mammogram_dicom(const std::filesystem::path& path);
 
 }  // namespace mammotwin

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <filesystem>
 #include <optional>
 #include <vector>
 
@@ -22,8 +21,5 @@ struct MammogramImage {
     return grey[static_cast<std::size_t>(row) * columns + column];
   }
 };
-
-/// Reads a grey PNG (8 or 16 bit). Throws std::runtime_error naming the file and what is wrong.
-MammogramImage read_mammogram_png(const std::filesystem::path& path);
 
 }  // namespace mammotwin

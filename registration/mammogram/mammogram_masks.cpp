@@ -8,10 +8,8 @@
 #include <itkContourExtractor2DImageFilter.h>
 #include <itkFlatStructuringElement.h>
 #include <itkImage.h>
-#include <itkImageFileReader.h>
 #include <itkImageToHistogramFilter.h>
 #include <itkOtsuThresholdCalculator.h>
-#include <itkPNGImageIO.h>
 #include <itkRelabelComponentImageFilter.h>
 #include <itkSmoothingRecursiveGaussianImageFilter.h>
 
@@ -44,26 +42,6 @@ MammogramImage from_itk(const GreyImage& grey) {
 }
 
 }  // namespace
-
-MammogramImage read_mammogram_png(const std::filesystem::path& path) {
-  if (!std::filesystem::exists(path)) throw std::runtime_error(path.string() + ": no such file");
-  auto io = itk::PNGImageIO::New();
-  if (!io->CanReadFile(path.c_str()))
-    throw std::runtime_error(path.string() + ": not a PNG image; expected a grey mammogram");
-  auto reader = itk::ImageFileReader<GreyImage>::New();
-  reader->SetFileName(path.string());
-  reader->SetImageIO(io);
-  try {
-    reader->Update();
-  } catch (const itk::ExceptionObject& error) {
-    throw std::runtime_error(path.string() + ": cannot be read: " + error.GetDescription());
-  }
-  if (io->GetNumberOfComponents() != 1)
-    throw std::runtime_error(path.string() + ": has " +
-                             std::to_string(io->GetNumberOfComponents()) +
-                             " colour channels; expected a grey image");
-  return from_itk(*reader->GetOutput());
-}
 
 MammogramImage smoothed(const MammogramImage& image, double sigma) {
   auto filter = itk::SmoothingRecursiveGaussianImageFilter<GreyImage, GreyImage>::New();

@@ -51,8 +51,13 @@ Eigen::Vector2d Detector::detector_from_image(const Eigen::Vector2d& column_row)
 }
 
 void check_detector(const Detector& detector) {
-  check_range("source_distance_mm", detector.source_distance_mm, 300, 1500, "mm");
+  if (detector.source_distance_mm != kParallel_mm)
+    check_range("source_distance_mm", detector.source_distance_mm, 300, 1500, "mm");
   check_range("support_gap_mm", detector.support_gap_mm, 0, 50, "mm");
+  if (detector.slices) {
+    check_range("slices.spacing_mm", detector.slices->spacing_mm, 0.1, 20, "mm");
+    check_range("slices.count", detector.slices->count, 1, 1000, "slices");
+  }
   if (!detector.pixels) return;
   check_range("pixels.spacing_mm", detector.pixels->spacing_mm, 0.01, 2, "mm");
   check_range("pixels.columns", detector.pixels->columns, 1, 100000, "pixels");

@@ -3,6 +3,8 @@
 #include <Eigen/Core>
 #include <optional>
 
+#include "registration/view/slice_stack.h"
+
 namespace mammotwin {
 
 enum class ImageEdge { left, right };
@@ -17,13 +19,17 @@ struct PixelGrid {
   bool lateral_at_top = true;              ///< as mammograms are hung; false: lateral downwards
 };
 
+/// A source so far away that its rays are parallel, as the slices of a volume are stacked [mm].
+inline constexpr double kParallel_mm = 1e7;
+
 /// Cone-beam geometry of a view. Detector coordinates [mm] are (u, v) in the detector's plane from
 /// the middle of its chest-wall edge: u along the view's depth, v along its lateral axis. The
 /// source stands above that edge's middle, so rays there are vertical and the field is half a cone.
 struct Detector {
-  double source_distance_mm = 660;  ///< source to detector plane (DistanceSourceToDetector)
-  double support_gap_mm = 0;        ///< detector plane to support surface: real ones 10 to 20
-  std::optional<PixelGrid> pixels;  ///< absent: positions in mm only
+  double source_distance_mm = 660;     ///< source to detector plane (DistanceSourceToDetector)
+  double support_gap_mm = 0;           ///< detector plane to support surface: real ones 10 to 20
+  std::optional<PixelGrid> pixels;     ///< absent: positions in mm only
+  std::optional<SliceStack> slices{};  ///< of a tomosynthesis volume
 
   /// Point in the view frame -> (u, v). Magnification M = D / (D - gap - height).
   /// Throws std::invalid_argument at or above the source.
@@ -40,7 +46,8 @@ struct Detector {
 };
 
 /// Throws std::invalid_argument naming the field unless distances are plausible: source 300 to
-/// 1500 mm, gap 0 to 50 mm, pixel spacing 0.01 to 2 mm, at least one column and row.
+/// 1500 mm or kParallel_mm, gap 0 to 50 mm, pixel spacing 0.01 to 2 mm, at least one column and
+/// row.
 void check_detector(const Detector& detector);
 
 }  // namespace mammotwin

@@ -24,6 +24,7 @@ ProjectedLandmark ViewProjection::project(const Landmark& landmark) const {
   result.in_view = view_.frame.view_from_lps(carried.in_lps);
   result.on_detector = detector_.project(result.in_view);
   if (detector_.pixels) result.in_image = detector_.image_from_detector(result.on_detector);
+  if (detector_.slices) result.slice = detector_.slices->slice_at(result.in_view.z());
   result.baseline_on_detector = detector_.project(baseline_.view_from_prone(landmark.prone_in_lps));
   return result;
 }

@@ -22,10 +22,11 @@ struct ProjectedLandmark {
   Landmark landmark;
   MeshPoint point;
   double outside_mm = 0;  ///< distance of the landmark from the mesh in the prone MRI
-  Eigen::Vector3d compressed_in_lps = Eigen::Vector3d::Zero();     ///< [mm]
-  Eigen::Vector3d in_view = Eigen::Vector3d::Zero();               ///< depth, lateral, height [mm]
-  Eigen::Vector2d on_detector = Eigen::Vector2d::Zero();           ///< u, v [mm]
-  std::optional<Eigen::Vector2d> in_image;                         ///< column, row
+  Eigen::Vector3d compressed_in_lps = Eigen::Vector3d::Zero();  ///< [mm]
+  Eigen::Vector3d in_view = Eigen::Vector3d::Zero();            ///< depth, lateral, height [mm]
+  Eigen::Vector2d on_detector = Eigen::Vector2d::Zero();        ///< u, v [mm]
+  std::optional<Eigen::Vector2d> in_image;                      ///< column, row
+  std::optional<double> slice;  ///< of a tomosynthesis volume, from 1, with fractions
   Eigen::Vector2d baseline_on_detector = Eigen::Vector2d::Zero();  ///< u, v without physics [mm]
 };
 

@@ -62,18 +62,25 @@ Voxel in_layer(const Voxels& v, int k, double i, double j) {
 }
 
 /// Midpoint rule over the grid's layers, whose voxels are thin against the source's distance.
-Voxel along_ray(const Voxels& v, const Detector& detector, const Eigen::Vector2d& uv) {
-  const Eigen::Vector3d source = detector.source_in_view();
-  const Eigen::Vector3d foot = detector.point_on_ray(uv, -detector.support_gap_mm);
-  const double step_mm = v.spacing.z() * (source - foot).norm() / detector.source_distance_mm;
+/// `at`: the ray's point at a height; `stretch`: its length over its height.
+template <class PointAt>
+Voxel along_ray(const Voxels& v, double stretch, const PointAt& at) {
+  const double step_mm = v.spacing.z() * stretch;
   Voxel sum;
   for (int k = 0; k < v.size.z(); ++k) {
-    const Eigen::Vector3d index = v.index(detector.point_on_ray(uv, v.position(0, 0, k).z()));
+    const Eigen::Vector3d index = v.index(at(v.position(0, 0, k).z()));
     const Voxel layer = in_layer(v, k, index.x(), index.y());
     sum.inside += step_mm * layer.inside;
     sum.attenuation += step_mm * layer.attenuation;
   }
   return sum;
+}
+
+Voxel along_ray(const Voxels& v, const Detector& detector, const Eigen::Vector2d& uv) {
+  const Eigen::Vector3d source = detector.source_in_view();
+  const Eigen::Vector3d foot = detector.point_on_ray(uv, -detector.support_gap_mm);
+  return along_ray(v, (source - foot).norm() / detector.source_distance_mm,
+                   [&](double height) { return detector.point_on_ray(uv, height); });
 }
 
 /// Detector pixels that rays through the box can reach.
@@ -113,6 +120,28 @@ SimulatedView simulate_view(const HermiteMesh& prone, const HermiteMesh& compres
     }
   });
   return result;
+}
+
+std::vector<DetectorImage> simulate_projections(const HermiteMesh& prone,
+                                                const HermiteMesh& compressed,
+                                                const Volume<Fractions>* fractions,
+                                                const CompressedView& view,
+                                                const std::vector<Eigen::Vector3d>& sources,
+                                                const DetectorImage& frame, const Attenuation& mu) {
+  const Voxels voxels = compressed_volume(prone, compressed, fractions, view.frame, mu);
+  std::vector<DetectorImage> projections(sources.size(), frame);
+  for (std::size_t n = 0; n < sources.size(); ++n)
+    tbb::parallel_for(0, frame.rows, [&](int j) {
+      for (int i = 0; i < frame.columns; ++i) {
+        const Eigen::Vector2d uv = frame.first + frame.spacing_mm * Eigen::Vector2d(i, j);
+        const Eigen::Vector3d foot(uv.x(), uv.y(), 0), up = (sources[n] - foot) / sources[n].z();
+        projections[n].values[static_cast<std::size_t>(j) * frame.columns + i] =
+            along_ray(voxels, up.norm(), [&](double height) -> Eigen::Vector3d {
+              return foot + height * up;
+            }).attenuation;
+      }
+    });
+  return projections;
 }
 
 DetectorImage as_shown(const SimulatedView& view, const Attenuation& mu) {

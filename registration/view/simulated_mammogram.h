@@ -43,6 +43,13 @@ SimulatedView simulate_view(const HermiteMesh& prone, const HermiteMesh& compres
                             const Detector& detector, double spacing_mm = 0.5,
                             const Attenuation& attenuation = {});
 
+/// -ln(I/I0) along the rays from each source [mm, in the view] to the pixels of `frame`, which lies
+/// on the support: the projections of a tomosynthesis scan. The rest as `simulate_view`.
+std::vector<DetectorImage> simulate_projections(
+    const HermiteMesh& prone, const HermiteMesh& compressed, const Volume<Fractions>* fractions,
+    const CompressedView& view, const std::vector<Eigen::Vector3d>& sources,
+    const DetectorImage& frame, const Attenuation& attenuation = {});
+
 /// Grey in [0, 1] as a mammogram is shown: dense is bright, air black, and the rim's thinner tissue
 /// lifted by judging each pixel against fat of the same thickness.
 DetectorImage as_shown(const SimulatedView& view, const Attenuation& attenuation = {});

@@ -50,6 +50,19 @@ class DicomExport : public ::testing::Test {
   AnnotatedMark mark_;
 };
 
+TEST_F(DicomExport, PresentationStateOfAVolumeDrawsOnTheLesionsSlice) {
+  mark_.slice = 23;
+  write_presentation_state(out("pr.dcm"), mammogram(), detector_, {mark_}, "mlo");
+  DcmFileFormat file;
+  ASSERT_TRUE(file.loadFile(out("pr.dcm").c_str()).good());
+  DcmItem *annotation = nullptr, *image = nullptr;
+  ASSERT_TRUE(
+      file.getDataset()->findAndGetSequenceItem(DCM_GraphicAnnotationSequence, annotation).good());
+  ASSERT_TRUE(annotation->findAndGetSequenceItem(DCM_ReferencedImageSequence, image).good());
+  OFString frame;
+  EXPECT_TRUE(image->findAndGetOFString(DCM_ReferencedFrameNumber, frame).good() && frame == "23");
+}
+
 TEST_F(DicomExport, PresentationStateDrawsTheEllipseOnItsImage) {
   write_presentation_state(out("pr.dcm"), mammogram(), detector_, {mark_}, "mlo");
   DcmFileFormat file;

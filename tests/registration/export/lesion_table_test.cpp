@@ -76,8 +76,8 @@ TEST(LesionTable, HasTheColumnsThatOthersRead) {
   EXPECT_EQ(
       text_of(path),
       "patient,lesion,view,side,volume_ml,mri_l_mm,mri_p_mm,mri_s_mm,depth_mm,lateral_mm,height_mm,"
-      "detector_u_mm,detector_v_mm,pixel_column,pixel_row,ellipse_major_mm,ellipse_minor_mm,"
-      "ellipse_angle_deg,picture_ellipse_major_mm,picture_ellipse_minor_mm,"
+      "detector_u_mm,detector_v_mm,pixel_column,pixel_row,slice,ellipse_major_mm,"
+      "ellipse_minor_mm,ellipse_angle_deg,picture_ellipse_major_mm,picture_ellipse_minor_mm,"
       "picture_ellipse_angle_deg,baseline_u_mm,baseline_v_mm,behind_nipple_mm,"
       "lateral_of_nipple_mm,above_nipple_mm,nipple_distance_mm,quadrant,clock,third\n");
 }
@@ -102,7 +102,7 @@ TEST(LesionTable, ComesBackAsItWasWritten) {
 TEST(LesionTable, NamesTheCellThatCannotBeRead) {
   const auto path = scratch_file("bad.csv");
   write_lesion_table(path, {});
-  std::ofstream(path, std::ios::app) << "042,1,cc,left,,twelve" << std::string(24, ',') << "\n";
+  std::ofstream(path, std::ios::app) << "042,1,cc,left,,twelve" << std::string(25, ',') << "\n";
   try {
     read_lesion_table(path);
     FAIL();

@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-#include "registration/mammogram/mammogram_image.h"
+#include "registration/mammogram/mammogram_picture.h"
 #include "tests/registration/squeezed_box.h"
 
 namespace mammotwin {
@@ -33,11 +33,11 @@ TEST(ViewProducts, PngHangsAsMammogramsDo) {
   shown.values = {0.2, 0, 0, 0, 0, 1};  // at the wall medially 0.2, far laterally 1
   const auto path = std::filesystem::path(testing::TempDir()) / "view.png";
   write_view_png(path, shown, Side::left);
-  MammogramImage image = read_mammogram_png(path);
+  MammogramImage image = read_mammogram_picture(path);
   EXPECT_EQ(image.at(0, 1), std::lround(0.2 * 65535));
   EXPECT_EQ(image.at(2, 0), 65535);
   write_view_png(path, shown, Side::right);
-  image = read_mammogram_png(path);
+  image = read_mammogram_picture(path);
   EXPECT_EQ(image.at(2, 1), std::lround(0.2 * 65535));
   EXPECT_EQ(image.at(0, 0), 65535);
 }

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "registration/mammogram/header_geometry.h"
+#include "registration/mammogram/mammogram_pixels.h"
 #include "tests/registration/mammogram_dicom.h"
 
 namespace mammotwin {

@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "registration/mammogram/mammogram_findings.h"
+#include "registration/mammogram/mammogram_picture.h"
 #include "tests/where.h"
 
 namespace mammotwin {
@@ -22,8 +23,8 @@ TEST(MammogramFindings, RealViewsHaveTheirNippleAndMuscle) {
                                                            {"L-MLO", {1344, 2148}}};
   for (const auto& [name, marker] : views) {
     const bool oblique = std::string(name).find("MLO") != std::string::npos;
-    const MammogramFindings found =
-        find_breast(read_mammogram_png(folder / (std::string(name) + ".png")), kPixel_mm, oblique);
+    const MammogramFindings found = find_breast(
+        read_mammogram_picture(folder / (std::string(name) + ".png")), kPixel_mm, oblique);
     EXPECT_EQ(found.chest_wall, ImageEdge::left) << name;
     EXPECT_LT((found.nipple - marker).norm(), 3) << name;
     EXPECT_EQ(found.pectoral.has_value(), oblique) << name;

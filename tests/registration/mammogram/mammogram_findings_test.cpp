@@ -6,6 +6,8 @@
 #include <cmath>
 #include <random>
 
+#include "registration/mammogram/mammogram_picture.h"
+
 namespace mammotwin {
 namespace {
 
@@ -68,6 +70,25 @@ TEST(MammogramFindings, AirMayBeGreyNoisyAndFramed) {
   for (const Drawing& d : {Drawing{.air = 40}, Drawing{.air = 30, .noise = 2},
                            Drawing{.frame = true, .air = 30, .noise = 2}})
     EXPECT_LT(worst_outline(find_breast(drawn(d), kPixel_mm, false)), 1) << d.air << d.noise;
+}
+
+TEST(MammogramFindings, ThinWhiteBorderChangesNothing) {
+  for (const int factor : {1, 4}) {  // pixels of 0.4 mm, and of 0.1 mm
+    const MammogramImage coarse = drawn({.nipple = true, .noise = 2});
+    MammogramImage fine{500 * factor, 700 * factor, {}};
+    for (int row = 0; row < fine.rows; ++row)
+      for (int column = 0; column < fine.columns; ++column) {
+        const int edge = std::min({column, row, fine.columns - 1 - column, fine.rows - 1 - row});
+        fine.grey.push_back(edge < 2 ? 255 : coarse.at(column / factor, row / factor));
+      }
+    const double pixel_mm = kPixel_mm / factor;
+    const MammogramFindings found = find_breast(fine, pixel_mm, false);
+    EXPECT_FALSE(unsure(found, "nipple"));
+    EXPECT_LT((found.nipple / factor - Eigen::Vector2d(314, 340)).norm() * kPixel_mm, 2.5);
+    // From chest wall to chest wall: the breast goes on beneath the border.
+    EXPECT_LT(found.outline.front().x() / factor, 60);
+    EXPECT_LT(found.outline.back().x() / factor, 60);
+  }
 }
 
 TEST(MammogramFindings, NippleInProfileIsFoundAndSure) {
@@ -139,7 +160,7 @@ TEST(MammogramFindings, RefuseWhatShowsNoBreast) {
   EXPECT_THROW(find_breast(empty, kPixel_mm, false), std::runtime_error);
   MammogramImage full = drawn({.air = 100});  // what is bright lies at all edges
   EXPECT_THROW(find_breast(full, kPixel_mm, false), std::runtime_error);
-  EXPECT_THROW(read_mammogram_png("absent.png"), std::runtime_error);
+  EXPECT_THROW(read_mammogram_picture("absent.png"), std::runtime_error);
 }
 
 }  // namespace

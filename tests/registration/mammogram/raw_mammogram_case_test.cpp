@@ -8,7 +8,7 @@
 #include <random>
 
 #include "registration/mammogram/mammogram_findings.h"
-#include "registration/mammogram/mammogram_header.h"
+#include "registration/mammogram/mammogram_pixels.h"
 #include "tests/registration/mammogram/raw_mammogram.h"
 #include "tests/registration/mammogram_dicom.h"
 
