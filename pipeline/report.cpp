@@ -5,7 +5,7 @@
 #include "pipeline/frame/stage.h"
 #include "pipeline/patient/patient.h"
 #include "pipeline/steps/view_header.h"
-#include "registration/mammogram/mammogram_header.h"
+#include "registration/mammogram/mammogram_pixels.h"
 
 namespace mammotwin {
 namespace {
@@ -53,12 +53,34 @@ StagePlan plan(const Arguments& args, const Patient& patient) {
   return plan;
 }
 
-RealMammogram read_mammogram(const Patient& patient, const std::string& view, Side side) {
+/// What the search was told, found again; nothing where the image shows none.
+std::optional<MammogramFindings> findings_of(const Patient& patient, const RealMammogram& real,
+                                             double angle_deg) {
+  constexpr double kOblique_deg = 15;
+  try {
+    return find_breast(real.image, real.detector.pixels->spacing_mm,
+                       std::abs(angle_deg) > kOblique_deg,
+                       said_in(patient, patient.view(real.view)));
+  } catch (const std::runtime_error&) {  // register has said why
+    return std::nullopt;
+  }
+}
+
+RealMammogram real_mammogram(const Patient& patient, const CompressedView& view,
+                             const std::vector<LesionRow>& rows) {
   std::vector<std::string> remarks;  // register has said them
-  const std::filesystem::path path = patient.resolve(*patient.view(view).mammogram);
-  RealMammogram real{view, is_dicom(path) ? read_mammogram_dicom(path) : read_mammogram_png(path),
-                     with_header(patient, view, side, remarks).detector(view, side)};
+  const std::filesystem::path path = patient.resolve(*patient.view(view.name).mammogram);
+  RealMammogram real{
+      view.name, read_mammogram(path),
+      with_header(patient, view.name, view.side, remarks).detector(view.name, view.side)};
   if (!real.detector.pixels) throw std::runtime_error("its pixel spacing is not known");
+  real.findings = findings_of(patient, real, view.angle_deg);
+  if (const auto& slices = real.detector.slices)
+    for (const LesionRow& row : rows)
+      if (row.view == view.name && row.slice) {
+        const int slice = slices->nearest(*row.slice);
+        real.slices.emplace(slice, read_mammogram_slice(path, slice));
+      }
   return real;
 }
 
@@ -67,7 +89,7 @@ void add_mammograms(const Patient& patient, PatientResults& results) {
   for (const ViewResult& view : results.views) {
     if (!patient.view(view.view.name).mammogram) continue;
     try {
-      results.mammograms.push_back(read_mammogram(patient, view.view.name, view.view.side));
+      results.mammograms.push_back(real_mammogram(patient, view.view, results.rows));
     } catch (const std::exception& error) {
       results.notes.push_back("the mammogram of " + view.view.name +
                               " is not shown: " + error.what());

@@ -38,7 +38,8 @@ nlohmann::json lesion_data(const std::vector<LesionRow>& rows) {
                     {"above", shown(row.above_nipple_mm)},
                     {"distance", shown(row.nipple_distance_mm)},
                     {"detector", shown(row.detector_u_mm, row.detector_v_mm, 1)},
-                    {"pixel", shown(row.pixel_column, row.pixel_row, 0)},
+                    {"pixel", shown(row.pixel_column, row.pixel_row, 0) +
+                                  (row.slice ? ", slice " + word::number(*row.slice, 0) : "")},
                     {"baseline", shown(row.baseline_u_mm, row.baseline_v_mm, 1)},
                     {"shift", model_to_baseline(row)}});
   return list;

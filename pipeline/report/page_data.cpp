@@ -1,6 +1,7 @@
 #include "pipeline/report/page_data.h"
 
 #include <algorithm>
+#include <iterator>
 
 #include "pipeline/report/answer_data.h"
 #include "pipeline/report/base64.h"
@@ -85,8 +86,11 @@ void add_views(const PatientResults& results, json& page) {
   std::vector<Figure> hung, simulated;  // own mammograms hang in front
   for (const ViewResult& view : results.views) {
     std::vector<Figure> figures = detector_figures(results, view);
-    if (figures.size() > 1) simulated.push_back(figures.back());
-    hung.push_back(std::move(figures.front()));
+    if (figures.size() > 1) {
+      simulated.push_back(std::move(figures.back()));
+      figures.pop_back();
+    }
+    std::move(figures.begin(), figures.end(), std::back_inserter(hung));
     for (const Landmark& lesion : results.lesions())
       page["cuts"].push_back(figure_data(compressed_figure(results, view, lesion)));
   }
@@ -106,6 +110,9 @@ void add_lesions(const PatientResults& results, json& page) {
   page["has_ellipses"] =
       std::any_of(results.rows.begin(), results.rows.end(),
                   [](const LesionRow& row) { return row.ellipse_major_mm.has_value(); });
+  page["has_findings"] =
+      std::any_of(results.mammograms.begin(), results.mammograms.end(),
+                  [](const RealMammogram& real) { return real.findings.has_value(); });
   page["frames"] = figure_data(frames_figure());
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -8,7 +9,7 @@
 
 #include "fitting/mesh/mesh_file.h"
 #include "registration/export/lesion_table.h"
-#include "registration/mammogram/mammogram_image.h"
+#include "registration/mammogram/mammogram_findings.h"
 #include "segmentation/segmentation.h"
 
 namespace mammotwin {
@@ -27,9 +28,11 @@ struct ViewResult {
 
 /// A view's real mammogram, on the detector that the view was registered with.
 struct RealMammogram {
-  std::string view;  ///< "cc" or "mlo"
-  MammogramImage image;
-  Detector detector;  ///< with its pixel grid
+  std::string view;      ///< "cc" or "mlo"
+  MammogramImage image;  ///< of a tomosynthesis volume the mean of its slices
+  Detector detector;     ///< with its pixel grid
+  std::optional<MammogramFindings> findings{};  ///< what the search was told
+  std::map<int, MammogramImage> slices{};       ///< those that lesions are predicted in
 };
 
 /// Whatever a patient's result folder holds; a stage that was refused has left only its sidecar.

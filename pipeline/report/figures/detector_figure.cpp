@@ -21,6 +21,7 @@ constexpr double kPixel_mm = 0.5;
 constexpr double kRing_mm = 5;       // where a lesion is but a point
 constexpr double kEllipse_pt = 1.4;  // 2 px at the page's usual size
 constexpr double kOutline_pt = 0.8;
+constexpr double kFinding_pt = 1.0;
 
 /// Detector coordinates in space: (u, v, 0).
 Eigen::Vector3d on_plane(const Eigen::Vector2d& uv) { return {uv.x(), uv.y(), 0}; }
@@ -172,6 +173,33 @@ std::string described(const PatientResults& results, const ViewProjection& proje
   return text;
 }
 
+Panel::Pieces chain(const std::vector<Eigen::Vector2d>& pixels, const Detector& detector) {
+  constexpr std::size_t kStride = 3;  // about 1 mm
+  Panel::Pieces pieces;
+  for (std::size_t n = kStride; n < pixels.size(); n += kStride)
+    pieces.push_back({on_plane(detector.detector_from_image(pixels[n - kStride])),
+                      on_plane(detector.detector_from_image(pixels[n]))});
+  return pieces;
+}
+
+/// What the search was told of the mammogram: skin line, muscle's edge, nipple and its standard
+/// deviation.
+void draw_findings(Panel& panel, const RealMammogram& real) {
+  const MammogramFindings& found = *real.findings;
+  const Stroke thin{palette::fat, kFinding_pt};
+  panel.pieces(chain(found.outline, real.detector), thin);
+  panel.pieces(chain(found.pectoral_curve, real.detector), {palette::muscle, kFinding_pt});
+  const Eigen::Vector2d nipple = real.detector.detector_from_image(found.nipple);
+  constexpr int kCorners = 60;
+  Panel::Pieces ring;
+  const auto at = [&](int n) {
+    const double t = 2 * std::numbers::pi * n / kCorners;
+    return on_plane(nipple + found.nipple_sd_mm * Eigen::Vector2d(std::cos(t), std::sin(t)));
+  };
+  for (int n = 0; n < kCorners; ++n) ring.push_back({at(n), at(n + 1)});
+  panel.pieces(ring, thin);
+}
+
 /// What the picture of a view consists of, before its background is chosen.
 struct DetectorView {
   ViewProjection projection;
@@ -223,19 +251,41 @@ Figure drawn(const PatientResults& results, const DetectorView& view, const Rast
 
 Figure simulated_figure(const PatientResults& results, const ViewResult& view,
                         const DetectorView& seen) {
+  const double source_mm = view.detector.source_distance_mm;
+  const std::string beam = source_mm < kParallel_mm
+                               ? "cone beam, source at " + word::number(source_mm, 0) + " mm"
+                               : std::string("parallel rays, as its slices are stacked");
   return drawn(
       results, seen, raster_of(seen.simulated, seen.section),
-      seen.name + ", simulated from the compressed model (cone beam, source at " +
-          word::number(view.detector.source_distance_mm, 0) + " mm)." + seen.hidden,
+      seen.name + ", simulated from the compressed model (" + beam + ")." + seen.hidden,
       "Simulated " + seen.name + " mammogram." + described(results, seen.projection) + seen.hidden);
 }
 
+/// The patient's own mammogram, or a slice of it, under the predicted places.
 Figure own_figure(const PatientResults& results, const DetectorView& seen,
-                  const RealMammogram& real) {
-  return drawn(results, seen, mammogram_raster(real, seen.section, kPixel_mm),
-               "The patient's own " + seen.name + " with the predicted places." + seen.hidden,
-               "The patient's " + seen.name + " mammogram." + described(results, seen.projection) +
-                   seen.hidden);
+                  const RealMammogram& real, const MammogramImage& image,
+                  const std::string& which) {
+  Figure figure =
+      drawn(results, seen, mammogram_raster(image, real.detector, seen.section, kPixel_mm),
+            "The patient's own " + seen.name + which + " with the predicted places." + seen.hidden,
+            "The patient's " + seen.name + " mammogram" + which + "." +
+                described(results, seen.projection) + seen.hidden);
+  if (!real.findings) return figure;
+  Picture picture(seen.section.width_mm() * kScale, seen.section.height_mm() * kScale);
+  Panel panel(picture, seen.section, 0, 0, kScale);
+  draw_findings(panel, real);
+  figure.layers.insert(figure.layers.begin(), {"findings", picture});
+  return figure;
+}
+
+/// ", slice 23 of 57 (lesion L1)".
+std::string name_of_slice(const PatientResults& results, const RealMammogram& real, int slice) {
+  std::string lesions;
+  for (const LesionRow& row : results.rows)
+    if (row.view == real.view && row.slice && real.detector.slices->nearest(*row.slice) == slice)
+      lesions += (lesions.empty() ? "lesion " : ", ") + row.lesion;
+  return ", slice " + std::to_string(slice) + " of " + std::to_string(real.detector.slices->count) +
+         " (" + lesions + ")";
 }
 
 }  // namespace
@@ -243,8 +293,13 @@ Figure own_figure(const PatientResults& results, const DetectorView& seen,
 std::vector<Figure> detector_figures(const PatientResults& results, const ViewResult& view) {
   const DetectorView seen = detector_view(results, view);
   std::vector<Figure> figures;
-  if (const RealMammogram* real = results.mammogram(view.view.name))
-    figures.push_back(own_figure(results, seen, *real));
+  if (const RealMammogram* real = results.mammogram(view.view.name)) {
+    figures.push_back(own_figure(results, seen, *real, real->image,
+                                 real->slices.empty() ? "" : ", mean of all slices,"));
+    for (const auto& [slice, image] : real->slices)
+      figures.push_back(
+          own_figure(results, seen, *real, image, name_of_slice(results, *real, slice)));
+  }
   figures.push_back(simulated_figure(results, view, seen));
   return figures;
 }

@@ -237,16 +237,17 @@ TEST(MeshField, ReadsWhatWasInterpolated) {
 
 // Pixels of 0.5 mm from the edge: columns 0 to 9 are dark, the rest bright.
 TEST(MammogramRaster, PutsPixelsWhereTheDetectorHasThem) {
-  RealMammogram real{"cc", {20, 20, std::vector<float>(400, 100)}, Detector{}};
-  real.detector.pixels = PixelGrid{0.5, 20, 20, ImageEdge::left, true};
+  MammogramImage image{20, 20, std::vector<float>(400, 100)};
+  Detector detector;
+  detector.pixels = PixelGrid{0.5, 20, 20, ImageEdge::left, true};
   for (int row = 0; row < 20; ++row)
-    for (int column = 0; column < 10; ++column) real.image.grey[row * 20 + column] = 0;
+    for (int column = 0; column < 10; ++column) image.grey[row * 20 + column] = 0;
   const Section section{2,
                         0,
                         {0},
                         {1, true},
                         Eigen::AlignedBox3d(Eigen::Vector3d(-2, -4, 0), Eigen::Vector3d(14, 4, 0))};
-  Raster raster = mammogram_raster(real, section, 1);
+  Raster raster = mammogram_raster(image, detector, section, 1);
   EXPECT_EQ(raster(1, 4).red, palette::grid.red);   // behind the edge
   EXPECT_EQ(raster(4, 4).red, 0);                   // u = 2.5 mm
   EXPECT_EQ(raster(9, 4).red, 1);                   // u = 7.5 mm
