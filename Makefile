@@ -22,12 +22,13 @@ override CASES := $(value CASES)
 override SYNTHETIC := $(value SYNTHETIC)
 override CHANGES := $(value CHANGES)
 override VIEWS := $(value VIEWS)
-export P DATA RESULTS FORCE BIN SEED PATIENTS JOBS ONLY ENGINE CONFIG PREFIX CASES SYNTHETIC CHANGES VIEWS
+override SPOIL := $(value SPOIL)
+export P DATA RESULTS FORCE BIN SEED PATIENTS JOBS ONLY ENGINE CONFIG PREFIX CASES SYNTHETIC CHANGES VIEWS SPOIL
 unexport MAKEFLAGS MAKEOVERRIDES
 
 .PHONY: help patient segment fit unload compress register report slicer paraview synthesize cohort verify-results \
         evaluate-segmentation evaluate-fitting evaluate-compression evaluate-unload evaluate-gravity evaluate-registration \
-        evaluate-stability evaluate-stabilisation evaluate-outlines evaluate-mammograms evaluate-real-pairs evaluate-niftysim evaluate-victre measured validate bench chain programs configured \
+        evaluate-stability evaluate-stabilisation evaluate-outlines evaluate-mammograms evaluate-mammogram-changes evaluate-tomosynthesis evaluate-real-pairs evaluate-niftysim evaluate-victre measured validate bench chain programs configured \
         configured_to_test install docs test clean
 .NOTPARALLEL:  # ninja itself uses all cores
 .DEFAULT_GOAL := help
@@ -55,11 +56,14 @@ help:
 	@echo 'make evaluate-stabilisation  presses 042 and the real cases of CASES with more and less of the term'
 	@echo '                       that keeps the volume of each point: RESULTS/evaluation/stabilisation.json; ONLY=Exam_02-left'
 	@echo 'make evaluate-registration  registers SYNTHETIC=10 patients with mammograms of another model:'
-	@echo '                       RESULTS/evaluation/registration.json; JOBS=2 at a time'
+	@echo '                       RESULTS/evaluation/registration.json; JOBS=2 at a time; SPOIL=1: also told'
+	@echo '                       wrongly of nipple, pectoral edge or abdomen (registration_spoilt.json)'
+	@echo 'make evaluate-tomosynthesis   registers 042 with tomosynthesis of another model: RESULTS/evaluation/tomosynthesis.json'
 	@echo 'make evaluate-real-pairs CASES=folder   patients with lesions marked on mammograms (marks.csv):'
 	@echo '                       RESULTS/evaluation/real_pairs.json'
 	@echo 'make evaluate-mammograms CASES=folder   reads mammograms whose landmarks somebody read (landmarks.csv):'
 	@echo '                       RESULTS/evaluation/mammograms.json and a contact sheet beside it'
+	@echo 'make evaluate-mammogram-changes CASES=folder   the same, mirrored, resampled, turned, ...: mammogram_changes.json'
 	@echo 'make evaluate-outlines   outlines of what RESULTS holds compressed in CC against those of real patients:'
 	@echo '                       RESULTS/evaluation/outlines.json; PRESS=1 presses each to what is usual for its volume first'
 	@echo 'make validate          the gel cylinder against other codes: RESULTS/gel_cylinder/validation.json;'
@@ -118,8 +122,11 @@ evaluate-stabilisation: mammotwin-evaluate-stabilisation
 	  "$$RESULTS/evaluation/stabilisation.json" $${ONLY:+--only $$ONLY}
 
 evaluate-registration: mammotwin-evaluate-registration
-	@"$$BIN/mammotwin-evaluate-registration" "$$RESULTS/evaluation/registration.json" \
-	  $${SYNTHETIC:+--synthetic "$$SYNTHETIC"} $${JOBS:+--jobs "$$JOBS"}
+	@"$$BIN/mammotwin-evaluate-registration" "$$RESULTS/evaluation/registration$${SPOIL:+_spoilt}.json" \
+	  $${SYNTHETIC:+--synthetic "$$SYNTHETIC"} $${JOBS:+--jobs "$$JOBS"} $${SPOIL:+--spoil}
+
+evaluate-tomosynthesis: mammotwin-evaluate-tomosynthesis
+	@"$$BIN/mammotwin-evaluate-tomosynthesis" "$$RESULTS/evaluation/tomosynthesis.json"
 
 evaluate-real-pairs: mammotwin-evaluate-real-pairs
 	@"$$BIN/mammotwin-evaluate-real-pairs" "$$CASES" "$$RESULTS/evaluation/real_pairs.json"
@@ -127,6 +134,10 @@ evaluate-real-pairs: mammotwin-evaluate-real-pairs
 evaluate-mammograms: mammotwin-evaluate-mammograms
 	@"$$BIN/mammotwin-evaluate-mammograms" "$$(test -f "$$CASES/landmarks.csv" && echo "$$CASES" || echo "$$CASES/real_mammograms")" \
 	  "$$RESULTS/evaluation/mammograms.json"
+
+evaluate-mammogram-changes: mammotwin-evaluate-mammogram-changes
+	@"$$BIN/mammotwin-evaluate-mammogram-changes" "$$(test -f "$$CASES/landmarks.csv" && echo "$$CASES" || echo "$$CASES/real_mammograms")" \
+	  "$$RESULTS/evaluation/mammogram_changes.json"
 
 evaluate-outlines: mammotwin-evaluate-outlines
 	@"$$BIN/mammotwin-evaluate-outlines" "$$CASES/compressed_outlines" "$$RESULTS/evaluation/outlines.json" \

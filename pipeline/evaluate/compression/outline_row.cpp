@@ -14,7 +14,6 @@ namespace {
 
 using nlohmann::json;
 
-constexpr double kParallel_mm = 1e7;  // source so far away that its rays are parallel
 constexpr double kMostSd = 2;
 
 double angle_deg(int ray) {

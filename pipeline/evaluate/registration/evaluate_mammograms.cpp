@@ -9,6 +9,7 @@
 #include "pipeline/frame/products.h"
 #include "registration/export/png_file.h"
 #include "registration/mammogram/findings_picture.h"
+#include "registration/mammogram/mammogram_picture.h"
 
 namespace mammotwin {
 namespace {
@@ -37,7 +38,7 @@ double cpu_seconds(std::clock_t since) {
 /// Reads, finds and compares one mammogram; `tile` becomes its picture.
 json row_of(const ReadMammogram& read, ColourPicture& tile) {
   json row{{"file", read.file.filename().string()}, {"view", read.view}};
-  const MammogramImage image = read_mammogram_png(read.file);
+  const MammogramImage image = read_mammogram_picture(read.file);
   MammogramFindings found;
   const std::clock_t begun = std::clock();
   try {

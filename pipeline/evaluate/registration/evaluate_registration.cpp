@@ -1,11 +1,13 @@
 // evaluate-registration: synthetic patients with known marks, from MRI and mammograms -> one table.
 
+#include <functional>
 #include <iostream>
 #include <sstream>
 
 #include "pipeline/evaluate/cases/evaluation_table.h"
 #include "pipeline/evaluate/registration/registration_case.h"
 #include "pipeline/evaluate/registration/registration_rows.h"
+#include "pipeline/evaluate/registration/spoilt_case.h"
 #include "pipeline/frame/command_line.h"
 
 namespace mammotwin {
@@ -17,7 +19,7 @@ using nlohmann::json;
 struct Arguments {
   fs::path table;
   int synthetic = 10, first = 0, jobs = 2;
-  bool coarse = false, judge = false;
+  bool coarse = false, spoil = false, judge = false;
 };
 
 void declare(CommandLine& command, Arguments& args) {
@@ -33,16 +35,20 @@ void declare(CommandLine& command, Arguments& args) {
       .with_default();
   command.flag("--coarse", args.coarse,
                "few elements in the truth and in the model: seconds a patient, to try it out");
+  command.flag(
+      "--spoil", args.spoil,
+      "each patient also with mammograms of which the search is told wrongly: no nipple in "
+      "profile, a pectoral edge 10 mm off, a strip of abdomen");
   command.flag("--judge", args.judge, "judge what lies there, without making or running anything");
 }
 
-json evaluate(int number, const fs::path& folder, const Arguments& args) {
+json evaluate(const fs::path& folder, const std::function<void()>& make, const Arguments& args) {
   json row = empty_registration_row();
-  row["name"] = "synthetic-" + std::to_string(number);
+  row["name"] = folder.filename().string();
   row["reason"] = nullptr;
   try {
     if (!args.judge) {
-      make_registration_case(number, args.coarse, folder);
+      make();
       run_registration_case(folder);
     }
     row.update(registration_row(folder));
@@ -64,11 +70,24 @@ int run(const Arguments& args) {
   work_through(args.synthetic, args.jobs, [&](std::size_t n) {
     const int number = args.first + static_cast<int>(n);
     const std::string name = "synthetic-" + std::to_string(number);
-    json row = evaluate(number, table.folder() / "registration" / name, args);
-    const std::string line = line_of(row);
-    table.add(n, std::move(row), line);
+    const fs::path folder = table.folder() / "registration" / name;
+    const auto add = [&](json row, const std::string& spoilt) {
+      row["spoilt"] = spoilt;
+      const std::string line = line_of(row);
+      table.add(n, std::move(row), line);
+    };
+    add(evaluate(
+            folder, [&] { make_registration_case(number, args.coarse, folder); }, args),
+        "nothing");
+    if (!args.spoil) return;
+    for (const std::string spoil : kSpoils) {
+      const fs::path worse = folder.string() + "-" + spoil;
+      add(evaluate(
+              worse, [&] { spoil_registration_case(folder, spoil, worse); }, args),
+          spoil);
+    }
   });
-  std::cerr << registration_summary(table.rows());
+  if (!args.spoil) std::cerr << registration_summary(table.rows());
   return 0;
 }
 

@@ -1,10 +1,13 @@
 #include "pipeline/evaluate/registration/mammogram_rows.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <map>
 #include <sstream>
 #include <stdexcept>
+
+#include "pipeline/evaluate/registration/line_distance.h"
 
 namespace mammotwin {
 namespace {
@@ -42,35 +45,10 @@ ReadMammogram read_row(const std::filesystem::path& folder, const Cells& cells) 
   return read;
 }
 
-/// Distance to a line; `endless`: it goes on straight at both ends.
-double distance(const Eigen::Vector2d& x, const Line& line, bool endless) {
-  double least = 1e30;
-  for (std::size_t n = 1; n < line.size(); ++n) {
-    const Eigen::Vector2d way = line[n] - line[n - 1];
-    double share = way.dot(x - line[n - 1]) / std::max(1e-12, way.squaredNorm());
-    if (!(endless && n == 1)) share = std::max(share, 0.);
-    if (!(endless && n + 1 == line.size())) share = std::min(share, 1.);
-    least = std::min(least, (x - line[n - 1] - share * way).norm());
-  }
-  return least;
-}
-
-/// A curve's ends set the way in which it goes on: pieces of some millimetres, not of a pixel.
-Line coarse(const Line& curve) {
-  constexpr std::size_t kStride = 5;
-  Line line;
-  for (std::size_t n = 0; n + 1 < curve.size(); n += kStride) line.push_back(curve[n]);
-  if (!curve.empty()) {
-    if (line.size() > 2) line.pop_back();
-    line.push_back(curve.back());
-  }
-  return line;
-}
-
 double worst(const Line& points, const Line& line, bool endless, double pixel_mm) {
   double most = 0;
   for (const Eigen::Vector2d& x : points)
-    most = std::max(most, distance(x, line, endless) * pixel_mm);
+    most = std::max(most, distance_to_line(x, line, endless) * pixel_mm);
   return most;
 }
 
@@ -95,6 +73,26 @@ json counted(const json& rows, const char* figure, const char* what, double limi
           {"wrong_but_unsure", said},
           {"wrong_and_sure", wrong},
           {"limit_mm", limit}};
+}
+
+/// What errors are in standard deviations: root of the mean square, and how many are within one and
+/// two; of those that are sure.
+json calibration(const json& rows, const char* figure, const char* sd, const char* what) {
+  int known = 0, within = 0, within_two = 0;
+  double squares = 0;
+  for (const json& row : rows) {
+    if (!row.contains(figure) || row[figure].is_null() || row[sd].is_null() || unsure(row, what))
+      continue;
+    const double z = row[figure].get<double>() / row[sd].get<double>();
+    ++known;
+    within += z <= 1;
+    within_two += z <= 2;
+    squares += z * z;
+  }
+  return {{"known", known},
+          {"within_1", within},
+          {"within_2", within_two},
+          {"rms", known > 0 ? json(std::sqrt(squares / known)) : json()}};
 }
 
 }  // namespace
@@ -158,12 +156,15 @@ json mammogram_counts(const json& rows) {
     far += row.contains("nipple_mm") && !row["nipple_mm"].is_null() &&
            row["nipple_mm"].get<double>() > kFarNipple_mm && !unsure(row, "nipple");
   }
-  return {{"images", rows.size()},
-          {"refused", refused},
-          {"outline", counted(rows, "outline_worst_mm", "outline", kSkin_mm)},
-          {"nipple", counted(rows, "nipple_mm", "nipple", kNipple_mm)},
-          {"nipple_sure_beyond_10_mm", far},
-          {"pectoral", counted(rows, "pectoral_worst_mm", "pectoral", kPectoral_mm)}};
+  return {
+      {"images", rows.size()},
+      {"refused", refused},
+      {"outline", counted(rows, "outline_worst_mm", "outline", kSkin_mm)},
+      {"nipple", counted(rows, "nipple_mm", "nipple", kNipple_mm)},
+      {"nipple_sure_beyond_10_mm", far},
+      {"pectoral", counted(rows, "pectoral_worst_mm", "pectoral", kPectoral_mm)},
+      {"nipple_over_sd", calibration(rows, "nipple_mm", "nipple_sd_mm", "nipple")},
+      {"pectoral_over_sd", calibration(rows, "pectoral_worst_mm", "pectoral_sd_mm", "pectoral")}};
 }
 
 }  // namespace mammotwin

@@ -33,7 +33,8 @@ std::vector<ReadMammogram> read_landmarks(const std::filesystem::path& folder);
 /// and remarks: how far the findings lie from what was read; null where either is missing.
 nlohmann::json mammogram_row(const ReadMammogram& read, const MammogramFindings& found);
 
-/// How many rows are right, unsure and wrong: skin within 3 mm, nipple and pectoral edge within 5.
+/// How many rows are right, unsure and wrong: skin within 3 mm, nipple and pectoral edge within 5;
+/// and what errors are over their standard deviations.
 nlohmann::json mammogram_counts(const nlohmann::json& rows);
 
 }  // namespace mammotwin

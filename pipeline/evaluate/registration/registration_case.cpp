@@ -8,6 +8,7 @@
 
 #include "pipeline/evaluate/cases/patient_chain.h"
 #include "pipeline/evaluate/registration/true_mammogram.h"
+#include "pipeline/evaluate/registration/true_tomosynthesis.h"
 #include "pipeline/frame/products.h"
 #include "pipeline/synthesize/counter_random.h"
 #include "pipeline/synthesize/nrrd_file.h"
@@ -72,8 +73,8 @@ std::string landmark_table(const TrueBreast& breast, const std::vector<TrueView>
   return csv.str();
 }
 
-std::string toml_of(const SyntheticPatient& patient, const DrawnPatient& drawn,
-                    const std::vector<TrueView>& views, const Detector& detector) {
+/// Body, MRI and lesions, without views.
+std::string body_toml(const SyntheticPatient& patient, const DrawnPatient& drawn) {
   std::string text = patient_toml(patient);
   const std::string own = "\"mri.nrrd\"";
   text.replace(text.find(own), own.size(), std::string("\"") + kScan + "\"");
@@ -81,6 +82,12 @@ std::string toml_of(const SyntheticPatient& patient, const DrawnPatient& drawn,
   if (const auto& e = drawn.elements)
     toml << "fit.elements = [" << e->x() << ", " << e->y() << ", " << e->z() << "]\n";
   toml << text.substr(0, text.find("[views.cc]"));
+  return toml.str();
+}
+
+std::string views_toml(const DrawnPatient& drawn, const std::vector<TrueView>& views,
+                       const Detector& detector) {
+  std::ostringstream toml;
   for (std::size_t n = 0; n < views.size(); ++n) {
     const std::string key = "[views." + views[n].view.name;
     toml << key << "]\nmammogram = \"" << views[n].view.name
@@ -127,7 +134,46 @@ void make_registration_case(int number, bool coarse, const fs::path& folder) {
   write_nrrd(folder / kScan, patient.scan.image);
   write_text_atomically(folder / "landmarks.csv", landmark_table(breast, views, detector, number));
   write_text_atomically(folder / "drawn.json", drawn_json(drawn, views).dump(1) + "\n");
-  write_text_atomically(folder / "patient.toml", toml_of(patient, drawn, views, detector));
+  write_text_atomically(folder / "patient.toml",
+                        body_toml(patient, drawn) + views_toml(drawn, views, detector));
+}
+
+void make_tomosynthesis_case(bool coarse, const fs::path& folder) {
+  constexpr int kPatient = 42;
+  if (fs::exists(folder / "patient.toml")) return;
+  fs::create_directories(folder);
+  DrawnPatient drawn = draw_registration(kPatient, coarse);
+  const double voxel_mm = drawn.patient.scan.voxel_mm;
+  drawn.patient = PatientOptions();
+  drawn.patient.anatomy.seed = kPatient;
+  if (coarse) drawn.patient.scan.voxel_mm = voxel_mm;
+  const SyntheticPatient patient = make_patient(drawn.patient);
+  const TrueBreast breast(patient, drawn);
+  std::vector<TrueView> views;
+  Detector detector;
+  json slices;
+  std::string toml = body_toml(patient, drawn);
+  for (const DrawnView& drawn_view : drawn.views) {
+    views.push_back(breast.compress_view(drawn_view));
+    const TrueView& view = views.back();
+    const TomosynthesisVolume volume = true_tomosynthesis(breast, view, kPatient);
+    detector = detector_of(volume, view.view.side);
+    slices["spacing_mm"] = volume.stack.spacing_mm;
+    slices["pixel_mm"] = volume.pixel_mm;
+    const std::string file = view.view.name + ".dcm";
+    write_tomosynthesis(folder / file, volume, view.view, drawn_view.header_angle_deg,
+                        view.header_thickness_mm);
+    for (const Lesion& lesion : breast.truth().lesions)
+      slices[view.view.name][lesion.id] =
+          volume.stack.slice_at(true_place(breast, view, lesion.centroid_in_lps).z());
+    toml += "[views." + view.view.name + "]\nmammogram = \"" + file + "\"\n\n";
+  }
+  write_nrrd(folder / kScan, patient.scan.image);
+  write_text_atomically(folder / "landmarks.csv",
+                        landmark_table(breast, views, detector, kPatient));
+  write_text_atomically(folder / "slices.json", slices.dump(1) + "\n");
+  write_text_atomically(folder / "drawn.json", drawn_json(drawn, views).dump(1) + "\n");
+  write_text_atomically(folder / "patient.toml", toml);
 }
 
 void run_registration_case(const fs::path& folder) {

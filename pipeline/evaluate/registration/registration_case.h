@@ -12,6 +12,11 @@ namespace mammotwin {
 /// made.
 void make_registration_case(int number, bool coarse, const std::filesystem::path& folder);
 
+/// Makes patient 042 with tomosynthesis in place of both mammograms: cc.dcm, mlo.dcm (all that
+/// registration needs to know is in their headers) and slices.json, the slice of each lesion. Truth
+/// is of another model, as above.
+void make_tomosynthesis_case(bool coarse, const std::filesystem::path& folder);
+
 /// Takes it through segment, fit, unload, compress and register, which skip what is current.
 /// Throws std::runtime_error with the reason of a stage that leaves no product.
 void run_registration_case(const std::filesystem::path& folder);

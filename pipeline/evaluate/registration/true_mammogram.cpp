@@ -41,11 +41,15 @@ Detector synthetic_detector(Side side) {
   return detector;
 }
 
+Eigen::Vector3d true_place(const TrueBreast& breast, const TrueView& view,
+                           const Eigen::Vector3d& prone_in_lps) {
+  const PointCarrier carrier(breast.prone(), view.compressed);
+  return view.view.frame.view_from_lps(carrier.carry(prone_in_lps).in_lps);
+}
+
 Eigen::Vector2d true_mark(const TrueBreast& breast, const TrueView& view, const Detector& detector,
                           const Eigen::Vector3d& prone_in_lps) {
-  const PointCarrier carrier(breast.prone(), view.compressed);
-  return detector.image_from_detector(
-      detector.project(view.view.frame.view_from_lps(carrier.carry(prone_in_lps).in_lps)));
+  return detector.image_from_detector(detector.project(true_place(breast, view, prone_in_lps)));
 }
 
 GreyPixels true_mammogram(const TrueBreast& breast, const TrueView& view, const Detector& detector,

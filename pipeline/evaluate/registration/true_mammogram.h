@@ -8,6 +8,10 @@ namespace mammotwin {
 /// Detector of every synthetic mammogram: 240 x 300 mm in pixels of 0.25 mm, chest wall as hung.
 Detector synthetic_detector(Side side);
 
+/// (depth, lateral, height) of a point of the prone breast in the true view [mm].
+Eigen::Vector3d true_place(const TrueBreast& breast, const TrueView& view,
+                           const Eigen::Vector3d& prone_in_lps);
+
 /// (column, row) of a point of the prone breast in the true view.
 Eigen::Vector2d true_mark(const TrueBreast& breast, const TrueView& view, const Detector& detector,
                           const Eigen::Vector3d& prone_in_lps);
