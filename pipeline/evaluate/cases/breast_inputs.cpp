@@ -51,18 +51,6 @@ SyntheticPatient make_drawn(const SyntheticBreast& drawn) {
   }
 }
 
-json segment_drawn(const SyntheticBreast& drawn, const fs::path& folder) {
-  const SyntheticPatient p = make_drawn(drawn);
-  const Segmentation s = true_segmentation(p.tissue, p.labels, p.truth);
-  write_segmentation(folder / "segmentation.seg.nrrd", s);
-  write_fractions(folder / "fractions.nrrd", s.fractions);
-  return {{"side", name_of(p.truth.region.side)},
-          {"volume_ml", p.truth.breast_ml},
-          {"density", p.truth.fibroglandular_ml / p.truth.breast_ml},
-          {"ptosis", p.options.anatomy.ptosis},
-          {"lesions", p.options.anatomy.lesions}};
-}
-
 /// Runs a stage whose product lies in `folder` and returns its sidecar. Throws std::runtime_error
 /// with its reason where it left no product.
 json run_stage_in(const fs::path& folder, const std::string& stage,
@@ -157,6 +145,18 @@ void write_toml(const EvaluatedBreast& breast, const PreparedBreast& prepared) {
 }
 
 }  // namespace
+
+json segment_drawn(const SyntheticBreast& drawn, const fs::path& folder) {
+  const SyntheticPatient p = make_drawn(drawn);
+  const Segmentation s = true_segmentation(p.tissue, p.labels, p.truth);
+  write_segmentation(folder / "segmentation.seg.nrrd", s);
+  write_fractions(folder / "fractions.nrrd", s.fractions);
+  return {{"side", name_of(p.truth.region.side)},
+          {"volume_ml", p.truth.breast_ml},
+          {"density", p.truth.fibroglandular_ml / p.truth.breast_ml},
+          {"ptosis", p.options.anatomy.ptosis},
+          {"lesions", p.options.anatomy.lesions}};
+}
 
 PreparedBreast prepare_breast(const EvaluatedBreast& breast, bool again) {
   json about = read_json(breast.folder / "about.json");

@@ -36,6 +36,10 @@ struct PreparedBreast {
   bool usable() const { return reason.empty(); }
 };
 
+/// A drawn breast as `segment` would hand it on if it made no mistake: segmentation.seg.nrrd and
+/// fractions.nrrd in `folder`. Returns facts of it: side, volume_ml, density, ptosis, lesions.
+nlohmann::json segment_drawn(const SyntheticBreast& drawn, const std::filesystem::path& folder);
+
 /// Makes what the breast's folder lacks. Segmentation and mesh are kept where `about.json` says
 /// that they were made from the same; a new program alone does not make them again, `again` does.
 /// Drawn breasts are asked for their fraction of the free extent, patients' for 55 mm.

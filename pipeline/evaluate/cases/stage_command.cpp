@@ -36,10 +36,9 @@ double seconds_of(const timeval& time) { return time.tv_sec + 1e-6 * time.tv_use
 
 }  // namespace
 
-StageEnd run_stage_command(const std::string& stage, const std::vector<std::string>& arguments,
-                           const fs::path& log, int most_cpu_seconds) {
-  std::vector<std::string> words{
-      (fs::read_symlink("/proc/self/exe").parent_path() / ("mammotwin-" + stage)).string()};
+StageEnd run_program(const fs::path& program, const std::vector<std::string>& arguments,
+                     const fs::path& log, int most_cpu_seconds) {
+  std::vector<std::string> words{program.string()};
   words.insert(words.end(), arguments.begin(), arguments.end());
   const std::vector<char*> argv = pointers_to(words);
   const int output = open(log.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
@@ -56,6 +55,12 @@ StageEnd run_stage_command(const std::string& stage, const std::vector<std::stri
   end.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   end.cpu_seconds = seconds_of(usage.ru_utime) + seconds_of(usage.ru_stime);
   return end;
+}
+
+StageEnd run_stage_command(const std::string& stage, const std::vector<std::string>& arguments,
+                           const fs::path& log, int most_cpu_seconds) {
+  const fs::path beside = fs::read_symlink("/proc/self/exe").parent_path();
+  return run_program(beside / ("mammotwin-" + stage), arguments, log, most_cpu_seconds);
 }
 
 json stage_sidecar(const fs::path& product) {

@@ -15,9 +15,13 @@ struct StageEnd {
   double cpu_seconds = 0;  ///< all its threads, user and system
 };
 
-/// Runs a command of this build, `mammotwin-<stage>` beside the running program, in a process of
-/// its own; what it says goes to the file `log`. It is ended after `most_cpu_seconds`. Throws
-/// std::runtime_error where no process can be made.
+/// Runs a program in a process of its own; what it says goes to the file `log`. It is ended after
+/// `most_cpu_seconds`. Throws std::runtime_error where no process can be made.
+StageEnd run_program(const std::filesystem::path& program,
+                     const std::vector<std::string>& arguments, const std::filesystem::path& log,
+                     int most_cpu_seconds);
+
+/// The same for a command of this build, `mammotwin-<stage>` beside the running program.
 StageEnd run_stage_command(const std::string& stage, const std::vector<std::string>& arguments,
                            const std::filesystem::path& log, int most_cpu_seconds);
 

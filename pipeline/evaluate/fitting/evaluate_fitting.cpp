@@ -1,4 +1,5 @@
-// evaluate-fitting: fits every breast of a folder of cases, unattended -> one table.
+// evaluate-fitting: fits every breast of a folder of cases, and drawn ones, unattended -> one
+// table.
 
 #include <sstream>
 
@@ -14,7 +15,8 @@ using nlohmann::json;
 
 struct Arguments {
   fs::path cases, table;
-  std::string only;
+  std::vector<std::string> only;
+  int synthetic = 20;
   FitRun fit;
 };
 
@@ -24,12 +26,37 @@ void declare(CommandLine& command, Arguments& args) {
       .existing_folder();
   command
       .option("table", args.table,
-              "fitting.json to write; each breast's files go to the folder fitting beside it")
+              "fitting.json to write; each breast's files go to the folder fitting (the table's "
+              "name) beside it")
       .required();
-  command.option("--only", args.only, "breasts whose name-side contains this (text)");
+  command.option("--synthetic", args.synthetic, "drawn breasts, fitted as they truly are")
+      .between(0, 10000)
+      .with_default();
+  command.option("--only", args.only, "breasts whose name-side contains one of these (texts)");
   command.flag("!--keep", args.fit.again, "do not fit again what is up to date (its times stay)");
   command.option("--fit", args.fit.options,
                  "options of mammotwin-fit (such as --fit=--accuracy-mm --fit=0.3)");
+  command
+      .option("--other-fit", args.fit.other_program,
+              "mammotwin-fit of another build, to compare with")
+      .existing_file();
+}
+
+std::string folder_name(const BreastToFit& breast) {
+  return breast.name + "-" + name_of(breast.side);
+}
+
+std::vector<BreastToFit> breasts_asked(const Arguments& args) {
+  std::vector<BreastToFit> all;
+  for (const RealBreast& breast : real_breasts(args.cases)) all.push_back(to_fit(breast));
+  if (all.empty())
+    throw std::runtime_error(args.cases.string() +
+                             ": no label_maps/*_labels.nii.gz and no mimbcd_* in it");
+  for (int n = 0; n < args.synthetic; ++n) all.push_back(to_fit(draw_breast(n)));
+  std::erase_if(
+      all, [&](const BreastToFit& breast) { return !is_asked(folder_name(breast), args.only); });
+  if (all.empty()) throw std::runtime_error("--only: no breast's name contains that");
+  return all;
 }
 
 std::string line_of(const json& row) {
@@ -48,17 +75,13 @@ std::string line_of(const json& row) {
 
 int run(const Arguments& args) {
   EvaluationTable table(args.table);
-  std::size_t breasts = 0;
-  for (const RealBreast& breast : real_breasts(args.cases)) {
-    const std::string name = name_and_side(breast);
-    if (name.find(args.only) == std::string::npos) continue;
-    json row = fitting_row(breast, table.folder() / "fitting" / name, args.fit);
+  const fs::path folder = table.folder() / args.table.stem();
+  const std::vector<BreastToFit> breasts = breasts_asked(args);
+  for (std::size_t n = 0; n < breasts.size(); ++n) {
+    json row = fitting_row(breasts[n], folder / folder_name(breasts[n]), args.fit);
     const std::string line = line_of(row);
-    table.add(breasts++, std::move(row), line);
+    table.add(n, std::move(row), line);
   }
-  if (breasts == 0)
-    throw std::runtime_error(args.cases.string() +
-                             ": no label_maps/*_labels.nii.gz and no mimbcd_* in it");
   return 0;
 }
 
@@ -69,5 +92,6 @@ int main(int argc, char** argv) {
   using namespace mammotwin;
   return run_plain_command<Arguments>(
       argc, argv, "evaluate-fitting",
-      "Fits every breast of a folder of cases and writes the figures of each", declare, run);
+      "Fits every breast of a folder of cases, and drawn ones, and writes the figures of each",
+      declare, run);
 }

@@ -1,11 +1,11 @@
 #include "pipeline/evaluate/fitting/fitting_row.h"
 
-#include <fstream>
 #include <map>
 
 #include "fitting/mesh/mesh_file.h"
 #include "fitting/tissue/cell_tissue.h"
 #include "fitting/tissue/tissue_volumes.h"
+#include "pipeline/evaluate/cases/breast_inputs.h"
 #include "pipeline/evaluate/cases/stage_command.h"
 #include "pipeline/frame/products.h"
 #include "segmentation/files/segmentation_file.h"
@@ -21,19 +21,16 @@ json relative_error(double found, double expected) {
   return found / expected - 1;
 }
 
-/// Runs a stage; throws std::runtime_error with its first reason where it left no product.
-json sidecar_of(const std::string& stage, const std::vector<std::string>& arguments,
-                const fs::path& product, double& cpu_seconds) {
-  const fs::path log = product.parent_path() / (stage + ".log");
-  const StageEnd end = run_stage_command(stage, arguments, log, kMostStageCpuSeconds);
-  cpu_seconds = end.cpu_seconds;
-  std::ifstream in(product.string() + ".json");
-  const json sidecar = in ? json::parse(in) : json::object();
+/// The sidecar of a command that wrote `product`; throws std::runtime_error with its first reason
+/// where it left none.
+json sidecar_of(const fs::path& product, const StageEnd& end) {
+  const json sidecar = stage_sidecar(product);
   if (end.exit_code == 0) return sidecar;
-  const json reasons = sidecar.value("reasons", json::array());
-  throw std::runtime_error(stage + ": " +
-                           (reasons.empty() ? "ended with code " + std::to_string(end.exit_code)
-                                            : reasons.front().get<std::string>()));
+  const json reasons = sidecar.is_object() ? sidecar.value("reasons", json::array()) : json();
+  throw std::runtime_error(product.filename().string() + ": " +
+                           (reasons.empty()
+                                ? "the command ended with code " + std::to_string(end.exit_code)
+                                : reasons.front().get<std::string>()));
 }
 
 /// Volume [ml] of every lesion label: of the voxels, and at the Gauss points, each of which counts
@@ -99,30 +96,45 @@ json tissue_errors(const fs::path& folder) {
       {"lesions", lesions.errors()}};
 }
 
-json fit(const RealBreast& breast, const fs::path& folder, const FitRun& run) {
+json fit(const BreastToFit& breast, const fs::path& folder, const FitRun& run) {
   fs::create_directories(folder);
-  write_text_atomically(folder / "patient.toml", breast.patient_toml);
+  breast.segment(folder);
   const auto file = [&](const char* name) { return (folder / name).string(); };
-  double cpu_seconds = 0;
-  sidecar_of("segment", {file("segmentation.seg.nrrd"), "--patient", file("patient.toml")},
-             folder / "segmentation.seg.nrrd", cpu_seconds);
   std::vector<std::string> arguments = {file("segmentation.seg.nrrd"), file("fractions.nrrd"),
                                         file("prone.vtu")};
   arguments.insert(arguments.end(), run.options.begin(), run.options.end());
   if (run.again) arguments.push_back("--force");
-  const json sidecar = sidecar_of("fit", arguments, folder / "prone.vtu", cpu_seconds);
+  const StageEnd end =
+      run.other_program.empty()
+          ? run_stage_command("fit", arguments, folder / "fit.log", kMostStageCpuSeconds)
+          : run_program(run.other_program, arguments, folder / "fit.log", kMostStageCpuSeconds);
+  const json sidecar = sidecar_of(folder / "prone.vtu", end);
   json row = sidecar.at("quality");
   for (const char* key : {"status", "reasons", "seconds", "peak_memory_mb"})
     row[key] = sidecar.at(key);
-  row["cpu_seconds"] = run.again ? json(cpu_seconds) : json();
+  row["cpu_seconds"] = run.again ? json(end.cpu_seconds) : json();
   row.update(tissue_errors(folder));
   return row;
 }
 
 }  // namespace
 
-json fitting_row(const RealBreast& breast, const fs::path& folder, const FitRun& run) {
+BreastToFit to_fit(const RealBreast& breast) {
+  return {
+      breast.name, "patient", breast.side, [breast](const fs::path& folder) {
+        write_text_atomically(folder / "patient.toml", breast.patient_toml);
+        run_to_product({"segment", {}, folder / "segmentation.seg.nrrd", folder / "patient.toml"});
+      }};
+}
+
+BreastToFit to_fit(const SyntheticBreast& breast) {
+  return {breast.name, "drawn", breast.patient.anatomy.side,
+          [breast](const fs::path& folder) { segment_drawn(breast, folder); }};
+}
+
+json fitting_row(const BreastToFit& breast, const fs::path& folder, const FitRun& run) {
   json row = {{"name", breast.name},
+              {"kind", breast.kind},
               {"side", breast.side == Side::left ? "left" : "right"},
               {"reason", nullptr}};
   try {
