@@ -1,6 +1,7 @@
 #include "pipeline/evaluate/compression/pressed_places.h"
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 #include <random>
 
 #include "pipeline/steps/breast_problem.h"
@@ -56,6 +57,18 @@ std::vector<double> moves(const std::vector<Eigen::Vector3d>& points, const Pres
     all.push_back((changed.of(counterpart(x)) - base.of(x)).norm());
   std::sort(all.begin(), all.end());
   return all;
+}
+
+void add_moves(const FollowedPoints& points, const PressedPlaces& base,
+               const PressedPlaces& changed, nlohmann::json& row) {
+  const auto add = [&](const std::vector<Eigen::Vector3d>& some, const std::string& what) {
+    if (some.empty()) return;
+    const auto sorted = moves(some, base, changed, [](Eigen::Vector3d x) { return x; });
+    row[what + "_median_mm"] = median_of_sorted(sorted);
+    row[what + "_max_mm"] = sorted.back();
+  };
+  add(points.lesions, "lesion");
+  add(points.tissue, "tissue");
 }
 
 double median_of_sorted(const std::vector<double>& values) {

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <filesystem>
 #include <functional>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -45,6 +46,11 @@ struct FollowedPoints {
 std::vector<double> moves(const std::vector<Eigen::Vector3d>& points, const PressedPlaces& base,
                           const PressedPlaces& changed,
                           const std::function<Eigen::Vector3d(Eigen::Vector3d)>& counterpart);
+
+/// `lesion_median_mm`, `lesion_max_mm` (where it has lesions), `tissue_median_mm` and
+/// `tissue_max_mm`: moves of the same prone places.
+void add_moves(const FollowedPoints& points, const PressedPlaces& base,
+               const PressedPlaces& changed, nlohmann::json& row);
 
 /// Of sorted values, at least one.
 double median_of_sorted(const std::vector<double>& values);

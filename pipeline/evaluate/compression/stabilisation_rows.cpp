@@ -32,7 +32,7 @@ std::vector<Stabilisation> stabilisations() {
 /// One breast under way: segmented and fitted, pressed by the default, then otherwise.
 class StabilisationRun {
  public:
-  explicit StabilisationRun(const StabilisedBreast& breast)
+  explicit StabilisationRun(const BreastToPress& breast)
       : breast_(breast),
         segmentation_(breast.folder / "segmentation.seg.nrrd"),
         prone_(breast.folder / "prone.vtu") {
@@ -89,24 +89,17 @@ class StabilisationRun {
     row["force_change"] = row.at("force_N").get<double>() / force - 1;
     const PressedPlaces before(base, view, segmentation_),
         after(pressed(view, s), view, segmentation_);
-    const auto compare = [&](const std::vector<Eigen::Vector3d>& points, const std::string& what) {
-      if (points.empty()) return;
-      const auto sorted = moves(points, before, after, [](Eigen::Vector3d x) { return x; });
-      row[what + "_median_mm"] = median_of_sorted(sorted);
-      row[what + "_max_mm"] = sorted.back();
-    };
-    compare(followed_->lesions, "lesion");
-    compare(followed_->tissue, "tissue");
+    add_moves(*followed_, before, after, row);
   }
 
-  const StabilisedBreast& breast_;
+  const BreastToPress& breast_;
   const fs::path segmentation_, prone_;
   std::optional<FollowedPoints> followed_;
 };
 
 }  // namespace
 
-void add_stabilisation_rows(const StabilisedBreast& breast,
+void add_stabilisation_rows(const BreastToPress& breast,
                             const std::function<void(const nlohmann::json&)>& add) {
   const StabilisationRun run(breast);
   for (const char* view : {"cc", "mlo"})

@@ -1,19 +1,11 @@
 #pragma once
 
-#include <filesystem>
 #include <functional>
 #include <nlohmann/json.hpp>
-#include <string>
-#include <vector>
+
+#include "pipeline/evaluate/cases/breasts_to_press.h"
 
 namespace mammotwin {
-
-/// A breast to press, with the file that says how.
-struct StabilisedBreast {
-  std::string name;
-  std::filesystem::path patient_toml;
-  std::filesystem::path folder;  ///< gets its files; one folder in it for each stabilisation
-};
 
 /// Presses the breast, from the shape in which it was imaged, in CC and MLO with the weights 0, 5
 /// and 10 of the grad-div term (SolidOptions::grad_div), the latter two with its quartic part and
@@ -22,7 +14,7 @@ struct StabilisedBreast {
 /// and 50 points relative to the nipple), all against the default; `min_J`, `max_J`,
 /// `J_within_half`, `newton_iterations`, `converged`. What found no equilibrium has a `reason` and
 /// nulls.
-void add_stabilisation_rows(const StabilisedBreast& breast,
+void add_stabilisation_rows(const BreastToPress& breast,
                             const std::function<void(const nlohmann::json&)>& add);
 
 }  // namespace mammotwin
