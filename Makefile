@@ -23,12 +23,13 @@ override SYNTHETIC := $(value SYNTHETIC)
 override CHANGES := $(value CHANGES)
 override VIEWS := $(value VIEWS)
 override SPOIL := $(value SPOIL)
-export P DATA RESULTS FORCE BIN SEED PATIENTS JOBS ONLY ENGINE CONFIG PREFIX CASES SYNTHETIC CHANGES VIEWS SPOIL
+override OTHERS := $(value OTHERS)
+export P DATA RESULTS FORCE BIN SEED PATIENTS JOBS ONLY ENGINE CONFIG PREFIX CASES SYNTHETIC CHANGES VIEWS SPOIL OTHERS
 unexport MAKEFLAGS MAKEOVERRIDES
 
 .PHONY: help patient segment fit unload compress register report slicer paraview synthesize cohort verify-results \
         evaluate-segmentation evaluate-fitting evaluate-compression evaluate-unload evaluate-gravity evaluate-registration \
-        evaluate-stability evaluate-stabilisation evaluate-outlines evaluate-mammograms evaluate-mammogram-changes evaluate-tomosynthesis evaluate-real-pairs evaluate-niftysim evaluate-victre measured validate bench chain programs configured \
+        evaluate-stability evaluate-stabilisation evaluate-other-meshes evaluate-outlines evaluate-mammograms evaluate-mammogram-changes evaluate-tomosynthesis evaluate-real-pairs evaluate-niftysim evaluate-victre measured validate bench chain programs configured \
         configured_to_test install docs test clean
 .NOTPARALLEL:  # ninja itself uses all cores
 .DEFAULT_GOAL := help
@@ -45,7 +46,10 @@ help:
 	@echo 'make verify-results P=042   are all files still those that were written?'
 	@echo 'make evaluate-segmentation  segments SYNTHETIC=20 synthetic patients, and MRI simulated from the'
 	@echo '                       label maps of CASES=folder: RESULTS/evaluation/segmentation.json; JOBS=2 at a time'
-	@echo 'make evaluate-fitting  fits every breast of CASES=folder: RESULTS/evaluation/fitting.json'
+	@echo 'make evaluate-fitting  fits every breast of CASES=folder, and SYNTHETIC=20 drawn ones:'
+	@echo '                       RESULTS/evaluation/fitting.json; ONLY="Exam_02-left Exam_04"'
+	@echo 'make evaluate-other-meshes OTHERS=folder   presses breasts with our meshes and with those of another'
+	@echo '                       program: RESULTS/evaluation/other_meshes.json; VIEWS=cc'
 	@echo 'make evaluate-gravity  lays every breast of CASES on its back: RESULTS/evaluation/gravity.json'
 	@echo 'make evaluate-unload   takes gravity off every breast of CASES: RESULTS/evaluation/unload.json'
 	@echo 'make evaluate-compression   compresses SYNTHETIC=200 drawn breasts and those of CASES=folder in'
@@ -67,7 +71,8 @@ help:
 	@echo 'make evaluate-outlines   outlines of what RESULTS holds compressed in CC against those of real patients:'
 	@echo '                       RESULTS/evaluation/outlines.json; PRESS=1 presses each to what is usual for its volume first'
 	@echo 'make validate          the gel cylinder against other codes: RESULTS/gel_cylinder/validation.json;'
-	@echo '                       the gel breast against its true skin: RESULTS/gel_breast/validation.json'
+	@echo '                       the gel breast against its true skin: RESULTS/gel_breast/validation.json;'
+	@echo '                       fits to known skins: RESULTS/evaluation/known_skins.json'
 	@echo 'make evaluate-niftysim   a breast that NiftySim compressed, node by node: RESULTS/evaluation/niftysim.json'
 	@echo 'make evaluate-victre   a phantom that FEBio compressed, its outline and tissue: RESULTS/evaluation/victre.json'
 	@echo 'make measured          the pages of docs/measured, from what evaluations wrote into RESULTS'
@@ -88,7 +93,7 @@ paraview: chain mammotwin-paraview
 synthesize: mammotwin-synthesize
 cohort: chain mammotwin-cohort
 verify-results: mammotwin-verify
-validate: mammotwin-validate mammotwin-validate-gel-breast
+validate: mammotwin-validate mammotwin-validate-gel-breast mammotwin-validate-known-skins
 patient segment fit unload compress register report slicer paraview synthesize:
 	@pipeline/run_patient.sh $@
 
@@ -100,7 +105,8 @@ evaluate-segmentation: mammotwin-evaluate-segmentation
 	  $${SYNTHETIC:+--synthetic "$$SYNTHETIC"} $${JOBS:+--jobs "$$JOBS"} $${ONLY:+--only "$$ONLY"}
 
 evaluate-fitting: mammotwin-evaluate-fitting
-	@"$$BIN/mammotwin-evaluate-fitting" "$$CASES" "$$RESULTS/evaluation/fitting.json"
+	@"$$BIN/mammotwin-evaluate-fitting" "$$CASES" "$$RESULTS/evaluation/fitting.json" \
+	  $${SYNTHETIC:+--synthetic "$$SYNTHETIC"} $${ONLY:+--only $$ONLY}
 
 evaluate-unload: mammotwin-evaluate-unload
 	@"$$BIN/mammotwin-evaluate-unload" "$$CASES" "$$RESULTS/evaluation/unload.json" --views
@@ -120,6 +126,10 @@ evaluate-stability: mammotwin-evaluate-stability
 evaluate-stabilisation: mammotwin-evaluate-stabilisation
 	@"$$BIN/mammotwin-evaluate-stabilisation" sample_data/042/patient.toml "$$CASES" \
 	  "$$RESULTS/evaluation/stabilisation.json" $${ONLY:+--only $$ONLY}
+
+evaluate-other-meshes: mammotwin-evaluate-other-meshes
+	@"$$BIN/mammotwin-evaluate-other-meshes" sample_data/042/patient.toml "$$CASES" "$$OTHERS" \
+	  "$$RESULTS/evaluation/other_meshes.json" $${VIEWS:+--views $$VIEWS}
 
 evaluate-registration: mammotwin-evaluate-registration
 	@"$$BIN/mammotwin-evaluate-registration" "$$RESULTS/evaluation/registration$${SPOIL:+_spoilt}.json" \
@@ -146,6 +156,7 @@ evaluate-outlines: mammotwin-evaluate-outlines
 validate:
 	@"$$BIN/mammotwin-validate" sample_data/gel_cylinder "$$RESULTS/gel_cylinder/validation.json"
 	@"$$BIN/mammotwin-validate-gel-breast" sample_data/gel_breast/scan.ply "$$RESULTS/gel_breast/validation.json"
+	@"$$BIN/mammotwin-validate-known-skins" sample_data/gel_breast/scan.ply "$$RESULTS/evaluation/known_skins.json"
 
 evaluate-niftysim: mammotwin-evaluate-niftysim
 	@"$$BIN/mammotwin-evaluate-niftysim" "$$CASES/breast_ct_compression" "$$RESULTS/evaluation/niftysim.json"
