@@ -137,6 +137,8 @@ Outcome run(const Arguments& args, const Patient& patient, StageRun& stage) {
     write_view_products(patient, inputs, view, stage.products, quality);
     done += (1 - kSearchShare) / views.size();
   }
+  if (patient.registration.dicom_export)
+    write_dicom_segmentation(patient, inputs.segmentation, stage.products);
   std::vector<LesionRow> rows =
       lesion_rows(patient.name(), inputs.segmentation.region.side, findings, views);
   add_extent(inputs.segmentation, rows);

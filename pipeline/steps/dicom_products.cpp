@@ -1,7 +1,9 @@
 #include "pipeline/steps/dicom_products.h"
 
-#include "registration/export/dicom_export.h"
+#include "registration/export/dicom/dicom_export.h"
 #include "registration/export/view_products.h"
+#include "registration/mammogram/mammogram_header.h"
+#include "segmentation/files/read_image.h"
 
 namespace mammotwin {
 namespace {
@@ -41,9 +43,20 @@ void write_dicom_products(const PredictedView& view, const DetectorImage& shown,
   };
   write_presentation_state(file("_gsps.dcm"), mammogram, projection.detector(), marks,
                            geometry.name);
-  write_measurement_report(file("_sr.dcm"), mammogram, marks, geometry.name);
+  write_measurement_report(file("_sr.dcm"), mammogram, projection.detector(), geometry.side, marks,
+                           geometry.name);
   write_simulated_view(file("_simulated.dcm"), mammogram, hung_pixels(shown, geometry.side),
                        shown.spacing_mm, orientation_of(geometry), geometry.name);
+}
+
+void write_dicom_segmentation(const Patient& patient, const Segmentation& segmentation,
+                              Products& products) {
+  if (patient.scan_file() || !has_lesion_voxels(segmentation)) return;
+  const SegmentInput input = patient.segment_input();
+  if (!input.mri) return;
+  const std::vector<std::filesystem::path> files = read_mri(*input.mri, input.series).files;
+  if (files.empty() || !is_dicom(files.front())) return;
+  write_lesion_segmentation(products.write("dicom/lesions_seg.dcm"), files, segmentation);
 }
 
 }  // namespace mammotwin

@@ -1,4 +1,4 @@
-#include "registration/export/dicom_export.h"
+#include "registration/export/dicom/dicom_export.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -94,12 +94,17 @@ TEST_F(DicomExport, PresentationStateDrawsTheEllipseOnItsImage) {
 TEST_F(DicomExport, ReportIsReadByDcmtk) {
   AnnotatedMark second = mark_;
   second.id = "L2";
-  write_measurement_report(out("sr.dcm"), mammogram(), {mark_, second}, "mlo");
+  write_measurement_report(out("sr.dcm"), mammogram(), detector_, Side::left, {mark_, second},
+                           "mlo");
   const std::string text = said_by("dsrdump +Pl " + out("sr.dcm").string());
   EXPECT_NE(text.find("exit 0"), std::string::npos) << text;
   EXPECT_NE(text.find("Imaging Measurement Report"), std::string::npos) << text;
   EXPECT_NE(text.find("L2, prone MRI LPS 61.000 20.000 35.000 mm"), std::string::npos) << text;
   EXPECT_NE(text.find("\"1.500\""), std::string::npos) << text;
+  EXPECT_NE(text.find("(7771000,SCT,\"Left\")"), std::string::npos) << text;
+  // Of (2, 0.5) mm and of the ellipse, as in the presentation state.
+  EXPECT_NE(text.find("=(POINT,20.5/25.5"), std::string::npos) << text;
+  EXPECT_NE(text.find("=(ELLIPSE,5.5/25.5,35.5/25.5"), std::string::npos) << text;
 }
 
 std::string text_in(const fs::path& path, const DcmTagKey& tag) {
@@ -138,10 +143,68 @@ TEST_F(DicomExport, SimulatedViewSaysThatItIsOne) {
                std::invalid_argument);
 }
 
+/// Two slices of an MRI, 4 x 3 pixels of 2 mm.
+std::vector<fs::path> write_slices(const fs::path& folder) {
+  std::vector<fs::path> files;
+  for (const char* name : {"1", "2"}) {
+    DcmFileFormat file;
+    DcmDataset& d = *file.getDataset();
+    const std::string place = std::string("10\\-20\\3") + name;
+    for (const auto& [tag, value] : std::initializer_list<std::pair<DcmTagKey, std::string>>{
+             {DCM_SOPClassUID, UID_MRImageStorage},
+             {DCM_SOPInstanceUID, std::string("1.2.9.1.") + name},
+             {DCM_SeriesInstanceUID, "1.2.9.1"},
+             {DCM_StudyInstanceUID, "1.2.9"},
+             {DCM_FrameOfReferenceUID, "1.2.9.7"},
+             {DCM_PatientName, "SECRET^NAME"},
+             {DCM_PatientID, "4711"},
+             {DCM_PatientBirthDate, "19700101"},
+             {DCM_PatientSex, "F"},
+             {DCM_StudyDate, "20200101"},
+             {DCM_StudyTime, "090000"},
+             {DCM_Modality, "MR"},
+             {DCM_ImagePositionPatient, place}})
+      d.putAndInsertString(tag, value.c_str());
+    files.push_back(folder / (std::string(name) + ".mr.dcm"));
+    EXPECT_TRUE(file.saveFile(files.back().c_str(), EXS_LittleEndianExplicit).good());
+  }
+  return files;
+}
+
+// Lesion L2 has one voxel, (1, 2) of the upper slice; L1 has none.
+TEST_F(DicomExport, LesionsAreASegmentationOfTheMri) {
+  Segmentation s;
+  s.labels = Volume<std::uint8_t>({4, 3, 2}, {2, 2, 1}, {10, -20, 31});
+  s.labels(1, 2, 1) = label::lesion + 1;
+  s.lesions = {{"L1", {0, 0, 0}, 0}, {"L2", {0, 0, 0}, 0.004}};
+  EXPECT_TRUE(has_lesion_voxels(s));
+  write_lesion_segmentation(out("seg.dcm"), write_slices(folder_), s);
+  const std::string said = said_by("dciodvfy " + out("seg.dcm").string());
+  EXPECT_EQ(said.find("Error"), std::string::npos) << said;
+  EXPECT_EQ(text_in(out("seg.dcm"), DCM_StudyInstanceUID), "1.2.9");
+  EXPECT_EQ(text_in(out("seg.dcm"), DCM_FrameOfReferenceUID), "1.2.9.7");
+  DcmFileFormat file;
+  ASSERT_TRUE(file.loadFile(out("seg.dcm").c_str()).good());
+  DcmItem& d = *file.getDataset();
+  OFString text;
+  EXPECT_TRUE(d.findAndGetOFString(DCM_NumberOfFrames, text).good() && text == "1");
+  DcmItem *segment = nullptr, *frame = nullptr, *plane = nullptr;
+  ASSERT_TRUE(d.findAndGetSequenceItem(DCM_SegmentSequence, segment).good());
+  EXPECT_TRUE(segment->findAndGetOFString(DCM_SegmentLabel, text).good() && text == "L2");
+  ASSERT_TRUE(d.findAndGetSequenceItem(DCM_PerFrameFunctionalGroupsSequence, frame).good());
+  ASSERT_TRUE(frame->findAndGetSequenceItem(DCM_PlanePositionSequence, plane).good());
+  plane->findAndGetOFStringArray(DCM_ImagePositionPatient, text);
+  EXPECT_EQ(text, "10.000\\-20.000\\32.000");
+  const Uint8* bits = nullptr;
+  ASSERT_TRUE(d.findAndGetUint8Array(DCM_PixelData, bits).good());
+  EXPECT_EQ(bits[0], 0);
+  EXPECT_EQ(bits[1], 1 << (1 + 2 * 4 - 8));  // pixel 9 of 12, a bit each, the first lowest
+}
+
 // dciodvfy (dicom3tools) knows what each kind of object must hold.
 TEST_F(DicomExport, ObjectsAreWholeForAnArchive) {
   write_presentation_state(out("pr.dcm"), mammogram(), detector_, {mark_}, "mlo");
-  write_measurement_report(out("sr.dcm"), mammogram(), {mark_}, "mlo");
+  write_measurement_report(out("sr.dcm"), mammogram(), detector_, Side::left, {mark_}, "mlo");
   write_simulated_view(out("sc.dcm"), mammogram(), plain_picture(), 0.5, "A\\F", "mlo");
   ASSERT_NE(said_by("dciodvfy " + mammogram().string()).find("Error"), std::string::npos)
       << "it finds what our plain mammogram lacks";
@@ -156,9 +219,9 @@ TEST_F(DicomExport, ObjectsAreWholeForAnArchive) {
 TEST_F(DicomExport, CarriesTheTimeOfItsOwnMaking) {
   setenv("SOURCE_DATE_EPOCH", "1577934672", 1);
   for (const char* name : {"a.dcm", "b.dcm"})
-    write_measurement_report(out(name), mammogram(), {mark_}, "mlo");
+    write_measurement_report(out(name), mammogram(), detector_, Side::left, {mark_}, "mlo");
   setenv("SOURCE_DATE_EPOCH", "1577934673", 1);
-  write_measurement_report(out("c.dcm"), mammogram(), {mark_}, "mlo");
+  write_measurement_report(out("c.dcm"), mammogram(), detector_, Side::left, {mark_}, "mlo");
   unsetenv("SOURCE_DATE_EPOCH");
   EXPECT_EQ(text_in(out("a.dcm"), DCM_InstanceCreationDate), "20200102");
   EXPECT_EQ(text_in(out("a.dcm"), DCM_InstanceCreationTime), "031112");
