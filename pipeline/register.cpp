@@ -142,7 +142,9 @@ Outcome run(const Arguments& args, const Patient& patient, StageRun& stage) {
   std::vector<LesionRow> rows =
       lesion_rows(patient.name(), inputs.segmentation.region.side, findings, views);
   add_extent(inputs.segmentation, rows);
+  add_supine(findings, registered.views.front(), rows);
   write_lesion_table(stage.products.write_main(), rows);
+  write_lesion_dictionary(stage.products.write("lesions.csv.md"));
   if (!args.landmarks.empty())
     std::cout << landmark_errors(args.landmarks, registered.views[0], registered.views[1]);
   return outcome_of(inputs, registered, views, std::move(quality));

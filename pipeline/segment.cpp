@@ -62,6 +62,12 @@ Outcome run_scan(const std::filesystem::path& file, const Patient& patient, Stag
   return {Status::ok, {}, json};
 }
 
+void write_for_others(const Segmentation& segmentation, const Volume<float>& image,
+                      Products& products) {
+  write_nifti_labels(products.write("labels.nii.gz"), segmentation.labels);
+  if (!image.values.empty()) write_nifti_image(products.write("mri.nii.gz"), image);
+}
+
 Outcome run(const Arguments&, const Patient& patient, StageRun& stage) {
   if (const auto scan = patient.scan_file()) return run_scan(*scan, patient, stage);
   const SegmentResult result = segment(patient.segment_input(), patient.segment, stage.progress);
@@ -69,6 +75,7 @@ Outcome run(const Arguments&, const Patient& patient, StageRun& stage) {
   write_segmentation(stage.products.write_main(), result.segmentation);
   write_fractions(stage.products.write("fractions.nrrd"), result.segmentation.fractions);
   if (!result.image.values.empty()) write_image(stage.products.write("mri.nrrd"), result.image);
+  if (patient.nifti) write_for_others(result.segmentation, result.image, stage.products);
   return {status_of(result.quality.status), result.quality.reasons, to_json(result.quality)};
 }
 

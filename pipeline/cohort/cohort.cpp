@@ -1,11 +1,12 @@
-// mammotwin-cohort: results of many patients -> cohort.tsv, failed.tsv, cohort_times.tsv,
-// cohort.html.
+// mammotwin-cohort: results of many patients -> cohort.tsv, lesions.tsv, failed.tsv,
+// cohort_times.tsv, cohort.html.
 
 #include <fstream>
 #include <iostream>
 #include <optional>
 #include <set>
 
+#include "pipeline/cohort/lesions.h"
 #include "pipeline/cohort/page.h"
 #include "pipeline/cohort/patient_summary.h"
 #include "pipeline/cohort/tables.h"
@@ -67,6 +68,14 @@ int run(Arguments args) {
   const std::vector<PatientSummary> cohort = summarize(args);
   const Table failed = failed_table(cohort, args.again);
   write_text_atomically(args.results / "cohort.tsv", cohort_table(cohort).text());
+  std::vector<std::string> left_out;
+  write_text_atomically(args.results / "lesions.tsv",
+                        lesions_table(args.results, cohort, left_out).text());
+  for (const std::string& patient : left_out)
+    std::cerr
+        << "cohort: " << patient
+        << ": not in lesions.tsv, for the columns of its lesions.csv are others; run register "
+           "of it again\n";
   write_text_atomically(args.results / "cohort_times.tsv", times_table(cohort).text());
   write_text_atomically(args.results / "failed.tsv", failed.text());
   write_text_atomically(args.results / "cohort.html", cohort_page(cohort, args.again));
@@ -85,7 +94,7 @@ int main(int argc, char** argv) {
   using namespace mammotwin;
   return run_plain_command<Arguments>(
       argc, argv, "cohort",
-      "gathers the results of many patients into cohort.tsv, failed.tsv, cohort_times.tsv and "
-      "cohort.html. Exit code 1 if a patient failed.",
+      "gathers the results of many patients into cohort.tsv, lesions.tsv, failed.tsv, "
+      "cohort_times.tsv and cohort.html. Exit code 1 if a patient failed.",
       declare, run);
 }

@@ -15,6 +15,7 @@ std::string cell(std::string value) {
 }
 
 std::string line_of(const std::vector<std::string>& values) {
+  if (values.empty()) return "";
   std::string line;
   for (const std::string& value : values) line.append(cell(value)).push_back('\t');
   line.back() = '\n';

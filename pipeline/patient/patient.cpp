@@ -116,6 +116,7 @@ void Patient::declare_segment(Settings& s) {
            "a lesion reaches at most this far from its point");
   s.number("segment.wall_stiffness", segment.wall_stiffness, {0.01, 1, "per mm^2"},
            "stiffness of the chest wall's search");
+  s.flag("segment.nifti", nifti, "writes labels.nii.gz and mri.nii.gz, too");
 }
 
 void Patient::declare_fit(Settings& s) {

@@ -55,6 +55,7 @@ class Patient : public SettingsFile {
   ScannedSkinOptions scan_options() const;
 
   SegmentOptions segment;
+  bool nifti = false;  ///< `segment` writes labels and image as NIfTI, too
   FitOptions fit;
   CompressionSettings compression;
   GravitySettings gravity;

@@ -2,7 +2,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include "pipeline/steps/breast_problem.h"
 #include "registration/carry/point_carrier.h"
+#include "registration/carry/supine_place.h"
 #include "registration/export/markups.h"
 #include "registration/export/view_products.h"
 #include "segmentation/files/segmentation_file.h"
@@ -56,6 +58,26 @@ std::vector<LesionRow> lesion_rows(const std::string& patient, Side side, const 
       if (!view.ellipses.empty()) set_ellipse(view.ellipses[i], rows.back());
     }
   return rows;
+}
+
+void add_supine(const Findings& findings, const RegisteredView& view,
+                std::vector<LesionRow>& rows) {
+  const auto supine = view.states.find("supine");
+  if (supine == view.states.end()) return;
+  const MeshFile prone = prone_file(view.file);
+  for (LesionRow& row : rows)
+    for (const Landmark& lesion : findings.lesions) {
+      if (row.view != "mri" || row.lesion != lesion.id) continue;
+      const auto place = supine_place(prone, supine->second, view.projection.view().side,
+                                      lesion.prone_in_lps, findings.nipple.prone_in_lps);
+      if (!place) continue;
+      row.supine_skin_l_mm = place->skin_in_lps.x();
+      row.supine_skin_p_mm = place->skin_in_lps.y();
+      row.supine_skin_s_mm = place->skin_in_lps.z();
+      row.supine_depth_mm = place->depth_mm;
+      row.supine_from_nipple_mm = place->from_nipple_mm;
+      row.supine_clock = place->clock;
+    }
 }
 
 void write_states(const Findings& findings, const RegisteredView& view, Products& products) {

@@ -20,6 +20,10 @@ struct PredictedView {
 std::vector<LesionRow> lesion_rows(const std::string& patient, Side side, const Findings& findings,
                                    const std::vector<PredictedView>& views);
 
+/// Where each lesion is with the patient on her back, in its row of the MRI: where `unload` found
+/// that state.
+void add_supine(const Findings& findings, const RegisteredView& view, std::vector<LesionRow>& rows);
+
 /// lesions_prone.mrk.json, and lesions_<state>.mrk.json for the breast in each other state that the
 /// view's file holds ("unloaded", "standing", "supine"), for biopsy and radiotherapy.
 void write_states(const Findings& findings, const RegisteredView& view, Products& products);

@@ -18,42 +18,66 @@ using Number = std::optional<double> LesionRow::*;
 struct Column {
   const char* name;
   std::variant<Text, Number> field;
+  const char* meaning;
 };
 
-#define MAMMOTWIN_COLUMN(name) \
-  Column { #name, &LesionRow::name }
+#define MAMMOTWIN_COLUMN(name, meaning) \
+  Column { #name, &LesionRow::name, meaning }
 const std::array kLesionColumns = {
-    MAMMOTWIN_COLUMN(patient),
-    MAMMOTWIN_COLUMN(lesion),
-    MAMMOTWIN_COLUMN(view),
-    MAMMOTWIN_COLUMN(side),
-    MAMMOTWIN_COLUMN(volume_ml),
-    MAMMOTWIN_COLUMN(mri_l_mm),
-    MAMMOTWIN_COLUMN(mri_p_mm),
-    MAMMOTWIN_COLUMN(mri_s_mm),
-    MAMMOTWIN_COLUMN(depth_mm),
-    MAMMOTWIN_COLUMN(lateral_mm),
-    MAMMOTWIN_COLUMN(height_mm),
-    MAMMOTWIN_COLUMN(detector_u_mm),
-    MAMMOTWIN_COLUMN(detector_v_mm),
-    MAMMOTWIN_COLUMN(pixel_column),
-    MAMMOTWIN_COLUMN(pixel_row),
-    MAMMOTWIN_COLUMN(slice),
-    MAMMOTWIN_COLUMN(ellipse_major_mm),
-    MAMMOTWIN_COLUMN(ellipse_minor_mm),
-    MAMMOTWIN_COLUMN(ellipse_angle_deg),
-    MAMMOTWIN_COLUMN(picture_ellipse_major_mm),
-    MAMMOTWIN_COLUMN(picture_ellipse_minor_mm),
-    MAMMOTWIN_COLUMN(picture_ellipse_angle_deg),
-    MAMMOTWIN_COLUMN(baseline_u_mm),
-    MAMMOTWIN_COLUMN(baseline_v_mm),
-    MAMMOTWIN_COLUMN(behind_nipple_mm),
-    MAMMOTWIN_COLUMN(lateral_of_nipple_mm),
-    MAMMOTWIN_COLUMN(above_nipple_mm),
-    MAMMOTWIN_COLUMN(nipple_distance_mm),
-    MAMMOTWIN_COLUMN(quadrant),
-    MAMMOTWIN_COLUMN(clock),
-    MAMMOTWIN_COLUMN(third),
+    MAMMOTWIN_COLUMN(patient, "name of the patient's folder, as text (042 is not 42)"),
+    MAMMOTWIN_COLUMN(lesion, "name of the lesion, as text"),
+    MAMMOTWIN_COLUMN(view, "`mri`: the prone MRI; `cc`, `mlo`: on that detector"),
+    MAMMOTWIN_COLUMN(side, "`left` or `right`, the patient's"),
+    MAMMOTWIN_COLUMN(volume_ml, "of the lesion in the MRI"),
+    MAMMOTWIN_COLUMN(mri_l_mm, "lesion in the prone MRI, towards the patient's left"),
+    MAMMOTWIN_COLUMN(mri_p_mm, "the same towards posterior"),
+    MAMMOTWIN_COLUMN(mri_s_mm, "the same towards superior"),
+    MAMMOTWIN_COLUMN(depth_mm, "in the view's frame, from the plates' edge towards the nipple"),
+    MAMMOTWIN_COLUMN(lateral_mm,
+                     "the same along the edge, towards lateral (CC) or superior-lateral (MLO)"),
+    MAMMOTWIN_COLUMN(height_mm, "the same from the support towards the tube"),
+    MAMMOTWIN_COLUMN(detector_u_mm, "on the detector, from its chest-wall edge"),
+    MAMMOTWIN_COLUMN(
+        detector_v_mm,
+        "the same from the edge's middle, towards lateral (CC) or superior-lateral (MLO)"),
+    MAMMOTWIN_COLUMN(pixel_column, "in the mammogram, from 0, where its spacing is known"),
+    MAMMOTWIN_COLUMN(pixel_row, "the same"),
+    MAMMOTWIN_COLUMN(slice, "of a tomosynthesis volume, from 1"),
+    MAMMOTWIN_COLUMN(ellipse_major_mm,
+                     "semi-axis of the ellipse that holds the lesion with 90 % probability if the "
+                     "model is right"),
+    MAMMOTWIN_COLUMN(ellipse_minor_mm, "the other semi-axis"),
+    MAMMOTWIN_COLUMN(ellipse_angle_deg, "of the major axis, from u towards v"),
+    MAMMOTWIN_COLUMN(picture_ellipse_major_mm,
+                     "the same ellipse in the model's own picture, without a mammogram: turn and "
+                     "shifts on the detector left out"),
+    MAMMOTWIN_COLUMN(picture_ellipse_minor_mm, "the other semi-axis"),
+    MAMMOTWIN_COLUMN(picture_ellipse_angle_deg, "of the major axis, from u towards v"),
+    MAMMOTWIN_COLUMN(baseline_u_mm, "on the detector by the map without physics"),
+    MAMMOTWIN_COLUMN(baseline_v_mm, "the same"),
+    MAMMOTWIN_COLUMN(behind_nipple_mm, "`mri`: towards posterior; views: on the detector"),
+    MAMMOTWIN_COLUMN(
+        lateral_of_nipple_mm,
+        "`mri`: along the patient's axis; views within 15 degrees of CC: on the detector"),
+    MAMMOTWIN_COLUMN(above_nipple_mm,
+                     "`mri`: along the patient's axis; other views: on the detector"),
+    MAMMOTWIN_COLUMN(nipple_distance_mm, "`mri`: in space; views: on the detector"),
+    MAMMOTWIN_COLUMN(
+        quadrant, "in the MRI about the nipple: `upper outer`, ..., `central` within 10 mm of it"),
+    MAMMOTWIN_COLUMN(
+        clock,
+        "in the MRI about the nipple, facing the patient: 3 is her left; empty where central"),
+    MAMMOTWIN_COLUMN(third,
+                     "of the breast's depth, from the nipple straight back to the muscle: "
+                     "`anterior`, `middle`, `posterior`"),
+    MAMMOTWIN_COLUMN(supine_skin_l_mm,
+                     "`mri` rows: the skin straight above the lesion, the patient on her back, "
+                     "towards her left, in the MRI's frame; not calibrated"),
+    MAMMOTWIN_COLUMN(supine_skin_p_mm, "the same towards posterior"),
+    MAMMOTWIN_COLUMN(supine_skin_s_mm, "the same towards superior"),
+    MAMMOTWIN_COLUMN(supine_depth_mm, "of the lesion below that point"),
+    MAMMOTWIN_COLUMN(supine_from_nipple_mm, "of that point, straight"),
+    MAMMOTWIN_COLUMN(supine_clock, "of that point about the nipple, facing the patient"),
 };
 #undef MAMMOTWIN_COLUMN
 
@@ -67,6 +91,15 @@ std::string formatted(std::optional<double> value) {
 std::string cell(const LesionRow& row, const Column& column) {
   if (const Text* text = std::get_if<Text>(&column.field)) return csv::quoted(row.*(*text));
   return formatted(row.*std::get<Number>(column.field));
+}
+
+/// As the column's name says it.
+std::string unit_of(const Column& column) {
+  if (std::holds_alternative<Text>(column.field)) return "text";
+  const std::string name = column.name;
+  if (name.starts_with("pixel_")) return "pixel";
+  const std::size_t unit = name.rfind('_');
+  return unit == std::string::npos ? "-" : name.substr(unit + 1);
 }
 
 LesionRow parse_row(const std::vector<std::string>& cells, const std::string& where) {
@@ -107,6 +140,17 @@ void write_lesion_table(const std::filesystem::path& path, const std::vector<Les
       out << (&column == kLesionColumns.data() ? "" : ",") << cell(row, column);
     out << '\n';
   }
+  out.close();
+  if (!out) throw std::runtime_error(path.string() + ": cannot be written; is the disk full?");
+}
+
+void write_lesion_dictionary(const std::filesystem::path& path) {
+  std::ofstream out(path);
+  out << "# The columns of lesions.csv\n\nA lesion has one row for the prone MRI and one for each "
+         "view. "
+         "What is not known is empty.\n\n| column | unit | meaning |\n|---|---|---|\n";
+  for (const Column& column : kLesionColumns)
+    out << "| `" << column.name << "` | " << unit_of(column) << " | " << column.meaning << " |\n";
   out.close();
   if (!out) throw std::runtime_error(path.string() + ": cannot be written; is the disk full?");
 }

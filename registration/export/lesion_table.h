@@ -24,6 +24,9 @@ struct LesionRow {
   std::optional<double> baseline_u_mm, baseline_v_mm;
   std::optional<double> behind_nipple_mm, lateral_of_nipple_mm, above_nipple_mm, nipple_distance_mm;
   std::string quadrant, clock, third;
+  std::optional<double> supine_skin_l_mm, supine_skin_p_mm, supine_skin_s_mm;
+  std::optional<double> supine_depth_mm, supine_from_nipple_mm;
+  std::string supine_clock;
 };
 
 /// In the MRI: nipple distances along the patient's axes, quadrant and hour.
@@ -41,6 +44,9 @@ void add_extent(const Segmentation& segmentation, std::vector<LesionRow>& rows);
 
 /// RFC 4180 with a header line; lengths to 0.001.
 void write_lesion_table(const std::filesystem::path& path, const std::vector<LesionRow>& rows);
+
+/// The table's columns with units and meanings, in Markdown.
+void write_lesion_dictionary(const std::filesystem::path& path);
 
 /// Throws std::runtime_error naming the file, line and column that cannot be read.
 std::vector<LesionRow> read_lesion_table(const std::filesystem::path& path);

@@ -198,6 +198,14 @@ void write_image(const std::filesystem::path& path, const Volume<float>& image) 
   write_nrrd(path, grid_of(image), image.values.data(), 1, {});
 }
 
+void write_nifti_labels(const std::filesystem::path& path, const Volume<std::uint8_t>& labels) {
+  write_nifti(path, grid_of(labels), labels.values.data());
+}
+
+void write_nifti_image(const std::filesystem::path& path, const Volume<float>& image) {
+  write_nifti(path, grid_of(image), image.values.data());
+}
+
 Segmentation read_segmentation(const std::filesystem::path& labels,
                                const std::filesystem::path& fractions) {
   Segmentation s;

@@ -17,6 +17,10 @@ void write_fractions(const std::filesystem::path& path, const Volume<Fractions>&
 /// Writes a scalar NRRD.
 void write_image(const std::filesystem::path& path, const Volume<float>& image);
 
+/// For tools that read NIfTI (.nii.gz): voxels only, without names or landmarks.
+void write_nifti_labels(const std::filesystem::path& path, const Volume<std::uint8_t>& labels);
+void write_nifti_image(const std::filesystem::path& path, const Volume<float>& image);
+
 /// Reads what the two functions above wrote, edited or not. Where the header has lost its
 /// `mammotwin_*` keys, region, nipple and lesions are found anew from the labels, and the side is
 /// the one with labels. Throws std::runtime_error if the two files do not share one grid.

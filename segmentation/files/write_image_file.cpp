@@ -1,6 +1,7 @@
 #include "segmentation/files/write_image_file.h"
 
 #include <itkMetaDataObject.h>
+#include <itkNiftiImageIO.h>
 #include <itkNrrdImageIO.h>
 
 #include <stdexcept>
@@ -8,10 +9,10 @@
 namespace mammotwin {
 namespace {
 
-template <class T>
+template <class ImageIO, class T>
 void write(const std::filesystem::path& path, const FileGrid& grid, const T* values, int components,
            const std::map<std::string, std::string>& keys) {
-  const itk::NrrdImageIO::Pointer io = itk::NrrdImageIO::New();
+  const typename ImageIO::Pointer io = ImageIO::New();
   io->SetFileName(path.string());
   io->SetNumberOfDimensions(3);
   itk::ImageIORegion region(3);
@@ -44,12 +45,21 @@ void write(const std::filesystem::path& path, const FileGrid& grid, const T* val
 
 void write_nrrd(const std::filesystem::path& path, const FileGrid& grid, const float* values,
                 int components, const std::map<std::string, std::string>& keys) {
-  write(path, grid, values, components, keys);
+  write<itk::NrrdImageIO>(path, grid, values, components, keys);
 }
 
 void write_nrrd(const std::filesystem::path& path, const FileGrid& grid, const std::uint8_t* values,
                 int components, const std::map<std::string, std::string>& keys) {
-  write(path, grid, values, components, keys);
+  write<itk::NrrdImageIO>(path, grid, values, components, keys);
+}
+
+void write_nifti(const std::filesystem::path& path, const FileGrid& grid, const float* values) {
+  write<itk::NiftiImageIO>(path, grid, values, 1, {});
+}
+
+void write_nifti(const std::filesystem::path& path, const FileGrid& grid,
+                 const std::uint8_t* values) {
+  write<itk::NiftiImageIO>(path, grid, values, 1, {});
 }
 
 }  // namespace mammotwin

@@ -23,4 +23,9 @@ void write_nrrd(const std::filesystem::path& path, const FileGrid& grid, const f
 void write_nrrd(const std::filesystem::path& path, const FileGrid& grid, const std::uint8_t* values,
                 int components, const std::map<std::string, std::string>& keys);
 
+/// The same as compressed NIfTI (.nii.gz), whose coordinates are RAS as its standard has it.
+void write_nifti(const std::filesystem::path& path, const FileGrid& grid, const float* values);
+void write_nifti(const std::filesystem::path& path, const FileGrid& grid,
+                 const std::uint8_t* values);
+
 }  // namespace mammotwin

@@ -79,7 +79,27 @@ TEST(LesionTable, HasTheColumnsThatOthersRead) {
       "detector_u_mm,detector_v_mm,pixel_column,pixel_row,slice,ellipse_major_mm,"
       "ellipse_minor_mm,ellipse_angle_deg,picture_ellipse_major_mm,picture_ellipse_minor_mm,"
       "picture_ellipse_angle_deg,baseline_u_mm,baseline_v_mm,behind_nipple_mm,"
-      "lateral_of_nipple_mm,above_nipple_mm,nipple_distance_mm,quadrant,clock,third\n");
+      "lateral_of_nipple_mm,above_nipple_mm,nipple_distance_mm,quadrant,clock,third,"
+      "supine_skin_l_mm,supine_skin_p_mm,supine_skin_s_mm,supine_depth_mm,supine_from_nipple_mm,"
+      "supine_clock\n");
+}
+
+TEST(LesionTable, HasADictionaryOfEveryColumn) {
+  const auto table = scratch_file("all.csv"), dictionary = scratch_file("all.md");
+  write_lesion_table(table, {});
+  write_lesion_dictionary(dictionary);
+  const std::string text = text_of(dictionary);
+  std::istringstream columns(text_of(table));
+  int count = 0;
+  for (std::string column; std::getline(columns >> std::ws, column, ',');) {
+    while (!column.empty() && column.back() == '\n') column.pop_back();
+    EXPECT_NE(text.find("| `" + column + "` | "), std::string::npos) << column;
+    ++count;
+  }
+  EXPECT_EQ(count, 37);
+  EXPECT_NE(text.find("| `pixel_row` | pixel |"), std::string::npos);
+  EXPECT_NE(text.find("| `ellipse_angle_deg` | deg |"), std::string::npos);
+  EXPECT_NE(text.find("| `clock` | text |"), std::string::npos);
 }
 
 TEST(LesionTable, ComesBackAsItWasWritten) {
@@ -102,7 +122,7 @@ TEST(LesionTable, ComesBackAsItWasWritten) {
 TEST(LesionTable, NamesTheCellThatCannotBeRead) {
   const auto path = scratch_file("bad.csv");
   write_lesion_table(path, {});
-  std::ofstream(path, std::ios::app) << "042,1,cc,left,,twelve" << std::string(25, ',') << "\n";
+  std::ofstream(path, std::ios::app) << "042,1,cc,left,,twelve" << std::string(31, ',') << "\n";
   try {
     read_lesion_table(path);
     FAIL();

@@ -72,6 +72,19 @@ TEST(SegmentationFile, TwoRunsWriteTheSameBytes) {
   EXPECT_EQ(bytes("a.seg.nrrd"), bytes("b.seg.nrrd"));
 }
 
+// Read back as LPS, as every image is here; NIfTI's own coordinates are RAS and single precision.
+TEST(SegmentationFile, NiftiHoldsTheSameVoxelsInTheSamePlace) {
+  Volume<float> image({3, 4, 5}, {1.2, 0.9, 2}, {10, -20, 30.5});
+  for (std::size_t v = 0; v < image.values.size(); ++v) image.values[v] = 0.5f * v;
+  const auto path = std::filesystem::path(testing::TempDir()) / "place.nii.gz";
+  write_nifti_image(path, image);
+  const Volume<float> read = read_image_file(path);
+  EXPECT_EQ(read.values, image.values);
+  EXPECT_EQ(read.size, image.size);
+  EXPECT_LT((read.origin - image.origin).norm(), 1e-5);
+  EXPECT_LT((read.spacing - image.spacing).norm(), 1e-5);
+}
+
 TEST(SegmentationFile, GridsMustAgree) {
   const ScratchFolder folder("grids");
   Segmentation s = small_segmentation();
