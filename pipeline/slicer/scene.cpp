@@ -13,17 +13,39 @@ namespace {
 constexpr int kSamples = 8;  // squares a side of an element's face
 constexpr const char* kError = "skin_distance_mm";
 
+/// "unloaded" -> "free of stress", "cc" -> "compressed in CC".
+std::string in_words(const std::string& state) {
+  if (state == "unloaded") return "free of stress";
+  if (state == "cc" || state == "mlo") return "compressed in " + title_of_view(state);
+  return state;
+}
+
+/// "ellipse_cc_1.mrk.json" -> "Lesion 1 in CC".
+std::string ellipse_name(const std::string& file) {
+  const std::string stem = file.substr(0, file.find('.'));
+  const std::size_t view = stem.find('_') + 1, lesion = stem.find('_', view) + 1;
+  return "Lesion " + stem.substr(lesion) + " in " +
+         title_of_view(stem.substr(view, lesion - view - 1));
+}
+
 class Scene {
  public:
   Scene(const PatientResults& results, const FileWriter& write)
       : results_(results), write_(write) {}
 
   std::string text() {
+    nodes_.begin_folder("Images and tissue");
     add_images();
+    nodes_.begin_folder("Breast, surfaces");
     if (results_.prone) add_surfaces();
-    for (const char* state : {"prone", "unloaded", "cc", "mlo"}) add_lesions(state);
+    nodes_.begin_folder("Lesions and nipple");
+    for (const char* state : {"prone", "unloaded", "standing", "supine", "cc", "mlo"})
+      add_lesions(state);
+    nodes_.begin_folder("Search ellipses, in the prone MRI");
     add_ellipses();
+    nodes_.begin_folder("Transforms of the MRI");
     for (const char* view : {"cc", "mlo"}) add_transform(view);
+    nodes_.show_orientation();
     return nodes_.text();
   }
 
@@ -49,7 +71,8 @@ class Scene {
                    const PointNumbers& numbers = {}) {
     const std::string file = "scene_" + state + ".vtp";
     write_surface(write_(file), triangulate(mesh, outer_faces(*results_.prone), kSamples), numbers);
-    nodes_.add_model("Breast " + state, file, palette::skin, state == "prone", numbers.name);
+    nodes_.add_model("Breast, " + in_words(state), file, palette::skin, state == "prone",
+                     numbers.name);
   }
 
   void add_surfaces() {
@@ -64,14 +87,15 @@ class Scene {
 
   void add_lesions(const std::string& state) {
     const std::string file = "lesions_" + state + ".mrk.json";
-    if (has(file)) nodes_.add_markups("Lesions " + state, file, palette::lesion, state == "prone");
+    if (has(file))
+      nodes_.add_markups("Lesions, " + in_words(state), file, palette::lesion, state == "prone");
   }
 
   /// What a view's search ellipses are in the prone MRI.
   void add_ellipses() {
     for (const std::string& file : results_.files)
       if (file.starts_with("ellipse_") && file.ends_with(".mrk.json"))
-        nodes_.add_closed_curve(file.substr(0, file.find('.')), file, palette::lesion, true);
+        nodes_.add_closed_curve(ellipse_name(file), file, palette::lesion, true);
   }
 
   /// The field on the compressed grid that says where its tissue was prone: what Slicer, as ITK,

@@ -26,6 +26,10 @@ class SceneNodes {
                         bool shown);
   /// A displacement field as the transform that Slicer applies to what lives on the field's target.
   void add_transform(const std::string& name, const std::string& file);
+  /// What is added from here on lies in that folder of the data tree (subject hierarchy).
+  void begin_folder(const std::string& name) { folders_.push_back({name, {}}); }
+  /// A figure of a person in the 3-D view's corner that says which way one looks.
+  void show_orientation();
   /// Behind the three slice views.
   void show_in_slices(const std::string& volume);
 
@@ -39,7 +43,14 @@ class SceneNodes {
                        Attributes storage_attributes, const std::string& display,
                        Attributes display_attributes, const std::string& references = "");
 
+  std::string hierarchy() const;
+
+  struct Folder {
+    std::string name;
+    std::vector<std::pair<std::string, std::string>> items;  ///< node, plug-in that shows it
+  };
   std::vector<std::string> lines_;
+  std::vector<Folder> folders_;
   std::map<std::string, int> count_;
 };
 

@@ -53,22 +53,33 @@ std::string SceneNode::reference(const std::string& role) const {
 std::vector<std::string> SceneNode::references() const {
   std::vector<std::string> ids;
   for (const auto& [role, id] : roles(attribute("references"))) ids.push_back(id);
+  if (!attribute("dataNode").empty()) ids.push_back(attribute("dataNode"));
   if (!attribute("backgroundVolumeID").empty()) ids.push_back(attribute("backgroundVolumeID"));
   return ids;
 }
+
+namespace {
+
+/// Elements in the order of the file, items of the data tree after what they lie in.
+void append_below(vtkXMLDataElement& parent, std::vector<SceneNode>& nodes) {
+  for (int n = 0; n < parent.GetNumberOfNestedElements(); ++n) {
+    vtkXMLDataElement* element = parent.GetNestedElement(n);
+    SceneNode node{element->GetName(), {}};
+    for (int a = 0; a < element->GetNumberOfAttributes(); ++a)
+      node.attributes[element->GetAttributeName(a)] = element->GetAttributeValue(a);
+    nodes.push_back(node);
+    append_below(*element, nodes);
+  }
+}
+
+}  // namespace
 
 std::vector<SceneNode> read_scene(const std::filesystem::path& path) {
   vtkSmartPointer<vtkXMLDataElement> root;
   root.TakeReference(vtkXMLUtilities::ReadElementFromFile(path.c_str()));
   if (!root || std::string(root->GetName()) != "MRML") throw std::runtime_error("no MRML scene");
   std::vector<SceneNode> nodes;
-  for (int n = 0; n < root->GetNumberOfNestedElements(); ++n) {
-    vtkXMLDataElement* element = root->GetNestedElement(n);
-    SceneNode node{element->GetName(), {}};
-    for (int a = 0; a < element->GetNumberOfAttributes(); ++a)
-      node.attributes[element->GetAttributeName(a)] = element->GetAttributeValue(a);
-    nodes.push_back(node);
-  }
+  append_below(*root, nodes);
   return nodes;
 }
 

@@ -20,7 +20,7 @@ struct SceneNode {
   std::vector<std::string> references() const;           ///< all ids in it
 };
 
-/// Throws std::runtime_error where the file is no XML.
+/// The items of the data tree among them. Throws std::runtime_error where the file is no XML.
 std::vector<SceneNode> read_scene(const std::filesystem::path& path);
 SceneNode node_with_id(const std::vector<SceneNode>& nodes, const std::string& id);
 

@@ -67,10 +67,32 @@ TEST_F(SlicerScene, RefersOnlyToNodesAndFilesThatAreThere) {
                        1);  // MRI, segmentation, four surfaces, lesions, ellipse, transform
 }
 
+TEST_F(SlicerScene, SortsItsItemsIntoFoldersWithReadableNames) {
+  std::map<std::string, std::string> folder_names;  // by item
+  std::map<std::string, std::string> folder_of;     // by node
+  for (const SceneNode& node : nodes_) {
+    if (node.tag != "SubjectHierarchyItem") continue;
+    if (node.attribute("dataNode").empty())
+      folder_names[node.attribute("id")] = node.attribute("name");
+    else
+      folder_of[node.attribute("dataNode")] = folder_names[node.attribute("parent")];
+  }
+  const auto folder = [&](const std::string& name) {
+    for (const SceneNode& node : nodes_)
+      if (node.attribute("name") == name) return folder_of[node.attribute("id")];
+    return "no " + name;
+  };
+  EXPECT_EQ(folder("Tissue"), "Images and tissue");
+  EXPECT_EQ(folder("Breast, free of stress"), "Breast, surfaces");
+  EXPECT_EQ(folder("Lesions, prone"), "Lesions and nipple");
+  EXPECT_EQ(folder("Lesion 1 in CC"), "Search ellipses, in the prone MRI");
+  EXPECT_EQ(folder("Prone to CC"), "Transforms of the MRI");
+}
+
 TEST_F(SlicerScene, LaysSurfacesWhereTheMeshIs) {
   for (const auto& [name, mesh] :
-       {std::pair<std::string, const HermiteMesh*>{"Breast prone", &results_.prone->mesh},
-        {"Breast cc", &results_.view("cc")->file.mesh}}) {
+       {std::pair<std::string, const HermiteMesh*>{"Breast, prone", &results_.prone->mesh},
+        {"Breast, compressed in CC", &results_.view("cc")->file.mesh}}) {
     const ReadSurface surface = read_surface_with_vtk(file_of(name));
     EXPECT_EQ(surface.space, "LPS");
     // 6 x 6 columns of 2 layers: 2 * 36 + 4 * 6 * 2 faces of 8 x 8 squares of two triangles.
@@ -81,7 +103,7 @@ TEST_F(SlicerScene, LaysSurfacesWhereTheMeshIs) {
       nearest = std::min(nearest, (vector_of(x) - corner).norm());
     EXPECT_LT(nearest, 1e-4) << name;  // single precision
   }
-  EXPECT_EQ(read_surface_with_vtk(file_of("Breast prone")).numbers, "skin_distance_mm");
+  EXPECT_EQ(read_surface_with_vtk(file_of("Breast, prone")).numbers, "skin_distance_mm");
 }
 
 // ITK's transform takes a compressed point to where its tissue was prone. The field's voxels are
