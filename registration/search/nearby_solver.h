@@ -35,6 +35,8 @@ class NearbySolver {
 
   const SolvedView& base() const { return base_; }  ///< as given
 
+  CompressionProblem problem_at(const ViewState& state) const { return problem_at_(state); }
+
   /// The base with the softer contact; empty where that finds no equilibrium.
   const std::optional<SolvedView>& soft_base() const { return soft_base_; }
 

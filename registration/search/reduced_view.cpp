@@ -3,9 +3,9 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
-#include <array>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <utility>
 
 namespace mammotwin {
@@ -76,6 +76,13 @@ void ReducedView::rebase(const ViewState& z, const Nodes& solved_in_view) {
 }
 
 ReducedView reduce_view(const NearbySolver& solver, const ViewState& sd) {
+  std::vector<int> all(kMechanical);
+  std::iota(all.begin(), all.end(), 0);
+  return reduce_view(solver, sd, all);
+}
+
+ReducedView reduce_view(const NearbySolver& solver, const ViewState& sd,
+                        const std::vector<int>& numbers) {
   ReducedView reduced = unvaried_view(solver, sd);
   if (!solver.soft_base()) return reduced;
   const auto sample_at = [&](const ViewState& state, double sign) {
@@ -83,9 +90,9 @@ ReducedView reduce_view(const NearbySolver& solver, const ViewState& sd) {
     if (walk.share == 0) return Sample{};
     return Sample{sign * walk.share, in_view(walk.end.result.deformed, walk.end.view.frame)};
   };
-  std::array<Sample, 2 * kMechanical> found;
-  tbb::parallel_for(0, 2 * kMechanical, [&](int task) {
-    const int i = task / 2;
+  std::vector<Sample> found(2 * numbers.size());
+  tbb::parallel_for(std::size_t{0}, found.size(), [&](std::size_t task) {
+    const int i = numbers[task / 2];
     const double sign = task % 2 ? -1 : 1;
     // Isolated: else a thread that waits inside one solve would begin another on top of it.
     tbb::this_task_arena::isolate(
@@ -93,9 +100,10 @@ ReducedView reduce_view(const NearbySolver& solver, const ViewState& sd) {
   });
   const Nodes zero = in_view(solver.soft_base()->result.deformed, solver.soft_base()->view.frame);
   reduced.failed_solves = 0;
-  for (int i = 0; i < kMechanical; ++i) {
-    reduced.modes[i] = mode_of(zero, found[2 * i], found[2 * i + 1]);
-    reduced.failed_solves += (found[2 * i].share == 0) + (found[2 * i + 1].share == 0);
+  for (std::size_t n = 0; n < numbers.size(); ++n) {
+    const Sample &up = found[2 * n], &down = found[2 * n + 1];
+    reduced.modes[numbers[n]] = mode_of(zero, up, down);
+    reduced.failed_solves += (up.share == 0) + (down.share == 0);
   }
   return reduced;
 }

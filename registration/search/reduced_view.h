@@ -39,6 +39,10 @@ struct ReducedView {
 /// From two solves a number.
 ReducedView reduce_view(const NearbySolver& solver, const ViewState& sd);
 
+/// The same of these numbers alone; the others have no effect.
+ReducedView reduce_view(const NearbySolver& solver, const ViewState& sd,
+                        const std::vector<int>& numbers);
+
 /// Without a solve, a from `slopes` and b = 0: enough to say how sure a place is. A search needs
 /// more: slopes change within a fraction of a standard deviation, as points touch and let go.
 ReducedView linear_view(const NearbySolver& solver, const ViewState& sd);
