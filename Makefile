@@ -29,7 +29,7 @@ unexport MAKEFLAGS MAKEOVERRIDES
 
 .PHONY: help patient segment fit unload compress register report slicer paraview synthesize cohort verify-results \
         evaluate-segmentation evaluate-fitting evaluate-compression evaluate-unload evaluate-gravity evaluate-registration \
-        evaluate-stability evaluate-stabilisation evaluate-other-meshes evaluate-outlines evaluate-mammograms evaluate-mammogram-changes evaluate-tomosynthesis evaluate-real-pairs evaluate-niftysim evaluate-victre measured validate bench chain programs configured \
+        evaluate-stability evaluate-stabilisation evaluate-other-meshes evaluate-what-if evaluate-outlines evaluate-mammograms evaluate-mammogram-changes evaluate-tomosynthesis evaluate-real-pairs evaluate-niftysim evaluate-victre measured validate bench chain programs configured \
         configured_to_test install docs test clean
 .NOTPARALLEL:  # ninja itself uses all cores
 .DEFAULT_GOAL := help
@@ -41,7 +41,7 @@ help:
 	@echo 'make slicer P=042      the chain, and a scene for 3D Slicer: RESULTS/042/scene.mrml'
 	@echo 'make paraview P=042    the chain, and each load step for ParaView: RESULTS/042/cc_course.pvd, mlo_course.pvd'
 	@echo 'make synthesize P=name SEED=1   a synthetic patient in DATA/name'
-	@echo 'make cohort            every patient of DATA (or PATIENTS="042 043"): cohort.tsv, failed.tsv,'
+	@echo 'make cohort            every patient of DATA (or PATIENTS="042 043"): cohort.tsv, lesions.tsv, failed.tsv,'
 	@echo '                       cohort.html; JOBS=4 at a time, ONLY=failed, ENGINE=slurm, CONFIG=file'
 	@echo 'make verify-results P=042   are all files still those that were written?'
 	@echo 'make evaluate-segmentation  segments SYNTHETIC=20 synthetic patients, and MRI simulated from the'
@@ -65,6 +65,7 @@ help:
 	@echo 'make evaluate-tomosynthesis   registers 042 with tomosynthesis of another model: RESULTS/evaluation/tomosynthesis.json'
 	@echo 'make evaluate-real-pairs CASES=folder   patients with lesions marked on mammograms (marks.csv):'
 	@echo '                       RESULTS/evaluation/real_pairs.json'
+	@echo 'make evaluate-what-if  what the sliders of the page say against full solves: RESULTS/evaluation/what_if.json'
 	@echo 'make evaluate-mammograms CASES=folder   reads mammograms whose landmarks somebody read (landmarks.csv):'
 	@echo '                       RESULTS/evaluation/mammograms.json and a contact sheet beside it'
 	@echo 'make evaluate-mammogram-changes CASES=folder   the same, mirrored, resampled, turned, ...: mammogram_changes.json'
@@ -140,6 +141,10 @@ evaluate-tomosynthesis: mammotwin-evaluate-tomosynthesis
 
 evaluate-real-pairs: mammotwin-evaluate-real-pairs
 	@"$$BIN/mammotwin-evaluate-real-pairs" "$$CASES" "$$RESULTS/evaluation/real_pairs.json"
+
+evaluate-what-if: mammotwin-evaluate-what-if
+	@"$$BIN/mammotwin-evaluate-what-if" sample_data/042/patient.toml "$$CASES" "$$RESULTS/evaluation/what_if.json" \
+	  $${ONLY:+--only $$ONLY}
 
 evaluate-mammograms: mammotwin-evaluate-mammograms
 	@"$$BIN/mammotwin-evaluate-mammograms" "$$(test -f "$$CASES/landmarks.csv" && echo "$$CASES" || echo "$$CASES/real_mammograms")" \
