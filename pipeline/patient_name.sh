@@ -9,7 +9,7 @@ is_plain_name() {
 
 is_kept_name() {
   case "$1" in
-    evaluation | gel_* | cohort.* | cohort_* | failed.tsv) return 0 ;;
+    evaluation | gel_* | cohort.* | cohort_* | failed.tsv | lesions.tsv) return 0 ;;
   esac
   return 1
 }

@@ -11,11 +11,13 @@ Targets:
   patient          MRI to lesion positions in CC and MLO, and a report
   segment          the same, up to and including that stage
   fit              likewise
+  unload           likewise
   compress         likewise
   register         likewise
   report           likewise
   slicer           the whole chain, and a scene for 3D Slicer
   paraview         the whole chain, and each load step as a series for ParaView
+  synthesize       a synthetic patient in DATA/P
   cohort           every patient of DATA: tables and a page
   verify-results   are all files of a patient still those that were written?
 
@@ -24,6 +26,7 @@ Settings:
   DATA=folder      of patient folders; default: the sample patients that come with the program
   RESULTS=folder   where results go; default: results
   FORCE=1          runs stages that are up to date, too
+  SEED=number      synthesize: another number, another patient
   PATIENTS=names   cohort: only these, separated by blanks
   JOBS=number      cohort: patients at a time; default: what cores and memory allow
   ONLY=failed      cohort: those of RESULTS/failed.tsv
@@ -52,13 +55,13 @@ target=${1:---help}
 [ $# -eq 0 ] || shift
 for word in "$@"; do
   case "$word" in
-    P=* | DATA=* | RESULTS=* | FORCE=* | PATIENTS=* | JOBS=* | ONLY=* | ENGINE=* | CONFIG=*) export "${word?}" ;;
+    P=* | DATA=* | RESULTS=* | FORCE=* | SEED=* | PATIENTS=* | JOBS=* | ONLY=* | ENGINE=* | CONFIG=*) export "${word?}" ;;
     *) bad_usage "$word is not a setting" ;;
   esac
 done
 
 case "$target" in
-  patient | segment | fit | unload | compress | register | report | slicer | paraview) exec "$scripts/run_patient.sh" "$target" ;;
+  patient | segment | fit | unload | compress | register | report | slicer | paraview | synthesize) exec "$scripts/run_patient.sh" "$target" ;;
   cohort) exec "$scripts/cohort/run_cohort.sh" ;;
   verify-results) exec "$scripts/cohort/verify_patient.sh" ;;
   help | -h | --help) usage ;;
