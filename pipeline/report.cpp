@@ -4,6 +4,7 @@
 
 #include "pipeline/frame/stage.h"
 #include "pipeline/patient/patient.h"
+#include "pipeline/steps/registered_record.h"
 #include "pipeline/steps/view_header.h"
 #include "registration/mammogram/mammogram_pixels.h"
 
@@ -97,9 +98,19 @@ void add_mammograms(const Patient& patient, PatientResults& results) {
   }
 }
 
+/// What `register` left beside a view's shape; of another file there is none.
+void add_uncertainties(PatientResults& results) {
+  for (ViewResult& view : results.views) try {
+      view.uncertainty = read_registered(view.file, view.view.name + "_registered.vtu").uncertainty;
+    } catch (const std::exception& error) {
+      results.notes.push_back("no sliders for " + view.view.name + ": " + error.what());
+    }
+}
+
 Outcome run(const Arguments& args, const Patient& patient, StageRun& stage) {
   stage.progress(0, "drawing");
   PatientResults results = read_patient_results(args.results);
+  add_uncertainties(results);
   add_mammograms(patient, results);
   write_report(results, stage.products.write_main(), MAMMOTWIN_VERSION);
   if (args.picture) write_report_picture(results, stage.products.write("picture.png"));

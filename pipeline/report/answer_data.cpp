@@ -42,6 +42,15 @@ std::string axes(double major, double minor) {
   return word::number(major, 0) + " × " + word::number(minor, 0) + " mm";
 }
 
+/// "skin at 8 o'clock, 52 mm from the nipple; the lesion 23 mm below it"; empty without a state.
+std::string supine_words(const LesionRow& row) {
+  if (!row.supine_depth_mm || !row.supine_from_nipple_mm) return "";
+  std::string words = "skin ";
+  if (!row.supine_clock.empty()) words += "at " + row.supine_clock + " o'clock, ";
+  return words + whole_mm(*row.supine_from_nipple_mm) + " from the nipple; the lesion " +
+         whole_mm(*row.supine_depth_mm) + " straight below it";
+}
+
 json view_entry(const LesionRow& row) {
   std::string search, full;
   if (row.picture_ellipse_major_mm) {
@@ -67,7 +76,10 @@ json answer_data(const PatientResults& results) {
     json views = json::array();
     for (const LesionRow& row : results.rows)
       if (row.lesion == mri.lesion && row.view != "mri") views.push_back(view_entry(row));
-    lesions.push_back({{"lesion", mri.lesion}, {"place", place_words(mri)}, {"views", views}});
+    lesions.push_back({{"lesion", mri.lesion},
+                       {"place", place_words(mri)},
+                       {"views", views},
+                       {"supine", supine_words(mri)}});
   }
   return lesions;
 }

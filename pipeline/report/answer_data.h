@@ -11,9 +11,15 @@ inline constexpr const char* kAccuracyWords =
     "Accuracy has been measured on synthetic patients only; published methods lie 5 to 13 mm from "
     "the truth on real ones.";
 
+/// What a supine place is worth, by docs/measured/gravity.md and women imaged in both poses
+/// (there).
+inline constexpr const char* kSupineWords =
+    "Not calibrated: from prone to supine the model's tissue moves nipples by 15 mm in the median, "
+    "women's move by 93 mm (56 to 172), so this may be off by several centimetres.";
+
 /// The page's first words: a list of lesions, each {"lesion", "place", "views": [{"view", "where",
-/// "search", "full"}]}, in a report's language. `full` is the ellipse on a mammogram that was not
-/// there to be searched, else empty. Empty without rows of lesions.csv.
+/// "search", "full"}], "supine"}, in a report's language. `full` is the ellipse on a mammogram that
+/// was not there to be searched, else empty. Empty without rows of lesions.csv.
 nlohmann::json answer_data(const PatientResults& results);
 
 }  // namespace mammotwin

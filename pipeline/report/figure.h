@@ -1,9 +1,10 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "pipeline/report/picture.h"
+#include "pipeline/report/section.h"
 
 namespace mammotwin {
 
@@ -19,6 +20,8 @@ struct Figure {
   std::string caption;
   std::string alt;
   std::vector<Layer> layers = {};  ///< from below
+  std::string native = {};  ///< JPEG of the same window in a mammogram's own pixels; or empty
+  std::optional<Section> section = {};  ///< of a detector's plane: how (u, v, 0) lies on it
 
   /// All in one.
   Picture whole() const {

@@ -4,11 +4,13 @@
 #include <cmath>
 #include <optional>
 
+#include "pipeline/report/jpeg.h"
 #include "pipeline/report/palette.h"
 
 namespace mammotwin {
 namespace {
 
+constexpr double kRange_mm = 0.5;  // between the pixels that black and white are found from
 constexpr double kDarkest = 0.02, kBrightest = 0.998;
 
 /// The pixel that a detector position falls on, or nothing.
@@ -23,6 +25,8 @@ std::optional<float> grey_at(const MammogramImage& image, const Detector& detect
 
 struct GreyRange {
   double low = 0, high = 1;
+
+  double share(double grey) const { return std::clamp((grey - low) / (high - low), 0.0, 1.0); }
 };
 
 GreyRange range_of(std::vector<float> greys) {
@@ -34,21 +38,43 @@ GreyRange range_of(std::vector<float> greys) {
   return {quantile(kDarkest), std::max(quantile(kBrightest), quantile(kDarkest) + 1e-6)};
 }
 
-}  // namespace
-
-Raster mammogram_raster(const MammogramImage& image, const Detector& detector,
-                        const Section& section, double pixel_mm) {
+GreyRange range_in(const MammogramImage& image, const Detector& detector, const Section& section,
+                   double pixel_mm) {
   std::vector<float> greys;
   section.sample(pixel_mm, [&](const Eigen::Vector3d& x) {
     if (const auto grey = grey_at(image, detector, x.head<2>())) greys.push_back(*grey);
     return Colour{};
   });
-  const GreyRange range = range_of(std::move(greys));
+  return range_of(std::move(greys));
+}
+
+}  // namespace
+
+Raster mammogram_raster(const MammogramImage& image, const Detector& detector,
+                        const Section& section, double pixel_mm) {
+  const GreyRange range = range_in(image, detector, section, pixel_mm);
   return section.sample(pixel_mm, [&](const Eigen::Vector3d& x) {
     const auto grey = grey_at(image, detector, x.head<2>());
     if (x.x() < 0 || !grey) return palette::grid;
-    const double g = std::clamp((*grey - range.low) / (range.high - range.low), 0.0, 1.0);
+    const double g = range.share(*grey);
     return Colour{g, g, g};
+  });
+}
+
+std::string native_mammogram(const MammogramImage& image, const Detector& detector,
+                             const Section& section) {
+  const GreyRange range = range_in(image, detector, section, kRange_mm);
+  const double pixel_mm = detector.pixels->spacing_mm;
+  const auto count = [&](double mm) { return std::max(1, static_cast<int>(mm / pixel_mm)); };
+  const int columns = count(section.width_mm()), rows = count(section.height_mm());
+  return grey_jpeg(columns, rows, [&](int row, std::uint8_t* values) {
+    for (int column = 0; column < columns; ++column) {
+      const Eigen::Vector3d x = section.in_space({(column + 0.5) * section.width_mm() / columns,
+                                                  (row + 0.5) * section.height_mm() / rows});
+      const auto grey = x.x() < 0 ? std::nullopt : grey_at(image, detector, x.head<2>());
+      values[column] = static_cast<std::uint8_t>(
+          std::lround(255 * (grey ? range.share(*grey) : palette::grid.red)));
+    }
   });
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include "pipeline/report/section.h"
 #include "registration/mammogram/mammogram_image.h"
 #include "registration/view/detector.h"
@@ -10,5 +12,9 @@ namespace mammotwin {
 /// 0.2 % brightest pixels there; light grey where there is no image.
 Raster mammogram_raster(const MammogramImage& image, const Detector& detector,
                         const Section& section, double pixel_mm);
+
+/// The same in the mammogram's own pixels, as JPEG.
+std::string native_mammogram(const MammogramImage& image, const Detector& detector,
+                             const Section& section);
 
 }  // namespace mammotwin

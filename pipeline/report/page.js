@@ -1,5 +1,13 @@
+const mammotwin = {};  // what the page's scripts share
 (function () {
   "use strict";
+  // Bytes that zlib packed, in base64.
+  mammotwin.inflate = async text => {
+    const bytes = Uint8Array.from(atob(text), c => c.charCodeAt(0));
+    const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"));
+    return new Uint8Array(await new Response(stream).arrayBuffer());
+  };
+
   // Opens before printing what a page on paper must show, and closes it again.
   const folded = () => document.querySelectorAll("details.on-paper");
   window.addEventListener("beforeprint", () => folded().forEach(d => { d.dataset.was = d.open; d.open = true; }));

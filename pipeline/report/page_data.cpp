@@ -5,6 +5,7 @@
 
 #include "pipeline/report/answer_data.h"
 #include "pipeline/report/base64.h"
+#include "pipeline/report/carry_data.h"
 #include "pipeline/report/figures/convergence_figure.h"
 #include "pipeline/report/figures/doubt_figure.h"
 #include "pipeline/report/figures/fit_course_figure.h"
@@ -20,7 +21,9 @@
 #include "pipeline/report/scene_data.h"
 #include "pipeline/report/verdict.h"
 #include "pipeline/report/view_figures.h"
+#include "pipeline/report/views_data.h"
 #include "pipeline/report/volume_data.h"
+#include "pipeline/report/what_if_data.h"
 #include "pipeline/report/word.h"
 
 namespace mammotwin {
@@ -42,6 +45,7 @@ json view_row_data(const std::vector<Figure>& figures) {
   json list = json::array();
   for (const Figure& figure : figures) {
     json data = figure_data(figure);
+    data["native"] = figure.native.empty() ? "" : data_uri("image/jpeg", figure.native);
     for (const Layer& layer : figure.layers)
       data["layers"].push_back(
           {{"name", layer.name},
@@ -84,17 +88,24 @@ void add_views(const PatientResults& results, json& page) {
   for (const BreastShape& shape : breast_shapes(results))
     page["renders"].push_back(figure_data(render_figure(results, shape)));
   std::vector<Figure> hung, simulated;  // own mammograms hang in front
+  std::vector<const ViewResult*> of_view;
   for (const ViewResult& view : results.views) {
     std::vector<Figure> figures = detector_figures(results, view);
     if (figures.size() > 1) {
       simulated.push_back(std::move(figures.back()));
       figures.pop_back();
     }
+    of_view.insert(of_view.end(), figures.size(), &view);
     std::move(figures.begin(), figures.end(), std::back_inserter(hung));
     for (const Landmark& lesion : results.lesions())
       page["cuts"].push_back(figure_data(compressed_figure(results, view, lesion)));
   }
+  const json views = views_data(results, hung, of_view);
   page["hung"].push_back(view_row_data(hung));
+  for (std::size_t v = 0; v < hung.size(); ++v)
+    page["hung"].back()["figures"][v]["view"] = views["views"][v]["name"];
+  page["views"] = views.dump();
+  page["carry"] = carry_data(results).dump();
   if (!simulated.empty()) page["simulated"].push_back(view_row_data(simulated));
   if (const auto figure = force_figure(results)) page["course"].push_back(figure_data(*figure));
   if (const auto figure = convergence_figure(results))
@@ -105,6 +116,8 @@ void add_views(const PatientResults& results, json& page) {
 void add_lesions(const PatientResults& results, json& page) {
   page["answer"] = answer_data(results);
   page["accuracy"] = kAccuracyWords;
+  page["supine_accuracy"] = kSupineWords;
+  page["what_if_accuracy"] = what_if_words();
   page["lesions"] = lesion_data(results.rows);
   page["has_rows"] = !results.rows.empty();
   page["has_ellipses"] =

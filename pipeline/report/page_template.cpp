@@ -12,6 +12,9 @@ MAMMOTWIN_EMBEDDED(page_html)
 MAMMOTWIN_EMBEDDED(page_css)
 MAMMOTWIN_EMBEDDED(page_js)
 MAMMOTWIN_EMBEDDED(planes_js)
+MAMMOTWIN_EMBEDDED(view_panes_js)
+MAMMOTWIN_EMBEDDED(carry_js)
+MAMMOTWIN_EMBEDDED(what_if_js)
 MAMMOTWIN_EMBEDDED(viewer_js)
 MAMMOTWIN_EMBEDDED(three_min_js)
 MAMMOTWIN_EMBEDDED(OrbitControls_js)
@@ -59,6 +62,13 @@ std::string render_page(const nlohmann::json& page) {
   if (page.contains("volume")) {
     data.set("volume", inside_script(page["volume"].get<std::string>()));
     data.set("planes_js", MAMMOTWIN_TEXT(planes_js));
+  }
+  if (page.contains("views")) {
+    data.set("views", inside_script(page["views"].get<std::string>()));
+    data.set("carry", inside_script(page["carry"].get<std::string>()));
+    data.set("view_panes_js", MAMMOTWIN_TEXT(view_panes_js));
+    data.set("carry_js", MAMMOTWIN_TEXT(carry_js));
+    data.set("what_if_js", MAMMOTWIN_TEXT(what_if_js));
   }
   if (page.contains("scene")) {
     data.set("scene", inside_script(page["scene"].get<std::string>()));

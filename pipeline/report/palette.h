@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstdio>
+#include <string>
+
 #include "pipeline/report/picture.h"
 #include "segmentation/files/label_colour.h"
 #include "segmentation/segmentation.h"
@@ -28,11 +31,20 @@ inline constexpr Colour nipple{0.000, 0.447, 0.698};      // blue
 inline constexpr Colour baseline{0.941, 0.894, 0.259};    // yellow
 inline constexpr Colour mesh = baseline;                  // on an MRI, where no baseline is drawn
 inline constexpr Colour third_line{0.800, 0.475, 0.655};  // in charts on paper
+inline constexpr Colour own_mark = third_line;            // what a reader marks on the page
 
 /// A mark on an image is edged light, and dark outside that: on any grey one of the two has a
 /// contrast of 3 to 1 at least (WCAG 2.2, 1.4.11).
 inline constexpr Colour light_edge = paper;
 inline constexpr Colour dark_edge{0, 0, 0};
+
+/// "#d55e00", as CSS has it.
+inline std::string css(const Colour& c) {
+  const auto byte = [](double share) { return static_cast<int>(share * 255 + 0.5); };
+  char text[8];
+  std::snprintf(text, sizeof text, "#%02x%02x%02x", byte(c.red), byte(c.green), byte(c.blue));
+  return text;
+}
 
 inline Colour with_alpha(Colour colour, double alpha) {
   colour.alpha *= alpha;

@@ -10,6 +10,7 @@
 #include "fitting/mesh/mesh_file.h"
 #include "registration/export/lesion_table.h"
 #include "registration/mammogram/mammogram_findings.h"
+#include "registration/search/search_ellipse.h"
 #include "segmentation/segmentation.h"
 
 namespace mammotwin {
@@ -24,6 +25,7 @@ struct ViewResult {
   MeshFile file;  ///< shows the compressed configuration
   CompressedView view;
   Detector detector;
+  std::optional<ViewUncertainty> uncertainty = {};  ///< where `register` left it
 };
 
 /// A view's real mammogram, on the detector that the view was registered with.

@@ -24,19 +24,12 @@
     clamp(Math.round((x - volume.origin[axis]) / volume.spacing[axis]), 0, volume.size[axis] - 1));
   const shown = (axis, index) => LETTERS[axis] + " " + position(axis, index).toFixed(1).replace("-", "−");
 
-  let grey = null, labels = null, cursor = voxel(volume.places.length ? volume.places[0].at
+  let grey = null, labels = null, curve = [], cursor = voxel(volume.places.length ? volume.places[0].at
     : volume.size.map((n, axis) => position(axis, n / 2)));
   const colours = new Map(volume.tissues.map(t => [t.value, t.colour]));
   const names = new Map(volume.tissues.map(t => [t.value, t.name]));
   const strength = document.getElementById("planes-labels");
   const status = document.getElementById("planes-status");
-
-  async function inflate(text) {
-    const packed = atob(text), bytes = new Uint8Array(packed.length);
-    for (let i = 0; i < packed.length; ++i) bytes[i] = packed.charCodeAt(i);
-    const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"));
-    return new Uint8Array(await new Response(stream).arrayBuffer());
-  }
 
   // The slice through the cursor, a pixel a voxel.
   function slice(plane) {
@@ -100,6 +93,31 @@
     }
   }
 
+  // The places of a mark on a view, each as a line where the slice passes it and faint elsewhere.
+  function drawCurve(plane, context) {
+    if (curve.length < 2) return;
+    const at = x => {
+      const index = x.map((value, axis) => (value - volume.origin[axis]) / volume.spacing[axis]);
+      return [across(plane, index[plane.right]), downwards(plane, index[plane.down])];
+    };
+    const near = x => Math.abs(x[plane.normal] - position(plane.normal, cursor[plane.normal])) <= NEAR_MM;
+    for (const [wanted, alpha] of [[false, 0.45], [true, 1]]) {
+      context.globalAlpha = alpha;
+      context.beginPath();
+      for (let n = 0; n + 1 < curve.length; ++n) {
+        if (near(curve[n]) !== wanted) continue;
+        context.moveTo(...at(curve[n]));
+        context.lineTo(...at(curve[n + 1]));
+      }
+      for (const [colour, width] of [["#000", 5], ["#fff", 3.5], [volume.curve, 2]]) {
+        context.strokeStyle = colour;
+        context.lineWidth = width * devicePixelRatio;
+        context.stroke();
+      }
+    }
+    context.globalAlpha = 1;
+  }
+
   function drawEnds(plane, context) {
     const w = plane.canvas.width, h = plane.canvas.height, r = devicePixelRatio;
     context.fillStyle = "#fff";
@@ -117,6 +135,7 @@
     context.drawImage(plane.memory, 0, 0, canvas.width, canvas.height);
     drawCross(plane, context);
     drawPlaces(plane, context);
+    drawCurve(plane, context);
     drawEnds(plane, context);
     plane.slider.value = cursor[plane.normal];
     plane.slider.setAttribute("aria-valuetext", shown(plane.normal, cursor[plane.normal]) + " mm");
@@ -130,9 +149,15 @@
       (names.get(value) || "air");
   }
 
+  // What a person chose is told to the views.
+  function tell() {
+    document.dispatchEvent(new CustomEvent("mammotwin-place", { detail: cursor.map((index, axis) => position(axis, index)) }));
+  }
+
   function move(axis, by) {
     cursor[axis] = clamp(cursor[axis] + by, 0, volume.size[axis] - 1);
     update();
+    tell();
   }
 
   function pointAt(plane, event) {
@@ -142,12 +167,21 @@
     const n = volume.size[plane.down], down = part((event.clientY - box.top) / box.height, n);
     cursor[plane.down] = plane.falls ? n - 1 - down : down;
     update();
+    tell();
   }
 
   function listen(plane) {
     const canvas = plane.canvas, down = plane.falls ? -1 : 1;
-    canvas.addEventListener("pointerdown", event => { canvas.setPointerCapture(event.pointerId); pointAt(plane, event); });
-    canvas.addEventListener("pointermove", event => { if (event.buttons & 1) pointAt(plane, event); });
+    // A finger that swipes scrolls the page; one that taps, or a mouse that drags, moves the cross.
+    canvas.addEventListener("pointerdown", event => {
+      if (event.pointerType === "touch") return;
+      canvas.setPointerCapture(event.pointerId);
+      pointAt(plane, event);
+    });
+    canvas.addEventListener("pointermove", event => {
+      if (event.pointerType !== "touch" && event.buttons & 1) pointAt(plane, event);
+    });
+    canvas.addEventListener("pointerup", event => { if (event.pointerType === "touch") pointAt(plane, event); });
     canvas.addEventListener("wheel", event => {
       if (document.activeElement !== canvas) return;  // the page scrolls until a plane is chosen
       event.preventDefault();
@@ -160,7 +194,7 @@
       event.preventDefault();
       move(keys[event.key][0], keys[event.key][1]);
     });
-    plane.slider.addEventListener("input", () => { cursor[plane.normal] = Number(plane.slider.value); update(); });
+    plane.slider.addEventListener("input", () => { cursor[plane.normal] = Number(plane.slider.value); update(); tell(); });
   }
 
   function build(plane) {
@@ -188,14 +222,14 @@
       const button = document.createElement("button");
       button.type = "button";
       button.textContent = place.name;
-      button.addEventListener("click", () => { cursor = voxel(place.at); update(); });
+      button.addEventListener("click", () => { cursor = voxel(place.at); update(); tell(); });
       document.getElementById("planes-places").append(button);
     }
   }
 
   async function start() {
-    labels = await inflate(volume.labels);
-    if (volume.grey) grey = await inflate(volume.grey);
+    labels = await mammotwin.inflate(volume.labels);
+    if (volume.grey) grey = await mammotwin.inflate(volume.grey);
     else strength.value = 95;
     addPlaces();
     PLANES.forEach(build);
@@ -203,6 +237,11 @@
     document.querySelectorAll("details.stills").forEach(d => { d.open = false; });
     strength.addEventListener("input", update);
     window.addEventListener("resize", update);
+    document.addEventListener("mammotwin-curve", event => {
+      curve = event.detail;
+      if (curve.length) cursor = voxel(curve[curve.length >> 1]);
+      update();
+    });
     update();
     root.dataset.ready = performance.now().toFixed(0);  // [ms] since the page was asked for
   }

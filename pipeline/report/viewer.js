@@ -66,6 +66,12 @@
   camera.up.set(0, 0, 1);
   const controls = new THREE.OrbitControls(camera, canvas);
   controls.enableKeys = false;
+  // One finger scrolls the page; two turn and zoom the breast.
+  controls.touches = { ONE: THREE.TOUCH.ROTATE, TWO: THREE.TOUCH.DOLLY_ROTATE };
+  for (const type of ["touchstart", "touchmove"])
+    canvas.parentElement.addEventListener(type, event => {
+      if (event.target === canvas && event.touches.length < 2) event.stopPropagation();
+    }, { capture: true });
   geometry.computeBoundingSphere();
   const centre = geometry.boundingSphere.center, radius = geometry.boundingSphere.radius;
   controls.target.copy(centre);

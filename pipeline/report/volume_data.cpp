@@ -1,12 +1,9 @@
 #include "pipeline/report/volume_data.h"
 
-#include <zlib.h>
-
 #include <cmath>
-#include <stdexcept>
 
-#include "pipeline/report/base64.h"
 #include "pipeline/report/breast_window.h"
+#include "pipeline/report/deflated.h"
 #include "pipeline/report/palette.h"
 
 namespace mammotwin {
@@ -15,11 +12,12 @@ namespace {
 using nlohmann::json;
 using Bytes = std::vector<std::uint8_t>;
 
-constexpr double kMostVoxels = 6e6;  // 8 bit of noise deflate to about 6/8: 6 MB as base64
+// 8 bit of noise deflate to about 6/8: 6 MB as base64. Mammograms in their own pixels take as much.
+constexpr double kMostVoxels = 6e6, kMostVoxelsBesideMammograms = 3e6;
 
 /// The label map's voxels in the box, thinned out until there are few enough.
-Volume<std::uint8_t> window_grid(const Volume<std::uint8_t>& labels,
-                                 const Eigen::AlignedBox3d& box) {
+Volume<std::uint8_t> window_grid(const Volume<std::uint8_t>& labels, const Eigen::AlignedBox3d& box,
+                                 double most_voxels) {
   const Eigen::Vector3i first = labels.index(box.min()).array().ceil().cast<int>().max(0);
   const Eigen::Vector3i last =
       labels.index(box.max()).cast<int>().cwiseMin(labels.size - Eigen::Vector3i::Ones());
@@ -28,7 +26,7 @@ Volume<std::uint8_t> window_grid(const Volume<std::uint8_t>& labels,
   const auto count = [&] {
     return ((size - Eigen::Vector3i::Ones()).cwiseQuotient(every) + Eigen::Vector3i::Ones()).eval();
   };
-  while (count().cast<double>().prod() > kMostVoxels) {
+  while (count().cast<double>().prod() > most_voxels) {
     int finest = 0;
     labels.spacing.cwiseProduct(every.cast<double>()).minCoeff(&finest);
     ++every[finest];
@@ -46,14 +44,6 @@ Bytes sampled(const Volume<std::uint8_t>& grid, Value value) {
     for (int j = 0; j < grid.size.y(); ++j)
       for (int i = 0; i < grid.size.x(); ++i) bytes.push_back(value(grid.position(i, j, k)));
   return bytes;
-}
-
-std::string deflated(const Bytes& bytes) {
-  uLongf size = compressBound(bytes.size());
-  Bytes packed(size);
-  if (compress2(packed.data(), &size, bytes.data(), bytes.size(), Z_DEFAULT_COMPRESSION) != Z_OK)
-    throw std::runtime_error("report: zlib could not pack the image");
-  return base64(packed.data(), size);
 }
 
 json list_of(const Eigen::Vector3d& x) { return {x.x(), x.y(), x.z()}; }
@@ -92,12 +82,14 @@ json place_list(const PatientResults& results) {
 json volume_data(const PatientResults& results) {
   const Volume<std::uint8_t>& labels = results.segmentation->labels;
   const Eigen::AlignedBox3d box = breast_box(results);
-  const Volume<std::uint8_t> grid = window_grid(labels, box);
+  const Volume<std::uint8_t> grid = window_grid(
+      labels, box, results.mammograms.empty() ? kMostVoxels : kMostVoxelsBesideMammograms);
   json data = {{"size", {grid.size.x(), grid.size.y(), grid.size.z()}},
                {"spacing", list_of(grid.spacing)},
                {"origin", list_of(grid.origin)},
                {"tissues", label_list(results.lesions())},
                {"mark", colour_of(label::lesion)},
+               {"curve", palette::css(palette::own_mark)},
                {"places", place_list(results)}};
   data["labels"] = deflated(
       sampled(grid, [&](const Eigen::Vector3d& x) { return nearest(labels, x, label::air); }));

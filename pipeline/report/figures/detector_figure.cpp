@@ -246,6 +246,7 @@ Figure drawn(const PatientResults& results, const DetectorView& view, const Rast
     figure.layers.push_back({name, layer([&](Panel& panel) { draw(panel, results, projection); })});
   figure.layers.push_back(
       {"labels", layer([&](Panel& panel) { draw_labels(panel, results, projection, view.name); })});
+  figure.section = section;
   return figure;
 }
 
@@ -270,6 +271,7 @@ Figure own_figure(const PatientResults& results, const DetectorView& seen,
             "The patient's own " + seen.name + which + " with the predicted places." + seen.hidden,
             "The patient's " + seen.name + " mammogram" + which + "." +
                 described(results, seen.projection) + seen.hidden);
+  if (real.slices.empty()) figure.native = native_mammogram(image, real.detector, seen.section);
   if (!real.findings) return figure;
   Picture picture(seen.section.width_mm() * kScale, seen.section.height_mm() * kScale);
   Panel panel(picture, seen.section, 0, 0, kScale);

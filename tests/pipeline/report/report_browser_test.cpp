@@ -4,6 +4,7 @@
 
 #include "pipeline/report/page_data.h"
 #include "pipeline/report/page_template.h"
+#include "registration/carry/ray_curve.h"
 #include "tests/pipeline/report/browser.h"
 #include "tests/pipeline/report/report_fake_results.h"
 #include "tests/pipeline/scratch_folder.h"
@@ -16,6 +17,31 @@ PatientResults with_ellipses(PatientResults results) {
     if (row.view != "mri")
       row.ellipse_major_mm = 16, row.ellipse_minor_mm = 11, row.ellipse_angle_deg = 20;
   return results;
+}
+
+constexpr double kFurther_mm = 2;  // along depth, by a standard deviation more of thickness
+
+/// Sensitivities to thickness, turn and shifts alone.
+PatientResults with_sensitivities(PatientResults results) {
+  for (ViewResult& view : results.views) {
+    view.uncertainty.emplace();
+    Nodes further = view.file.mesh.nodes();
+    for (HermiteMesh::Node& node : further)
+      node.col(0) += kFurther_mm * view.view.frame.axes.row(0).transpose();
+    view.uncertainty->varied[kThickness] = further;
+  }
+  return results;
+}
+
+Eigen::Vector2d pair_of(const nlohmann::json& x) {
+  return {x.at(0).get<double>(), x.at(1).get<double>()};
+}
+
+/// As JavaScript has a list.
+std::string list(const Eigen::VectorXd& x) {
+  std::string text;
+  for (const double number : x) text += (text.empty() ? "[" : ", ") + std::to_string(number);
+  return text + "]";
 }
 
 class ReportInABrowser : public ScratchFolder {
@@ -62,7 +88,7 @@ class ReportInABrowser : public ScratchFolder {
     EXPECT_EQ(browser_->evaluate(open), true);
   }
 
-  PatientResults results_ = with_ellipses(fake_results(Side::left));
+  PatientResults results_ = with_sensitivities(with_ellipses(fake_results(Side::left)));
   std::optional<Browser> browser_;
 };
 
@@ -115,6 +141,87 @@ TEST_F(ReportInABrowser, SwitchesMarksOff) {
   browser_->click("#marks input[value=ellipses]");
   EXPECT_EQ(browser_->evaluate(shown), "none");
   EXPECT_TRUE(browser_->has_accessible("checkbox", "Search ellipse (90 %)"));
+}
+
+// The sliders' script and the stages' own formula say the same; at a standard deviation (3 mm) the
+// lesion is 2 mm further from the edge, enlarged by the beam.
+TEST_F(ReportInABrowser, MovesLesionAndEllipseWithTheSliders) {
+  const ViewResult& cc = *results_.view("cc");
+  const ViewProjection projection(results_.prone->mesh, cc.file.mesh, cc.view, cc.detector);
+  const ProjectedLandmark lesion = projection.project(results_.lesions()[0]);
+  const auto at = [&](const char* what) {
+    return browser_->evaluate(std::string("mammotwin.whatIf('cc', 0).") + what);
+  };
+  EXPECT_LT((pair_of(at("uv")) - lesion.on_detector).norm(), 1e-3);  // single precision
+  const SearchEllipse ellipse = search_ellipse(
+      detector_covariance(*cc.uncertainty, cc.file.mesh, cc.view, cc.detector, lesion.point), 0.9);
+  EXPECT_NEAR(at("ellipse.major").get<double>(), ellipse.major_mm, 1e-3);
+  EXPECT_NEAR(at("ellipse.minor").get<double>(), ellipse.minor_mm, 1e-3);
+
+  browser_->evaluate("document.querySelector('#what-if input[name=thickness_mm]').focus()");
+  browser_->press("End");
+  const Eigen::Vector3d moved = lesion.in_view + Eigen::Vector3d(kFurther_mm, 0, 0);
+  EXPECT_LT((pair_of(at("uv")) - cc.detector.project(moved)).norm(), 1e-3);
+  EXPECT_TRUE(browser_->wait_until("document.querySelector('.view[data-view=cc].moved')"));
+  browser_->click("#what-if-back");
+  EXPECT_TRUE(browser_->wait_until("!document.querySelector('.view.moved')"));
+}
+
+// The page's grids of 4 mm against the mesh itself: an affine map, so that only 0.02 mm steps are
+// lost; at the skin, where nodes outside are carried on, no more.
+TEST_F(ReportInABrowser, CarriesMarksBetweenViewsAndMri) {
+  ASSERT_TRUE(browser_->wait_until("document.getElementById('carry').dataset.ready"));
+  const ViewResult& cc = *results_.view("cc");
+  const ViewProjection projection(results_.prone->mesh, cc.file.mesh, cc.view, cc.detector);
+  const ViewRays rays(results_.prone->mesh, cc.file.mesh, cc.view, cc.detector);
+  const Landmark lesion = results_.lesions()[0];
+  const Eigen::Vector2d uv = projection.project(lesion).on_detector;
+  const auto seen = browser_->evaluate("mammotwin.seen('cc', " + list(lesion.prone_in_lps) + ")");
+  EXPECT_LT((pair_of(seen) - uv).norm(), 0.3);
+  const auto curve = browser_->evaluate("mammotwin.curve('cc', " + list(uv) + ")");
+  const std::vector<RayPoint> truth = rays.curve(uv, 0.25);
+  ASSERT_GT(curve.size(), 20u);
+  EXPECT_NEAR(static_cast<double>(curve.size()), truth.size() / 4.0, 4);  // ends within 2 mm
+  for (const auto& x : curve) {
+    double nearest = 1e9;
+    for (const RayPoint& p : truth)
+      nearest = std::min(
+          nearest, (p.prone_in_lps -
+                    Eigen::Vector3d(x[0].get<double>(), x[1].get<double>(), x[2].get<double>()))
+                       .norm());
+    EXPECT_LT(nearest, 0.6);  // a fifth of a millimetre of height is up to half of one prone
+  }
+}
+
+TEST_F(ReportInABrowser, MarksByAClickOnAViewAndClearsThem) {
+  ASSERT_TRUE(browser_->wait_until("document.getElementById('carry').dataset.ready"));
+  const std::string said = "document.getElementById('carry-status').textContent";
+  browser_->click(".view[data-view=cc] canvas", -0.2);
+  EXPECT_NE(browser_->evaluate(said).get<std::string>().find("Mark on CC"), std::string::npos);
+  EXPECT_EQ(browser_->evaluate("mammotwin.panes.get('mlo').layers.has('mark')"), true);
+  browser_->click("#carry-clear");
+  EXPECT_EQ(browser_->evaluate("mammotwin.panes.get('mlo').layers.has('mark')"), false);
+  browser_->click("#planes-places button");  // a place in the MRI
+  EXPECT_NE(browser_->evaluate(said).get<std::string>().find("MLO u "), std::string::npos);
+}
+
+TEST_F(ReportInABrowser, ZoomsAndWindowsTheViewsAndLetsSwipesScroll) {
+  browser_->click("#zoom-in");
+  EXPECT_GT(browser_->evaluate("mammotwin.panes.get('cc').zoom"), 1.5);
+  const std::string touch = "mammotwin.panes.get('cc').canvas.style.touchAction";
+  EXPECT_EQ(browser_->evaluate(touch), "none");  // a finger moves what is enlarged
+  browser_->click("#zoom-none");
+  EXPECT_EQ(browser_->evaluate("mammotwin.panes.get('cc').zoom"), 1);
+  EXPECT_EQ(browser_->evaluate(touch), "manipulation");
+  EXPECT_NE(
+      browser_->evaluate("getComputedStyle(document.querySelector('#planes canvas')).touchAction")
+          .get<std::string>()
+          .find("pan-y"),
+      std::string::npos);
+  browser_->evaluate("document.getElementById('grey-window').focus()");
+  browser_->press("Home");  // 5 % of the greys
+  EXPECT_EQ(browser_->evaluate("document.querySelector('#greys feFuncR').getAttribute('slope')"),
+            "20");
 }
 
 TEST_F(ReportInABrowser, PrintsAsksForNothingAndComplainsOfNothing) {
