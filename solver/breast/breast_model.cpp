@@ -137,6 +137,8 @@ void hold_chest_wall(const CompressionProblem& problem, const HermiteMesh& prone
   const auto springs = spring_bed(options.chest_wall_spring, options.chest_wall_reach);
   for (const auto& [e, face] : breast.wall_faces) {
     breast.model->add_surface_potential(e, face, hold);
+    for (const Face& f : breast.model->faces(e))
+      for (int q = 0; f.face() == face && q < f.num_points(); ++q) hold->remember_rest(f.point(q));
     if (options.chest_wall == ChestWall::sliding && options.chest_wall_spring > 0)
       breast.model->add_surface_potential(e, face, springs);
   }

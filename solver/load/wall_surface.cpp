@@ -185,10 +185,22 @@ Gap WallSurface::gap(const Eigen::Vector3d& x) const {
   return {g, n, dn * (dx.transpose() * dx).inverse() * dx.transpose()};
 }
 
+void WallHold::remember_rest(const SurfacePoint& point) {
+  if (static_cast<int>(remembered_.size()) <= point.index) remembered_.resize(point.index + 1);
+  remembered_[point.index] = gap_at_rest(point);
+}
+
+double WallHold::gap_at_rest(const SurfacePoint& point) const {
+  if (rest_ == WallRest::on_wall) return 0;
+  if (point.index < static_cast<int>(remembered_.size()) && remembered_[point.index])
+    return *remembered_[point.index];
+  return surface_->gap(point.X).gap;
+}
+
 bool WallHold::respond(const Eigen::Matrix<double, 9, 1>& y, const SurfacePoint& point, int order,
                        SurfaceResponse& response) const {
   const Gap gap = surface_->gap(y.head<3>());
-  const double off = rest_ == WallRest::on_wall ? gap.gap : gap.gap - surface_->gap(point.X).gap;
+  const double off = gap.gap - gap_at_rest(point);
   response.energy = penalty_ / 2 * off * off;
   response.gradient.head<3>() = penalty_ * off * gap.normal;
   if (order == 2)

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -64,6 +65,9 @@ class WallHold : public SurfacePotential {
            WallRest rest = WallRest::on_wall)
       : surface_(std::move(surface)), penalty_(penalty), rest_(rest) {}
 
+  /// Seeks the point's gap at rest now, and not at every state.
+  void remember_rest(const SurfacePoint& point);
+
   Slots slots() const override { return kPosition; }
   bool respond(const Eigen::Matrix<double, 9, 1>& y, const SurfacePoint& point, int order,
                SurfaceResponse& response) const override;
@@ -71,9 +75,12 @@ class WallHold : public SurfacePotential {
                                                    const SurfacePoint& point) const override;
 
  private:
+  double gap_at_rest(const SurfacePoint& point) const;
+
   std::shared_ptr<const WallSurface> surface_;
   double penalty_;
   WallRest rest_;
+  std::vector<std::optional<double>> remembered_;  ///< by surface point
 };
 
 }  // namespace mammotwin
