@@ -67,6 +67,7 @@ class Finish {
   const double penalty_;
   NewtonReport total_;
   ThicknessSecant secant_;
+  bool grew_ = false;       ///< the last round raised the penalty
   bool from_soft_ = false;  ///< the next round starts from the load steps' penalty again
   bool loose_ = true;       ///< the state is in balance to kLoosely only
   Place best_;
@@ -117,7 +118,8 @@ bool Finish::better(State& state, const std::function<NewtonReport(State&)>& att
 
 /// The paddle's way for what a penalty `growth` times as stiff will not correct by itself [mm].
 double Finish::move_for(const Errors& now, double growth) {
-  if (growth > 1) secant_ = {};  // stiffer contact changes the thickness, too
+  if (growth > 1 || grew_) secant_ = {};  // stiffer contact changes the thickness, too
+  grew_ = growth > 1;
   const double left = now.thickness <= 0
                           ? now.thickness
                           : std::max(0.0, now.thickness - now.inside * (1 - 1 / growth));
