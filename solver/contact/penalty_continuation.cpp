@@ -8,13 +8,6 @@ namespace {
 
 void add(NewtonReport& total, const NewtonReport& part) { total = then(total, part); }
 
-NewtonReport settle(Newton& newton, PlateContact& contact, NewtonOptions options, State& state) {
-  options.stabilise = [&contact](bool on) { contact.with_curvature = !on; };
-  const NewtonReport report = newton.solve(state, options);
-  contact.with_curvature = true;
-  return report;
-}
-
 /// Only has to come near.
 NewtonReport approach(Newton& newton, PlateContact& contact, NewtonOptions options, State& state) {
   return resettle(newton, contact, loosened(options, 1e-2), state);
@@ -28,27 +21,11 @@ NewtonReport then(const NewtonReport& first, NewtonReport second) {
   return second;
 }
 
-NewtonReport resettle(Newton& newton, PlateContact& contact, const NewtonOptions& options,
-                      State& state) {
-  if (!contact.follow) return settle(newton, contact, options, state);
-  constexpr double tolerance = 1e-5, reduction = 0.3, first = 0.1;
-  constexpr int most_rounds = 20;
-  NewtonReport report = settle(newton, contact, loosened(options, first), state);
-  double left = 0;
-  for (int round = 0; report.usable() && round < most_rounds; ++round) {
-    const double share = contact.follow(state, round == 0);
-    const Balance balance = newton.balance(state);
-    const double now = balance.residual.norm() / balance.flow;
-    left = now / share;
-    if (left <= std::max(options.tolerance, tolerance) &&
-        balance.constraint <= options.constraint_tolerance)
-      return report;
-    report = then(report, settle(newton, contact, loosened(options, reduction * now), state));
-  }
-  if (left <= options.acceptable) return report;
-  if (report.usable())
-    report.reason = "friction finds no equilibrium with the pressures it comes of";
-  report.converged = false;
+NewtonReport resettle(Newton& newton, PlateContact& contact, NewtonOptions options, State& state) {
+  options.stabilise = [&contact](bool on) { contact.with_curvature = !on; };
+  options.refresh = contact.follow;
+  const NewtonReport report = newton.solve(state, options);
+  contact.with_curvature = true;
   return report;
 }
 

@@ -24,9 +24,8 @@ class PlateContact : public SurfacePotential {
   double penalty = 1;          ///< ε [kPa/mm]
   int points1d = 5;            ///< Gauss points a side on the faces in contact
   bool with_curvature = true;  ///< t ∂²gap/∂x² in the tangent
-  /// Brings friction's pressures towards a state's, and returns how far [-]
-  /// (PlateFriction::follow); empty: no friction.
-  std::function<double(const State&, bool first)> follow;
+  /// Brings friction's pressures up to a state; empty: no friction, or frozen.
+  std::function<void(const State&)> follow;
 
   double pressure(double gap) const { return gap < 0 ? -penalty * gap : 0; }  ///< t [kPa]
 

@@ -68,32 +68,6 @@ void PlateFriction::track(const Model& model, const State& state,
       });
 }
 
-double PlateFriction::follow(const Model& model, const State& state,
-                             const std::vector<std::pair<int, int>>& faces, bool first) {
-  constexpr double least = 1.0 / 16;
-  if (reach_ > 0) return 1;
-  const auto pressures = [this] {
-    Eigen::VectorXd all(history_.size());
-    for (std::size_t i = 0; i < history_.size(); ++i) all[i] = history_[i].pressure;
-    return all;
-  };
-  const Eigen::VectorXd before = pressures();
-  track(model, state, faces);
-  if (before.size() != static_cast<int>(history_.size())) return share_ = 1;
-  const Eigen::VectorXd way = pressures() - before;
-  if (first || way_.size() != way.size()) {
-    share_ = 1;
-  } else {
-    const Eigen::VectorXd change = way - way_;
-    const double square = change.squaredNorm();
-    share_ = square > 0 ? std::clamp(-share_ * way_.dot(change) / square, least, 1.0) : 1;
-  }
-  way_ = way;
-  for (std::size_t i = 0; i < history_.size(); ++i)
-    history_[i].pressure = before[i] + share_ * way[i];
-  return share_;
-}
-
 void PlateFriction::commit(const Model& model, const State& state,
                            const std::vector<std::pair<int, int>>& faces) {
   if (reach_ > 0) return;
@@ -196,6 +170,22 @@ bool PlateFriction::respond(const Eigen::Matrix<double, 9, 1>& y, const SurfaceP
       hessian += limit * (h.curvature - h.slope_over_slip) / (length * length) * s * s.transpose();
   }
   return touches;
+}
+
+bool PlateFriction::circulation(const Eigen::Matrix<double, 9, 1>& y, const SurfacePoint& point,
+                                Eigen::Matrix3d& derivative) const {
+  if (reach_ > 0) return false;
+  bool any = false;
+  for (std::size_t p = 0; p < contact_->plates.size(); ++p) {
+    const Contact& contact = at(point, static_cast<int>(p));
+    if (contact.pressure == 0) continue;
+    if (!any) derivative.setZero();
+    any = true;
+    const Vector3d s = slip(y.head<3>(), contact, contact_->plates[p]);
+    derivative -= coefficient_ * contact_->penalty * energy(s.norm()).slope_over_slip * s *
+                  contact.normal.transpose();
+  }
+  return any;
 }
 
 }  // namespace mammotwin

@@ -18,9 +18,9 @@ namespace mammotwin {
 ///
 /// h is twice differentiable, and its slope, the share of μ t that acts, is 1 from δ on (Li et al.,
 /// Incremental Potential Contact, ACM Trans. Graph. 39 (2020), section 5.1).
-/// t, n: contact pressure and plate normal of the last solution (track), so that the potential is
-/// convex and its tangent symmetric and semidefinite. Solving and tracking alternate until t and n
-/// are the state's own (resettle); each round leaves about μ of the error.
+/// t, n: contact pressure and plate normal of a state (track), fixed while Newton makes a step, so
+/// that the potential is convex and its hessian symmetric and semidefinite. Newton tracks before
+/// each step, and takes in how t will move (circulation): friction has no potential of its own.
 /// anchor: the place on the plate where the point sticks, carried by the plate.
 ///
 /// Approximations: a point that sticks creeps by up to δ (Wriggers, Computational Contact
@@ -49,12 +49,6 @@ class PlateFriction : public SurfacePotential {
 
   /// Takes pressures and normals from a state.
   void track(const Model& model, const State& state, const std::vector<std::pair<int, int>>& faces);
-
-  /// The same, but for pressures that swing from state to state: they go a share of the way, which
-  /// is returned: all of it where it is the `first` of an iteration, then Aitken's (Irons and Tuck,
-  /// Int. J. Numer. Meth. Eng. 1 (1969)), between 1/16 and 1.
-  double follow(const Model& model, const State& state,
-                const std::vector<std::pair<int, int>>& faces, bool first);
 
   /// Ends a load step: anchors of sliding points follow to within δ, those of free points all the
   /// way. The first call, with the plates at their start, sets them.
@@ -88,6 +82,10 @@ class PlateFriction : public SurfacePotential {
   bool respond(const Eigen::Matrix<double, 9, 1>& y, const SurfacePoint& point, int order,
                SurfaceResponse& response) const override;
 
+  /// By ∂t/∂x; the normals' change is left out: plates are flat but for their edges.
+  bool circulation(const Eigen::Matrix<double, 9, 1>& y, const SurfacePoint& point,
+                   Eigen::Matrix3d& derivative) const override;
+
  private:
   struct SlipEnergy {  ///< h with its slope over s and its curvature
     double energy, slope_over_slip, curvature;
@@ -98,10 +96,8 @@ class PlateFriction : public SurfacePotential {
 
   std::shared_ptr<const PlateContact> contact_;
   double coefficient_, slip_;
-  double reach_ = 0;     ///< of frozen friction's springs [mm]; 0: not frozen
-  History history_;      ///< by surface point, then plate
-  double share_ = 1;     ///< of the last `follow`
-  Eigen::VectorXd way_;  ///< of pressures at the last `follow` [kPa]
+  double reach_ = 0;  ///< of frozen friction's springs [mm]; 0: not frozen
+  History history_;   ///< by surface point, then plate
 };
 
 }  // namespace mammotwin

@@ -98,13 +98,20 @@ void Face::add(const SurfacePotential& potential, const SolidElement::Coefficien
                bool with_tangent, ElementSystem& system) const {
   const auto [first, end] = potential.slots();
   const auto& N = table(points1d_).slots;
+  Eigen::Matrix<double, kFunctions, 3> c;
+  for (int a = 0; a < kFunctions; ++a) c.row(a) = x.row(functions_[a]);
+  Eigen::Matrix<double, 9, 1> y = Eigen::Matrix<double, 9, 1>::Zero();
   SurfaceResponse response;
-  Eigen::Matrix<double, kFunctions, 3> residual = Eigen::Matrix<double, kFunctions, 3>::Zero();
+  Eigen::Matrix<double, kFunctions, 3> residual;
   Eigen::Matrix<double, 3 * kFunctions, 3 * kFunctions> tangent;
-  tangent.setZero();
   bool touched = false;
   for (int q = 0; q < num_points(); ++q) {
-    if (!potential.respond(deformed(x, q), points_[q], with_tangent ? 2 : 1, response)) continue;
+    for (int s = first; s < end; ++s) y.segment<3>(3 * s) = c.transpose() * N[s].row(q).transpose();
+    if (!potential.respond(y, points_[q], with_tangent ? 2 : 1, response)) continue;
+    if (!touched) {
+      residual.setZero();
+      if (with_tangent) tangent.setZero();
+    }
     touched = true;
     const double area = points_[q].area;
     system.energy += area * response.energy;
@@ -133,6 +140,24 @@ void Face::add(const SurfacePotential& potential, const SolidElement::Coefficien
           system.tangent(mammotwin::kFunctions * i + functions_[a],
                          mammotwin::kFunctions * k + functions_[b]) +=
               tangent(kFunctions * i + a, kFunctions * k + b);
+}
+
+bool Face::add_circulation(const SurfacePotential& potential, const SolidElement::Coefficients& x,
+                           Circulation& circulation) const {
+  const auto& N = table(points1d_).slots[0];
+  Eigen::Matrix3d derivative;
+  bool any = false;
+  for (int q = 0; q < num_points(); ++q) {
+    if (!potential.circulation(deformed(x, q), points_[q], derivative)) continue;
+    any = true;
+    const Eigen::Matrix<double, kFunctions, kFunctions> NN =
+        points_[q].area * N.row(q).transpose() * N.row(q);
+    for (int k = 0; k < 3; ++k)
+      for (int i = 0; i < 3; ++i)
+        circulation.block<kFunctions, kFunctions>(kFunctions * i, kFunctions * k) +=
+            derivative(i, k) * NN;
+  }
+  return any;
 }
 
 /// The residual is area(A₁, A₂) times gradient(y; X, A₁, A₂): both factors change.

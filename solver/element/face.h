@@ -33,6 +33,12 @@ class Face {
   void add(const SurfacePotential& potential, const SolidElement::Coefficients& x,
            bool with_tangent, ElementSystem& system) const;
 
+  /// Adds the potential's circulation; rows and columns are 16 i + a of component i and face
+  /// function a. False where it has none.
+  using Circulation = Eigen::Matrix<double, 3 * kFunctions, 3 * kFunctions>;
+  bool add_circulation(const SurfacePotential& potential, const SolidElement::Coefficients& x,
+                       Circulation& circulation) const;
+
   /// Adds ∂residual/∂X of the potential, X the face's reference shape.
   void add_reference(const SurfacePotential& potential, const SolidElement::Coefficients& x,
                      ReferenceSystem& system) const;

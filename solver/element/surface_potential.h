@@ -38,11 +38,21 @@ class SurfacePotential {
   virtual bool respond(const Eigen::Matrix<double, 9, 1>& y, const SurfacePoint& point, int order,
                        SurfaceResponse& response) const = 0;
 
+  /// ∂(∂energy/∂x)/∂x that comes of what the energy holds fixed and the state moves (friction's
+  /// pressures): not symmetric, so not of the hessian. False where there is none.
+  virtual bool circulation(const Eigen::Matrix<double, 9, 1>& y, const SurfacePoint& point,
+                           Eigen::Matrix3d& derivative) const;
+
   /// ∂gradient/∂(X, A₁, A₂) with y and `area` fixed; column slots as those of y. Only unloading
   /// asks (element/reference_tangent.cpp); throws std::logic_error where a potential cannot say.
   virtual Eigen::Matrix<double, 9, 9> reference_derivative(const Eigen::Matrix<double, 9, 1>& y,
                                                            const SurfacePoint& point) const;
 };
+
+inline bool SurfacePotential::circulation(const Eigen::Matrix<double, 9, 1>&, const SurfacePoint&,
+                                          Eigen::Matrix3d&) const {
+  return false;
+}
 
 inline Eigen::Matrix<double, 9, 9> SurfacePotential::reference_derivative(
     const Eigen::Matrix<double, 9, 1>&, const SurfacePoint&) const {

@@ -237,6 +237,34 @@ Eigen::VectorXd Assembler::against_swelling(const Eigen::MatrixXd& excess) const
   return sum;
 }
 
+void Assembler::take_circulation(const State& state) {
+  circulations_.resize(model_.num_elements());
+  tbb::parallel_for(0, model_.num_elements(),
+                    [&](int e) { circulations_[e] = model_.circulations(e, state); });
+}
+
+Eigen::VectorXd Assembler::circulation(const Eigen::VectorXd& solution) const {
+  using FaceVector = Eigen::Matrix<double, 3 * Face::kFunctions, 1>;
+  Eigen::VectorXd product = Eigen::VectorXd::Zero(num_equations());
+  for (std::size_t e = 0; e < circulations_.size(); ++e)
+    for (const auto& [face, block] : circulations_[e]) {
+      const auto& equations = pattern_.equations[e];
+      const auto& factors = pattern_.factors[e];
+      const auto unknown = [&face = face](int k) {
+        return kFunctions * (k / Face::kFunctions) + face->function(k % Face::kFunctions);
+      };
+      FaceVector local = FaceVector::Zero();
+      for (int k = 0; k < local.size(); ++k)
+        if (const int u = unknown(k); equations[u] >= 0)
+          local[k] = factors[u] * solution[equations[u]];
+      local = block * local;
+      for (int k = 0; k < local.size(); ++k)
+        if (const int u = unknown(k); equations[u] >= 0)
+          product[equations[u]] += factors[u] * local[k];
+    }
+  return product;
+}
+
 std::vector<HermiteMesh::Node> Assembler::nodal_residual(const State& state) const {
   const HermiteMesh& mesh = model_.reference();
   std::vector<HermiteMesh::Node> residual(mesh.num_nodes(), HermiteMesh::Node::Zero());

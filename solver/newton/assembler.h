@@ -62,6 +62,10 @@ class Assembler {
   /// of the last linearise().
   Eigen::VectorXd against_swelling(const Eigen::MatrixXd& excess) const;
 
+  /// Takes the unsymmetric part of the tangent at a state, and its product with a solution.
+  void take_circulation(const State& state);
+  Eigen::VectorXd circulation(const Eigen::VectorXd& solution) const;
+
   /// Residual of every nodal parameter, prescribed ones included: reactions [mN].
   std::vector<HermiteMesh::Node> nodal_residual(const State& state) const;
 
@@ -84,7 +88,8 @@ class Assembler {
   std::vector<Eigen::MatrixXd> pressure_factors_;  ///< L⁻¹ of ∫ψψᵀ/κ = L Lᵀ, per element
   std::vector<Eigen::MatrixXd> pressure_scales_;   ///< Lᵀ
   std::vector<Elimination> eliminations_;
-  std::vector<double> values_, metric_;  ///< metric_ is made when needed
+  std::vector<std::vector<Model::FaceCirculation>> circulations_;  ///< per element
+  std::vector<double> values_, metric_;                            ///< metric_ is made when needed
   double smallest_flow_ = 0;
   Eigen::VectorXd right_hand_side_;
 };

@@ -22,7 +22,9 @@ class CondensedEnergy {
  public:
   explicit CondensedEnergy(int elements) : caps_(Eigen::VectorXd::Zero(elements)) {}
 
-  /// Raises the caps above the pressures that a step asks for; they never sink.
+  void forget() { caps_.setZero(); }
+
+  /// Raises the caps above the pressures that a step asks for; they sink only when forgotten.
   void admit(const PressureStep& step);
 
   double value(const Balance& balance) const;  ///< [mN mm]; infinite where an element is inverted

@@ -93,6 +93,16 @@ void Model::evaluate(int e, const State& state, bool with_tangent, ElementSystem
   system.residual -= loads_[e].reshaped();
 }
 
+std::vector<Model::FaceCirculation> Model::circulations(int e, const State& state) const {
+  const auto x = gather(reference_, state.x, e);
+  std::vector<FaceCirculation> all;
+  for (const auto& [face, potential] : potentials_[e]) {
+    FaceCirculation part{&faces_[e][face], Face::Circulation::Zero()};
+    if (part.face->add_circulation(*potential, x, part.block)) all.push_back(std::move(part));
+  }
+  return all;
+}
+
 void Model::evaluate_reference(int e, const State& state, const Eigen::Vector3d& body_force,
                                ReferenceSystem& system) const {
   const auto x = gather(reference_, state.x, e);

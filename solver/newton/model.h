@@ -55,6 +55,14 @@ class Model {
   /// All terms of one element at a state.
   void evaluate(int e, const State& state, bool with_tangent, ElementSystem& system) const;
 
+  /// What potentials on one element's faces add to ∂residual/∂x that is not symmetric, face by
+  /// face.
+  struct FaceCirculation {
+    const Face* face;
+    Face::Circulation block;
+  };
+  std::vector<FaceCirculation> circulations(int e, const State& state) const;
+
   /// Derivatives of one element's residuals by the reference shape; `body_force` is the constant
   /// one that was set.
   void evaluate_reference(int e, const State& state, const Eigen::Vector3d& body_force,

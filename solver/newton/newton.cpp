@@ -11,6 +11,9 @@ namespace {
 constexpr double kNearBalance =
     0.02;  // of the flow: from here on the step is trusted by its length
 constexpr double kEquilibrium = 1e-4;  // of the flow: nearer, unstable states are left downhill
+// of the flow: nearer, potentials that hold something fixed follow the state. Farther off, points
+// stand deep in a plate, and friction of such pressures would hold all that touches.
+constexpr double kFollow = 0.2;
 constexpr int kMostFalls = 5;
 constexpr double kFirstDamping = 0.4;  // shift after a step that no part of lowered the merit
 
@@ -151,16 +154,47 @@ void Newton::adapt_damping(double fraction) {
     damping_ = damping_ / growth < first / 2 ? 0 : damping_ / growth;
 }
 
-Newton::Step Newton::solve_step(const State& state, const Balance& balance,
-                                const std::vector<HermiteMesh::Node>& pending) {
+/// (K + U) x = b by the iteration x ← K⁻¹ (b − U x), where friction's U is about μ of K: to where
+/// another round would gain less than the step's own linearisation loses. Where it does not come
+/// closer U is left out.
+Eigen::VectorXd Newton::circulated(const Eigen::VectorXd& b) const {
+  constexpr int most_rounds = 8;
+  constexpr double tolerance = 1e-2;
+  const Eigen::VectorXd first = cholesky_.solve(b);
+  Eigen::VectorXd x = first;
+  double last = 0;
+  for (int round = 0; round < most_rounds; ++round) {
+    const Eigen::VectorXd better = first - cholesky_.solve(assembler_.circulation(x));
+    const double change = (better - x).norm();
+    if (round > 0 && change > last) return first;
+    x = better;
+    last = change;
+    if (change <= tolerance * x.norm()) break;
+  }
+  return x;
+}
+
+Newton::Step Newton::step_of(const Eigen::VectorXd& solution, const State& state,
+                             const Balance& balance,
+                             const std::vector<HermiteMesh::Node>& pending) {
   Step step;
-  const Eigen::VectorXd solution = cholesky_.solve(assembler_.right_hand_side());
   step.nodes = assembler_.nodal_step(solution, pending);
   step.pressures = assembler_.pressures_after(state, step.nodes);
   merit_.admit(step.pressures);
   if (pending.empty())
     step.slope = merit_.slope(balance, step.pressures, balance.residual.dot(solution));
   return step;
+}
+
+Newton::Step Newton::solve_step(const State& state, const Balance& balance,
+                                const std::vector<HermiteMesh::Node>& pending) {
+  const Eigen::VectorXd& right = assembler_.right_hand_side();
+  if (following_) {
+    assembler_.take_circulation(state);
+    const Step step = step_of(circulated(right), state, balance, pending);
+    if (step.slope < 0 || !pending.empty()) return step;
+  }
+  return step_of(cholesky_.solve(right), state, balance, pending);
 }
 
 Newton::Trial Newton::at(const State& state, const Step& step, double fraction) const {
@@ -187,6 +221,20 @@ Newton::Trial Newton::corrected(const Trial& trial, const Step& step, const Bala
   return better;
 }
 
+/// Friction has no merit of its own: what lowers the energy with the pressures of the step's start
+/// need not come nearer to a balance with those of its end, nor the reverse. So a step may also
+/// bring the whole residual down.
+bool Newton::settles(const Trial& trial, const State& state, const Balance& before, double least,
+                     const NewtonOptions& options) const {
+  constexpr double most_constraint = 1e-3, most_growth = 2;  // of the volume's error
+  if (!following_ || !std::isfinite(trial.merit)) return false;
+  options.refresh(trial.state);
+  const Balance now = assembler_.balance(trial.state);
+  options.refresh(state);
+  return now.residual.norm() / now.flow <= (1 - least) * before.residual.norm() / before.flow &&
+         now.constraint <= std::max(most_growth * before.constraint, most_constraint);
+}
+
 double Newton::search(State& state, const Step& step, Balance& balance,
                       const NewtonOptions& options) {
   constexpr double sufficient = 1e-4, shortest = 0.01;
@@ -204,8 +252,9 @@ double Newton::search(State& state, const Step& step, Balance& balance,
       Trial better = corrected(trial, step, balance, fraction);
       if (better.merit < trial.merit) trial = std::move(better);
     }
-    if (lowers(trial, fraction)) {
-      if (options.watch && down) options.watch(start, trial.merit);
+    const bool lower = lowers(trial, fraction);
+    if (lower || settles(trial, state, balance, sufficient * fraction, options)) {
+      if (options.watch && down && lower) options.watch(start, trial.merit);
       state = std::move(trial.state);
       balance = std::move(trial.balance);
       return fraction;
@@ -221,15 +270,21 @@ NewtonReport Newton::solve(State& state, const NewtonOptions& options,
                            std::vector<HermiteMesh::Node> pending) {
   NewtonReport report;
   Balance balance = assembler_.balance(state);
+  following_ = false;
   const auto stop = [&](const char* reason) {
     return stopped(report, balance, options, pending.empty(), reason);
   };
-  merit_ = CondensedEnergy(static_cast<int>(balance.swelling.cols()));  // no solve hangs on another
+  merit_.forget();  // no solve hangs on another
   shift_ = damping_ = 0;
   indefinite_ = cut_while_indefinite_ = false;
   if (is_zero(pending)) pending.clear();
   int falls = 0;
   for (;; ++report.iterations) {
+    if (options.refresh && (following_ || balance.residual.norm() <= kFollow * balance.flow)) {
+      following_ = true;
+      options.refresh(state);
+      balance = assembler_.balance(state);
+    }
     report.residual = balance.flow > 0 ? balance.residual.norm() / balance.flow : 0;
     if (!std::isfinite(balance.energy)) {
       report.reason = "an element is inverted";

@@ -20,6 +20,10 @@ struct NewtonOptions {
   /// Leaves destabilising parts out of the model's tangent (true) or takes them in again (false);
   /// may be empty. The residual stays exact, so only the speed of convergence changes.
   std::function<void(bool)> stabilise;
+  /// Brings what the energy holds fixed during a step, such as friction's pressures, up to a state;
+  /// may be empty. Each step's merit is the energy of its start; the step itself knows that those
+  /// will move (SurfacePotential::circulation).
+  std::function<void(const State&)> refresh;
   double max_shift = 1000;  ///< Laplacian shifts tried on an indefinite matrix before giving up [-]
   /// Takes a balanced state whose tangent is indefinite for an answer: for paths that only symmetry
   /// holds, such as a closed form's.
@@ -44,7 +48,8 @@ struct NewtonReport {
 /// Newton's method on the mixed system: pressures are unknowns of the linearisation. The step in
 /// the shape is then one down the condensed energy, which every accepted step lowers (Armijo), at
 /// full length or, where the volume errs, bent back to the volume that it was to have (second-order
-/// correction, Nocedal and Wright, section 18.3), else cut. A matrix that is not positive definite
+/// correction, Nocedal and Wright, section 18.3), else cut. With friction, which has no energy, a
+/// step is also taken that lowers the norm of the residual. A matrix that is not positive definite
 /// is stabilised, then shifted by the μ-weighted Laplacian until it is.
 class Newton {
  public:
@@ -80,12 +85,17 @@ class Newton {
                       const std::vector<HermiteMesh::Node>& pending, NewtonReport& report);
   bool fall(State& state, Balance& balance, const NewtonOptions& options, NewtonReport& report);
   Eigen::VectorXd softest_direction();
+  Eigen::VectorXd circulated(const Eigen::VectorXd& right_hand_side) const;
+  Step step_of(const Eigen::VectorXd& solution, const State& state, const Balance& balance,
+               const std::vector<HermiteMesh::Node>& pending);
   Step solve_step(const State& state, const Balance& balance,
                   const std::vector<HermiteMesh::Node>& pending);
   void adapt_damping(double fraction);
   Trial at(const State& state, const Step& step, double fraction) const;
   Trial corrected(const Trial& trial, const Step& step, const Balance& before,
                   double fraction) const;
+  bool settles(const Trial& trial, const State& state, const Balance& before, double least,
+               const NewtonOptions& options) const;
   double search(State& state, const Step& step, Balance& balance, const NewtonOptions& options);
 
   Assembler assembler_;
@@ -94,6 +104,7 @@ class Newton {
   double shift_ = 0;
   double damping_ = 0;                 ///< shift that short steps ask for
   bool indefinite_ = false;            ///< the last matrix was not the exact one
+  bool following_ = false;             ///< `refresh` is called before each step
   bool cut_while_indefinite_ = false;  ///< and its step was cut: the next will be no better
 };
 

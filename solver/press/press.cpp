@@ -28,10 +28,7 @@ Press::Press(const CompressionProblem& problem, const CompressionOptions& option
       breast_(make_breast_model(problem, options.solid)),
       frame_(problem.mesh, problem.plates),
       newton_(*breast_.model, *breast_.dofs) {
-  if (breast_.friction)
-    breast_.contact->follow = [this](const State& s, bool first) {
-      return breast_.friction->follow(*breast_.model, s, breast_.contact_faces, first);
-    };
+  if (breast_.friction) breast_.contact->follow = [this](const State& s) { track_friction(s); };
 }
 
 void Press::put(const PlacedPlates& placed) {

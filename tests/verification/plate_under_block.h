@@ -49,9 +49,7 @@ class PlateUnderBlock {
     settle();
     friction_->restore({});
     friction_->commit(model_, state_, faces_);
-    contact_->follow = [this](const State& s, bool first) {
-      return friction_->follow(model_, s, faces_, first);
-    };
+    contact_->follow = [this](const State& s) { friction_->track(model_, s, faces_); };
   }
 
   /// Draws the plate along x, in equal steps.

@@ -97,26 +97,6 @@ TEST(PlateFriction, HoldsAPointThatSlidesWhereverThePlateIsPutThen) {
   EXPECT_NEAR((block.force() - Eigen::Vector3d(-18, -24, 0)).norm(), 0, 1e-9);
 }
 
-// A state whose pressure is 2 - 1.5 t kPa where friction comes of t: full steps go away from the
-// 0.8 kPa at which both are one, the second step of Aitken's finds it.
-TEST(PlateFriction, FollowsPressuresThatSwingToWhereTheyMeet) {
-  PressedBlock block;
-  block.slide(0.5, 0);
-  double height = 0;
-  const auto followed = [&] { return -block.force().x() / 30; };  // [kPa], over μ A
-  const auto follow = [&](bool first) {
-    const double move = 0.05 - (2 - 1.5 * followed()) / 20 - height;
-    for (auto& node : block.state.x) node.col(0).z() += move;
-    height += move;
-    return block.friction->follow(block.model, block.state, block.faces, first);
-  };
-  EXPECT_NEAR(followed(), 1, 1e-9);
-  EXPECT_EQ(follow(true), 1);
-  EXPECT_NEAR(followed(), 0.5, 1e-9);
-  EXPECT_NEAR(follow(false), 0.4, 1e-9);
-  EXPECT_NEAR(followed(), 0.8, 1e-9);
-}
-
 // 24 of at most 30 N; each 0.5 mm is a quarter of the reach, so a quarter of the 30.
 TEST(PlateFriction, FrozenItKeepsItsForceAndGivesWayLikeASpring) {
   PressedBlock block;
@@ -163,6 +143,42 @@ TEST(PlateFriction, GradientAndHessianAreDerivativesSymmetricAndSemidefinite) {
     ASSERT_TRUE(block.friction->respond(y, point, 2, response));
     const Eigen::Matrix3d H = response.hessian.topLeftCorner<3, 3>();
     EXPECT_GE(H.selfadjointView<Eigen::Lower>().eigenvalues().minCoeff(), -1e-12);
+  }
+}
+
+// With pressures brought up to each place the force's derivative is hessian and circulation.
+TEST(PlateFriction, CirculationIsWhatTrackedPressuresAddToTheHessian) {
+  constexpr double h = 1e-5;  // [mm]: second differences leave 1e-10 of third derivatives
+  for (const Eigen::Vector3d& slip :
+       {Eigen::Vector3d(0.03, -0.05, 0), Eigen::Vector3d(0.4, 0.3, 0)}) {
+    PressedBlock block;
+    block.slide(slip.x(), slip.y());
+    const SurfacePoint point = block.model.faces(0)[0].point(7);
+    const auto respond = [&] {
+      Eigen::Matrix<double, 9, 1> y = Eigen::Matrix<double, 9, 1>::Zero();
+      y.head<3>() = point.X + block.state.x[0].col(0) - block.mesh.node(0).col(0);
+      SurfaceResponse response;
+      block.friction->track(block.model, block.state, block.faces);
+      EXPECT_TRUE(block.friction->respond(y, point, 2, response));
+      Eigen::Matrix3d circulation;
+      EXPECT_TRUE(block.friction->circulation(y, point, circulation));
+      return std::pair(response, circulation);
+    };
+    const auto [here, circulation] = respond();
+    const Eigen::Matrix3d derivative = here.hessian.topLeftCorner<3, 3>() + circulation;
+    for (int k = 0; k < 3; ++k) {
+      Eigen::Vector3d ahead = Eigen::Vector3d::Zero();
+      ahead[k] = h;
+      for (auto& node : block.state.x) node.col(0) += ahead;
+      const Eigen::Vector3d plus = respond().first.gradient.head<3>();
+      for (auto& node : block.state.x) node.col(0) -= 2 * ahead;
+      const Eigen::Vector3d minus = respond().first.gradient.head<3>();
+      for (auto& node : block.state.x) node.col(0) += ahead;
+      EXPECT_NEAR(((plus - minus) / (2 * h) - derivative.col(k)).norm(), 0,
+                  1e-6 * derivative.norm())
+          << k;
+    }
+    EXPECT_GT((circulation - circulation.transpose()).norm(), 0.01 * derivative.norm());
   }
 }
 
