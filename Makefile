@@ -24,7 +24,12 @@ override CHANGES := $(value CHANGES)
 override VIEWS := $(value VIEWS)
 override SPOIL := $(value SPOIL)
 override OTHERS := $(value OTHERS)
-export P DATA RESULTS FORCE BIN SEED PATIENTS JOBS ONLY ENGINE CONFIG PREFIX CASES SYNTHETIC CHANGES VIEWS SPOIL OTHERS
+override TABLE := $(value TABLE)
+override UNLOAD := $(value UNLOAD)
+ifeq ($(RESULTS),)
+$(error RESULTS is empty: name the folder that results go to)
+endif
+export P DATA RESULTS FORCE BIN SEED PATIENTS JOBS ONLY ENGINE CONFIG PREFIX CASES SYNTHETIC CHANGES VIEWS SPOIL OTHERS TABLE UNLOAD
 unexport MAKEFLAGS MAKEOVERRIDES
 
 .PHONY: help patient segment fit unload compress register report slicer paraview synthesize cohort verify-results \
@@ -113,8 +118,9 @@ evaluate-unload: mammotwin-evaluate-unload
 	@"$$BIN/mammotwin-evaluate-unload" "$$CASES" "$$RESULTS/evaluation/unload.json" --views
 
 evaluate-gravity: mammotwin-evaluate-gravity
-	@"$$BIN/mammotwin-evaluate-gravity" "$$CASES" "$$RESULTS/evaluation/$${TABLE:-gravity}.json" \
-	  $${JOBS:+--jobs "$$JOBS"} $${ONLY:+--only $$ONLY} $(addprefix --unload=,$(UNLOAD))
+	@set -f; for option in $$UNLOAD; do set -- "$$@" "--unload=$$option"; done; \
+	  "$$BIN/mammotwin-evaluate-gravity" "$$CASES" "$$RESULTS/evaluation/$${TABLE:-gravity}.json" \
+	  $${JOBS:+--jobs "$$JOBS"} $${ONLY:+--only $$ONLY} "$$@"
 
 evaluate-compression: mammotwin-evaluate-compression
 	@"$$BIN/mammotwin-evaluate-compression" "$$RESULTS/evaluation/compression.json" --cases "$$CASES" \

@@ -42,11 +42,10 @@ StagePlan plan(const Arguments&, const Patient& patient) {
 
 /// As the sidecar of the segmentation has it from the image; empty where it is not known.
 std::string patient_position(const std::filesystem::path& segmentation) {
-  std::ifstream in(sidecar_path(segmentation));
-  const auto sidecar = nlohmann::json::parse(in, nullptr, false);
+  const auto sidecar = read_sidecar(segmentation).sidecar;
   const auto position = nlohmann::json::json_pointer("/quality/patient_position");
-  return !sidecar.is_discarded() && sidecar.contains(position) && sidecar[position].is_string()
-             ? sidecar[position].get<std::string>()
+  return sidecar && sidecar->contains(position) && (*sidecar)[position].is_string()
+             ? (*sidecar)[position].get<std::string>()
              : "";
 }
 

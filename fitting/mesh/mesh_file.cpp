@@ -123,6 +123,11 @@ void add_field_data(vtkUnstructuredGrid* grid, const MeshFile& file) {
 
 // ---- reading ----
 
+/// `value` as an index below `limit`; -1 where it is none.
+int index_below(double value, int limit) {
+  return value >= 0 && value < limit && value == std::floor(value) ? static_cast<int>(value) : -1;
+}
+
 std::vector<HermiteMesh::Node> nodes_from(const ArrayReader& in, const std::string& name) {
   const std::vector<double> values = in.doubles(name, 24);
   std::vector<HermiteMesh::Node> nodes;
@@ -138,11 +143,12 @@ std::vector<HermiteMesh::Corners> elements_from(const ArrayReader& in, int num_n
   const std::vector<double> values = in.doubles(elements_name, 8);
   std::vector<HermiteMesh::Corners> elements(values.size() / 8);
   for (std::size_t i = 0; i < values.size(); ++i) {
-    if (values[i] < 0 || values[i] >= num_nodes)
-      in.fail(elements_name, "names node " + std::to_string(int(values[i])) + " in element " +
+    const int node = index_below(values[i], num_nodes);
+    if (node < 0)
+      in.fail(elements_name, "names node " + std::to_string(values[i]) + " in element " +
                                  std::to_string(i / 8) + "; the file has " +
                                  std::to_string(num_nodes) + " nodes");
-    elements[i / 8][i % 8] = static_cast<int>(values[i]);
+    elements[i / 8][i % 8] = node;
   }
   return elements;
 }
@@ -153,9 +159,9 @@ std::vector<FaceLabels> faces_from(const ArrayReader& in) {
   const std::vector<double> values = in.doubles(faces_name, 6);
   faces.resize(values.size() / 6);
   for (std::size_t i = 0; i < values.size(); ++i) {
-    if (values[i] < 0 || values[i] > static_cast<int>(FaceLabel::cut))
-      in.fail(faces_name, "holds " + std::to_string(int(values[i])) + "; expected 0 to 3");
-    faces[i / 6][i % 6] = static_cast<FaceLabel>(static_cast<int>(values[i]));
+    const int label = index_below(values[i], static_cast<int>(FaceLabel::cut) + 1);
+    if (label < 0) in.fail(faces_name, "holds " + std::to_string(values[i]) + "; expected 0 to 3");
+    faces[i / 6][i % 6] = static_cast<FaceLabel>(label);
   }
   return faces;
 }
@@ -165,22 +171,50 @@ std::vector<ParameterTie> ties_from(const ArrayReader& in, int num_nodes) {
   if (!in.has(ties_name)) return ties;
   const std::vector<double> v = in.doubles(ties_name, 5);
   for (std::size_t i = 0; i < v.size(); i += 5) {
-    ties.push_back({int(v[i]), int(v[i + 1]), int(v[i + 2]), int(v[i + 3]), v[i + 4]});
-    const ParameterTie& t = ties.back();
-    if (std::min(t.node, t.to_node) < 0 || std::max(t.node, t.to_node) >= num_nodes ||
-        std::min(t.parameter, t.to_parameter) < 0 || std::max(t.parameter, t.to_parameter) > 7)
+    const ParameterTie tie{index_below(v[i], num_nodes), index_below(v[i + 1], 8),
+                           index_below(v[i + 2], num_nodes), index_below(v[i + 3], 8), v[i + 4]};
+    if (tie.node < 0 || tie.parameter < 0 || tie.to_node < 0 || tie.to_parameter < 0)
       in.fail(ties_name,
               "names a node or parameter that does not exist in row " + std::to_string(i / 5));
+    if (!std::isfinite(tie.factor))
+      in.fail(ties_name, "has a factor that is not finite in row " + std::to_string(i / 5));
+    ties.push_back(tie);
   }
   return ties;
 }
 
-PointField point_field_from(vtkDataArray* array) {
+std::vector<double> finite_numbers(const ArrayReader& in, const std::string& name) {
+  const std::vector<double> values = in.doubles(name, 1);
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (!std::isfinite(values[i]))
+      in.fail(name, "holds a number that is not finite in row " + std::to_string(i));
+  return values;
+}
+
+/// `num_points`: control points of the mesh.
+PointField point_field_from(const ArrayReader& in, vtkDataArray* array, std::size_t num_points) {
+  if (static_cast<std::size_t>(array->GetNumberOfTuples()) != num_points)
+    in.fail(array->GetName(), "has " + std::to_string(array->GetNumberOfTuples()) +
+                                  " rows; expected " + std::to_string(num_points) +
+                                  " control points");
   PointField field;
   field.components = array->GetNumberOfComponents();
   for (vtkIdType i = 0; i < array->GetNumberOfTuples(); ++i)
     for (int c = 0; c < field.components; ++c) field.values.push_back(array->GetComponent(i, c));
   return field;
+}
+
+std::map<std::string, PointField> fields_from(const std::filesystem::path& path,
+                                              vtkPointData* point_data, std::size_t num_points) {
+  const ArrayReader in(path, point_data);
+  std::map<std::string, PointField> fields;
+  for (int i = 0; i < point_data->GetNumberOfArrays(); ++i) {
+    vtkDataArray* array = point_data->GetArray(i);
+    if (array && array->GetName() &&
+        !std::string(array->GetName()).starts_with(displacement_prefix))
+      fields[array->GetName()] = point_field_from(in, array, num_points);
+  }
+  return fields;
 }
 
 }  // namespace
@@ -224,6 +258,7 @@ MeshFile read_mesh_file(const std::filesystem::path& path) {
                 {},
                 {},
                 {}};
+  if (file.mesh.num_elements() == 0) field_data.fail(elements_name, "is empty; expected elements");
   if (!file.faces.empty() && static_cast<int>(file.faces.size()) != file.mesh.num_elements())
     cell_data.fail(faces_name, "has " + std::to_string(file.faces.size()) + " rows; expected " +
                                    std::to_string(file.mesh.num_elements()) + " elements");
@@ -236,13 +271,8 @@ MeshFile read_mesh_file(const std::filesystem::path& path) {
                                                        std::to_string(num_nodes) + " nodes");
   }
   for (const auto& name : field_data.names_with_prefix(metadata_prefix))
-    file.metadata[name] = field_data.doubles(metadata_prefix + name, 1);
-  vtkPointData* point_data = grid->GetPointData();
-  for (int i = 0; i < point_data->GetNumberOfArrays(); ++i) {
-    vtkDataArray* array = point_data->GetArray(i);
-    if (array && std::string(array->GetName()).rfind(displacement_prefix, 0) != 0)
-      file.fields[array->GetName()] = point_field_from(array);
-  }
+    file.metadata[name] = finite_numbers(field_data, metadata_prefix + name);
+  file.fields = fields_from(path, grid->GetPointData(), BezierMesh(file.mesh).points.size());
   return file;
 }
 

@@ -30,8 +30,7 @@ void declare(CommandLine& command, Arguments& args) {
       .required();
   command.option("--patients", args.patients,
                  "file of patients' names, one a line, that are listed even without results");
-  command.option("--data", args.again.data, "folder of patients, for the commands that run again");
-  command.option("--front-door", args.again.front_door, "what those commands begin with")
+  command.option("--front-door", args.again.front_door, "what commands that run again begin with")
       .with_default();
 }
 
@@ -63,8 +62,7 @@ std::vector<PatientSummary> summarize(const Arguments& args) {
   return cohort;
 }
 
-int run(Arguments args) {
-  args.again.results = args.results.string();
+int run(const Arguments& args) {
   const std::vector<PatientSummary> cohort = summarize(args);
   const Table failed = failed_table(cohort, args.again);
   write_text_atomically(args.results / "cohort.tsv", cohort_table(cohort).text());

@@ -5,4 +5,4 @@ patients := $(addprefix patient/,$(file < $(LIST)))
 .PHONY: all $(patients)
 all: $(patients)
 $(patients):
-	@"$${COHORT_HERE}/one_patient.sh" $(@F)
+	@exec "$${COHORT_HERE}/one_patient.sh" $(@F)

@@ -37,6 +37,7 @@ run_all() { # LIST
   jobs=$(num_jobs "$available" "$each")
   say "$(wc -l < "$1") patients, $jobs at a time ($(nproc) cores, $available MB available, $each MB a patient)"
   [ "${JOBS:-0}" -le "$jobs" ] || say "JOBS=$JOBS lowered to $jobs: more do not fit in memory"
-  LIST=$1 TOTAL=$(wc -l < "$1") make --no-print-directory -s -r -k -j "$jobs" -f "$here/each_patient.mk" ||
+  # Told to stop, this script ends and make with it, which tells its patients.
+  LIST=$1 TOTAL=$(wc -l < "$1") setpriv --pdeathsig TERM make --no-print-directory -s -r -k -j "$jobs" -f "$here/each_patient.mk" ||
     say "the engine reports an error; the tables say what is known"
 }

@@ -10,7 +10,7 @@ code=$state/exit_codes/$P
 
 rm -f "$code"
 start=$(date +%s)
-"$(dirname "$0")/../run_patient.sh" patient > "$log" 2>&1
+setpriv --pdeathsig TERM "$(dirname "$0")/../run_patient.sh" patient > "$log" 2>&1
 status=$?
 echo "$status" > "$code.new" && mv "$code.new" "$code"
 

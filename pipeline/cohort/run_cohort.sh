@@ -65,6 +65,7 @@ list_patients() {
 
 LC_ALL=C
 export LC_ALL
+[ -n "$RESULTS" ] || fail "RESULTS is empty: name the folder that results go to"
 [ -d "$DATA" ] || fail "DATA=$DATA: no such folder"
 [ -f "$config" ] || fail "CONFIG=$config: no such file"
 mkdir -p "$state/logs" "$state/exit_codes" || fail "RESULTS=$RESULTS cannot be written; name another"
@@ -83,5 +84,5 @@ if [ -s "$state/to_run.txt" ]; then
 else
   say "nothing to run"
 fi
-"$BIN/mammotwin-cohort" "$RESULTS" --data "$DATA" --patients "$state/selected.txt" \
+"$BIN/mammotwin-cohort" "$RESULTS" --patients "$state/selected.txt" \
   --front-door "${FRONT_DOOR:-make}" && [ -z "${engine_failed:-}" ]

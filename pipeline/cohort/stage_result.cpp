@@ -6,6 +6,8 @@
 #include <optional>
 #include <tuple>
 
+#include "pipeline/frame/sidecar.h"
+
 namespace mammotwin {
 namespace {
 
@@ -25,6 +27,14 @@ std::map<std::string, std::string> checksums(const json& list) {
   return sums;
 }
 
+void take_inputs(const json& list, StageResult& result) {
+  for (const json& file : list)
+    if (file.contains("path") && !file.at("path").get<std::string>().starts_with(".."))
+      result.inputs[file.at("path")] = file.at("sha256");
+    else
+      result.sources[file.at("role")] = file.at("sha256");
+}
+
 StageResult result_from(const json& sidecar, const std::string& product) {
   StageResult result;
   result.product = product;
@@ -32,7 +42,7 @@ StageResult result_from(const json& sidecar, const std::string& product) {
   result.status = sidecar.at("status");
   result.reasons = sidecar.at("reasons").get<std::vector<std::string>>();
   result.quality = sidecar.at("quality");
-  result.inputs = checksums(sidecar.at("inputs"));
+  take_inputs(sidecar.at("inputs"), result);
   result.outputs = checksums(sidecar.at("outputs"));
   result.seconds = sidecar.at("seconds");
   result.peak_memory_mb = sidecar.at("peak_memory_mb");
@@ -43,23 +53,24 @@ StageResult unreadable(const std::string& product, const std::string& why) {
   StageResult result;
   result.product = product;
   result.status = "refused";
-  result.reasons = {product + ".json: cannot be read as a sidecar (" + why +
-                    "); run this patient again with FORCE=1"};
+  result.reasons = {product + ".json: " + why};
   return result;
 }
 
-std::optional<StageResult> read_stage_result(const fs::path& file) {
-  const std::string product = file.stem().string();
+/// Markups are JSON, too: a file without a stage counts only where it should be a sidecar.
+bool is_another_file(const fs::path& file) {
+  if (file.stem().extension() == ".mrk") return true;
   std::ifstream in(file);
-  const json sidecar = json::parse(in, nullptr, false);
-  const bool stands_beside_a_product = fs::exists(file.parent_path() / product);
-  if (sidecar.is_discarded() && stands_beside_a_product) return unreadable(product, "not JSON");
-  if (!sidecar.is_object() || !sidecar.contains("stage")) return std::nullopt;
-  try {
-    return result_from(sidecar, product);
-  } catch (const json::exception& e) {
-    return unreadable(product, e.what());
-  }
+  const json value = json::parse(in, nullptr, false);
+  if (value.is_discarded()) return !fs::exists(file.parent_path() / file.stem());
+  return !value.is_object() || !value.contains("stage");
+}
+
+std::optional<StageResult> read_stage_result(const fs::path& file) {
+  if (is_another_file(file)) return std::nullopt;
+  const std::string product = file.stem().string();
+  const SidecarFile read = read_sidecar(file.parent_path() / product);
+  return read.sidecar ? result_from(*read.sidecar, product) : unreadable(product, read.fault);
 }
 
 }  // namespace

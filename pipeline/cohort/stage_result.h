@@ -15,7 +15,8 @@ struct StageResult {
   std::string status;  ///< "ok", "look", "refused", "not_converged"
   std::vector<std::string> reasons;
   nlohmann::json quality;
-  std::map<std::string, std::string> inputs;   ///< path, relative to the folder -> sha256
+  std::map<std::string, std::string> inputs;   ///< of the same folder: path -> sha256
+  std::map<std::string, std::string> sources;  ///< of elsewhere, the patient's: role -> sha256
   std::map<std::string, std::string> outputs;  ///< file name -> sha256
   double seconds = 0;
   double peak_memory_mb = 0;

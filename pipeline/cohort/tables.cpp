@@ -51,16 +51,6 @@ std::vector<std::string> figure_columns(const std::vector<PatientSummary>& cohor
   return columns;
 }
 
-/// Bare where a shell would take it as it stands, otherwise in single quotes.
-std::string shell_quoted(const std::string& word) {
-  const std::string plain =
-      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./-+,:@%";
-  if (!word.empty() && word.find_first_not_of(plain) == std::string::npos) return word;
-  std::string quoted = "'";
-  for (char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return quoted + "'";
-}
-
 }  // namespace
 
 std::string Table::text() const {
@@ -117,8 +107,7 @@ Table times_table(const std::vector<PatientSummary>& cohort) {
 }
 
 std::string RunAgain::command(const std::string& patient) const {
-  return front_door + " patient P=" + patient + " DATA=" + shell_quoted(data) +
-         " RESULTS=" + shell_quoted(results);
+  return front_door + " patient P=" + patient + R"( DATA="$DATA" RESULTS="$RESULTS")";
 }
 
 Table failed_table(const std::vector<PatientSummary>& cohort, const RunAgain& again) {

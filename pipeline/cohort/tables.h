@@ -26,8 +26,8 @@ Table times_table(const std::vector<PatientSummary>& cohort);
 /// How to call the front door so that one patient runs again.
 struct RunAgain {
   std::string front_door = "make";  ///< or "mammotwin" where the programs are installed
-  std::string data, results;
-  /// "make patient P=042 DATA=data RESULTS=results", quoted for a shell.
+  /// make patient P=042 DATA="$DATA" RESULTS="$RESULTS": tables travel and do not say what folders
+  /// are called here.
   std::string command(const std::string& patient) const;
 };
 

@@ -11,16 +11,20 @@ namespace {
 constexpr int kBadData = 1;
 
 struct Arguments {
-  std::filesystem::path results;
+  std::filesystem::path results, data;
 };
 
 void declare(CommandLine& command, Arguments& args) {
   command.option("results", args.results, "a patient's results folder").required();
+  command
+      .option("--data", args.data,
+              "the patient's folder, to check the inputs that came from there, too")
+      .existing_folder();
 }
 
 int run(const Arguments& args) {
   const std::string folder = args.results.string();
-  const Verification found = verify_results(args.results);
+  const Verification found = verify_results(args.results, args.data);
   for (const std::string& difference : found.differences)
     std::cout << folder << ": " << difference << "\n";
   std::cout << folder << ": " << found.files_checked << " inputs and products checked, "

@@ -1,6 +1,7 @@
 #include "pipeline/cohort/verify_results.h"
 
 #include <map>
+#include <set>
 #include <stdexcept>
 
 #include "pipeline/cohort/stage_result.h"
@@ -31,6 +32,14 @@ class Checksums {
   std::map<std::string, std::string> known_;
 };
 
+/// Of every file and folder in it, and of itself.
+std::set<std::string> checksums_below(const fs::path& folder) {
+  std::set<std::string> sums{sha256_of_path(folder)};
+  for (const auto& entry : fs::recursive_directory_iterator(folder))
+    if (entry.is_regular_file() || entry.is_directory()) sums.insert(sha256_of_path(entry.path()));
+  return sums;
+}
+
 /// Written under a temporary name by a run that was killed; the next run removes it.
 bool is_leftover(const fs::path& file) {
   return file.filename().string().rfind(".partial-", 0) == 0;
@@ -38,7 +47,7 @@ bool is_leftover(const fs::path& file) {
 
 }  // namespace
 
-Verification verify_results(const fs::path& folder) {
+Verification verify_results(const fs::path& folder, const fs::path& data) {
   const std::vector<StageResult> results = read_stage_results(folder);
   if (results.empty())
     throw std::runtime_error(folder.string() + ": holds no results; run this patient first");
@@ -50,7 +59,19 @@ Verification verify_results(const fs::path& folder) {
       if (!difference.empty()) verification.differences.push_back(difference + " (" + whose + ")");
     }
   };
+  const std::set<std::string> there =
+      data.empty() ? std::set<std::string>() : checksums_below(data);
+  int num_sources = 0;
+  const auto check_sources = [&](const StageResult& result) {
+    for (const auto& [role, sha256] : result.sources)
+      if (!data.empty() && !there.contains(sha256))
+        verification.differences.push_back("the " + role + " read for " + result.product +
+                                           ": no file of " + data.string() + " has its SHA-256 " +
+                                           sha256 + " (was it changed, or does it lie elsewhere?)");
+    num_sources += data.empty() ? 0 : static_cast<int>(result.sources.size());
+  };
   for (const StageResult& result : results) {
+    check_sources(result);
     if (result.stage.empty()) verification.differences.push_back(result.reasons.front());
     check(result.outputs, "written by " + result.stage);
     check(result.inputs, "read for " + result.product);
@@ -59,7 +80,7 @@ Verification verify_results(const fs::path& folder) {
     if (is_leftover(entry.path()))
       verification.differences.push_back(entry.path().filename().string() +
                                          ": half-written, left by a run that was killed");
-  verification.files_checked = checksums.num_files();
+  verification.files_checked = checksums.num_files() + num_sources;
   return verification;
 }
 

@@ -12,7 +12,9 @@ struct Verification {
 };
 
 /// Recomputes the checksum of every input and output that the sidecars of a patient's results
-/// folder name. Throws std::runtime_error if the folder holds no sidecar.
-Verification verify_results(const std::filesystem::path& folder);
+/// folder speak of. `data`: the patient's folder, in which inputs of elsewhere, whose names results
+/// do not keep, are found by their checksums; where it is empty they are not checked. Throws
+/// std::runtime_error if the folder holds no sidecar.
+Verification verify_results(const std::filesystem::path& folder, const std::filesystem::path& data);
 
 }  // namespace mammotwin

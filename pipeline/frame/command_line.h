@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "pipeline/frame/process.h"
+#include "pipeline/frame/reason.h"
 
 namespace CLI {
 class App;
@@ -72,7 +73,7 @@ int run_plain_command(int argc, char** argv, const std::string& name, const std:
   try {
     return run(args);
   } catch (const std::exception& error) {
-    std::cerr << name << ": " << error.what() << std::endl;
+    std::cerr << name << ": " << reason_of(error) << std::endl;
     return 1;
   }
 }

@@ -6,8 +6,11 @@
 
 #include <csignal>
 #include <cstdlib>
+#include <string>
 #include <string_view>
 
+#include "pipeline/frame/private_names.h"
+#include "pipeline/frame/products.h"
 #include "solver/newton/blas_kernels.h"
 
 namespace mammotwin {
@@ -19,6 +22,15 @@ constexpr char kEndsWithParent[] = "MAMMOTWIN_ENDS_WITH_ITS_PARENT";
 
 bool names_a_path(std::string_view argument) {
   return argument.find('/') != std::string_view::npos && argument.front() != '-';
+}
+
+std::string said_path(const std::string& argument, const fs::path& folder,
+                      const PrivateNames* names) {
+  const fs::path base = whole_path(folder);
+  const std::string relative = whole_path(argument).lexically_relative(base).string();
+  if (!names || !relative.starts_with("..")) return relative;
+  const std::string role = names->role_of(argument);
+  return role.empty() ? "file" : role;
 }
 
 }  // namespace
@@ -39,16 +51,10 @@ double peak_memory_mb() {
   return usage.ru_maxrss / 1024.0;  // ru_maxrss is in KiB on Linux
 }
 
-std::string command_text(int argc, char** argv, const fs::path& folder) {
-  const fs::path base = fs::weakly_canonical(fs::absolute(folder));
+std::string command_text(int argc, char** argv, const fs::path& folder, const PrivateNames* names) {
   std::string text = fs::path(argv[0]).filename().string();
-  for (int i = 1; i < argc; ++i) {
-    const std::string argument = argv[i];
-    text +=
-        " " + (names_a_path(argument)
-                   ? fs::weakly_canonical(fs::absolute(argument)).lexically_relative(base).string()
-                   : argument);
-  }
+  for (int i = 1; i < argc; ++i)
+    text += " " + (names_a_path(argv[i]) ? said_path(argv[i], folder, names) : argv[i]);
   return text;
 }
 

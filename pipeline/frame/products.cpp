@@ -17,9 +17,8 @@ namespace {
 namespace fs = std::filesystem;
 
 void rename_or_throw(const fs::path& from, const fs::path& to) {
-  std::error_code error;
-  fs::create_directories(folder_of(to), error);
-  fs::rename(from, to, error);
+  std::error_code error = make_durable_folders(folder_of(to));
+  if (!error) fs::rename(from, to, error);
   if (error) throw std::runtime_error(to.string() + ": cannot be written: " + error.message());
 }
 
@@ -36,9 +35,21 @@ fs::path folder_of(const fs::path& path) {
   return path.has_parent_path() ? path.parent_path() : fs::path(".");
 }
 
-Products::Products(fs::path main_product) : main_(std::move(main_product)) {
+fs::path whole_path(const fs::path& path) { return fs::weakly_canonical(fs::absolute(path)); }
+
+std::error_code make_durable_folders(const fs::path& folder) {
   std::error_code error;
-  fs::create_directories(folder(), error);
+  if (fs::is_directory(folder, error)) return {};
+  const fs::path above = folder_of(folder);
+  if (above != folder)
+    if (const std::error_code failed = make_durable_folders(above)) return failed;
+  fs::create_directory(folder, error);
+  if (!error) make_durable(above);
+  return error;
+}
+
+Products::Products(fs::path main_product) : main_(std::move(main_product)) {
+  const std::error_code error = make_durable_folders(folder());
   if (error || access(folder().c_str(), W_OK) != 0)
     throw std::runtime_error(folder().string() + ": the results folder cannot be written: " +
                              (error ? error.message() : std::strerror(errno)) +
@@ -59,6 +70,7 @@ fs::path Products::write(const std::string& name) {
     const std::string main_name = main_.filename().string();
     remove_partial_leftovers(folder(), main_name);
     const fs::path own = partial_path(folder(), main_name);
+    own_folder_ends_ = std::make_unique<EndsWithTheRun>(own);
     make_own_folder(own);
     own_folder_ = own;
   }
@@ -95,6 +107,7 @@ void write_text_atomically(const fs::path& path, const std::string& text) {
   const fs::path folder = folder_of(path);
   remove_partial_leftovers(folder, path.filename().string());
   const fs::path partial = partial_path(folder, path.filename().string());
+  const EndsWithTheRun ends(partial);
   write_new_file(partial, text);
   try {
     rename_or_throw(partial, path);

@@ -1,14 +1,26 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
+
+#include "pipeline/frame/stop_signals.h"
 
 namespace mammotwin {
 
 /// The folder that a file stands or will stand in; "." for a bare name.
 std::filesystem::path folder_of(const std::filesystem::path& file);
+
+/// Absolute, with links followed, also where nothing is there yet (weakly_canonical alone leaves a
+/// relative path of which nothing exists relative).
+std::filesystem::path whole_path(const std::filesystem::path& path);
+
+/// Makes a folder and those above it; a loss of power takes none of them away. Returns why it could
+/// not.
+std::error_code make_durable_folders(const std::filesystem::path& folder);
 
 /// Files that appear together or not at all: each is written in a folder of this run's own, beside
 /// the products and closed to other users, and renamed by `commit`. What is not committed is
@@ -36,6 +48,7 @@ class Products {
  private:
   std::filesystem::path main_;
   std::filesystem::path own_folder_;  ///< empty before the first `write`
+  std::unique_ptr<EndsWithTheRun> own_folder_ends_;
   std::vector<std::pair<std::string, std::filesystem::path>> pending_;
 };
 

@@ -161,7 +161,7 @@ void Settings::path(std::string key, std::optional<std::filesystem::path>& varia
   add(
       std::move(key), "path", Range{}, std::move(help),
       [&variable](const json& v) { variable = checked_text(v); },
-      [&variable] { return variable ? json(variable->filename().string()) : json(); });
+      [&variable] { return variable ? json("given") : json(); });
 }
 
 void Settings::point(std::string key, std::optional<Eigen::Vector3d>& variable, Range range,

@@ -56,6 +56,7 @@ class Settings {
   void text(std::string key, std::optional<std::string>& variable, std::string help);
   /// Text that must not be written anywhere (an identifier): a sidecar gets a hash of it.
   void private_text(std::string key, std::optional<std::string>& variable, std::string help);
+  /// A file or folder. Its name may tell who the patient is: a sidecar says only that it is given.
   void path(std::string key, std::optional<std::filesystem::path>& variable, std::string help);
   void point(std::string key, std::optional<Eigen::Vector3d>& variable, Range range,
              std::string help);

@@ -6,6 +6,7 @@
 
 #include "pipeline/frame/checksum.h"
 #include "pipeline/frame/products.h"
+#include "pipeline/frame/sidecar_check.h"
 
 namespace mammotwin {
 namespace {
@@ -13,11 +14,8 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-/// A relative path of which nothing exists yet would stay relative in weakly_canonical.
-fs::path whole(const fs::path& path) { return fs::weakly_canonical(fs::absolute(path)); }
-
 std::string relative_to(const fs::path& folder, const fs::path& path) {
-  return whole(path).lexically_relative(whole(folder)).generic_string();
+  return whole_path(path).lexically_relative(whole_path(folder)).generic_string();
 }
 
 bool outputs_are_intact(const json& sidecar, const fs::path& folder) {
@@ -35,9 +33,14 @@ std::string without_places(const std::string& reason) {
   return std::regex_replace(reason, absolute, "$1$2");
 }
 
-json read_json(const fs::path& path) {
-  std::ifstream in(path);
-  return in ? json::parse(in, nullptr, false) : json();
+/// Discarded where it is not JSON, or nested as no sidecar is.
+json parse_shallow(std::istream& in) {
+  constexpr int deepest = 64;
+  bool too_deep = false;
+  json value = json::parse(
+      in, [&](int depth, json::parse_event_t, json&) { return !(too_deep |= depth > deepest); },
+      false);
+  return too_deep ? json(json::value_t::discarded) : value;
 }
 
 bool is_of(const json& sidecar, const Provenance& provenance) {
@@ -63,21 +66,39 @@ json provenance_json(const Provenance& p) {
 }
 
 Provenance make_provenance(const std::string& stage, const json& parameters,
-                           const std::vector<fs::path>& inputs, const fs::path& product) {
+                           const std::vector<StageInput>& inputs, const fs::path& product) {
   Provenance p{stage, MAMMOTWIN_VERSION, sha256_of_path("/proc/self/exe"), parameters,
                json::array()};
-  for (const fs::path& input : inputs) {
-    if (!fs::exists(input)) throw std::runtime_error(input.string() + ": no such file or folder");
-    p.inputs.push_back(
-        {{"path", relative_to(folder_of(product), input)}, {"sha256", sha256_of_path(input)}});
+  for (const StageInput& input : inputs) {
+    if (!fs::exists(input.path))
+      throw std::runtime_error(input.path.string() + ": no such file or folder");
+    json entry{{"role", input.role}, {"sha256", sha256_of_path(input.path)}};
+    if (input.path_may_be_said) entry["path"] = relative_to(folder_of(product), input.path);
+    p.inputs.push_back(std::move(entry));
   }
   return p;
 }
 
 void write_sidecar(const fs::path& product, const json& sidecar) {
   constexpr int indent = 1;
-  const std::string text = sidecar.dump(indent, ' ', false, json::error_handler_t::replace);
-  write_text_atomically(sidecar_path(product), text + "\n");
+  write_text_atomically(sidecar_path(product), sealed(sidecar).dump(indent) + "\n");
+}
+
+SidecarFile read_sidecar(const fs::path& product) {
+  constexpr std::uintmax_t most_bytes = 64u << 20;  // the largest has some megabytes
+  const fs::path path = sidecar_path(product);
+  std::error_code none;
+  if (!fs::exists(path, none)) return {};
+  const std::string again = " (run the stage again)";
+  if (!fs::is_regular_file(path, none) || fs::file_size(path, none) > most_bytes)
+    return {{}, "it is no file of a sidecar's size" + again};
+  std::ifstream in(path);
+  json sidecar = parse_shallow(in);
+  if (sidecar.is_discarded()) return {{}, "it is not JSON; expected a sidecar" + again};
+  if (const std::string fault = schema_fault(sidecar); !fault.empty()) return {{}, fault + again};
+  if (!seal_holds(sidecar))
+    return {{}, "it was edited after it was written: its checksum differs" + again};
+  return {std::move(sidecar), {}};
 }
 
 fs::path sidecar_path(const fs::path& product) {
@@ -86,20 +107,18 @@ fs::path sidecar_path(const fs::path& product) {
 }
 
 std::optional<json> current_sidecar(const fs::path& product, const Provenance& provenance) {
-  const json sidecar = read_json(sidecar_path(product));
-  if (!sidecar.is_object() || !is_usable(sidecar) || !is_of(sidecar, provenance))
-    return std::nullopt;
-  if (!sidecar.contains("outputs") || !outputs_are_intact(sidecar, folder_of(product)))
-    return std::nullopt;
+  const auto sidecar = read_sidecar(product).sidecar;
+  if (!sidecar || !is_usable(*sidecar) || !is_of(*sidecar, provenance)) return std::nullopt;
+  if (!outputs_are_intact(*sidecar, folder_of(product))) return std::nullopt;
   return sidecar;
 }
 
 std::vector<std::string> former_outputs(const fs::path& product) {
-  const json sidecar = read_json(sidecar_path(product));
   std::vector<std::string> names;
-  if (!sidecar.is_object() || !sidecar.contains("outputs")) return names;
-  for (const json& output : sidecar["outputs"]) {
-    const fs::path name = fs::path(output.value("path", "")).lexically_normal();
+  const auto sidecar = read_sidecar(product).sidecar;
+  if (!sidecar) return names;
+  for (const json& output : (*sidecar)["outputs"]) {
+    const fs::path name = fs::path(output["path"].get<std::string>()).lexically_normal();
     if (!name.empty() && name.is_relative() && *name.begin() != "..")
       names.push_back(name.generic_string());
   }
@@ -107,10 +126,9 @@ std::vector<std::string> former_outputs(const fs::path& product) {
 }
 
 std::optional<json> standing_failure(const fs::path& product, const Provenance& provenance) {
-  const json sidecar = read_json(sidecar_path(product));
-  if (!sidecar.is_object() || is_usable(sidecar) || !is_of(sidecar, provenance))
-    return std::nullopt;
-  if (sidecar.value("starved", true)) return std::nullopt;
+  const auto sidecar = read_sidecar(product).sidecar;
+  if (!sidecar || is_usable(*sidecar) || !is_of(*sidecar, provenance)) return std::nullopt;
+  if (sidecar->value("starved", true)) return std::nullopt;
   return sidecar;
 }
 
@@ -121,7 +139,7 @@ json make_sidecar(const fs::path& product, const Provenance& provenance, const O
   sidecar["reasons"] = json::array();
   for (const std::string& reason : outcome.reasons)
     sidecar["reasons"].push_back(without_places(reason));
-  sidecar["quality"] = outcome.quality;
+  sidecar["quality"] = outcome.quality.is_null() ? json::object() : outcome.quality;
   sidecar["command"] = usage.command;
   sidecar["seconds"] = usage.seconds;
   sidecar["peak_memory_mb"] = usage.peak_memory_mb;

@@ -4,9 +4,13 @@
 #include <chrono>
 #include <iostream>
 
+#include "pipeline/frame/private_names.h"
 #include "pipeline/frame/process.h"
+#include "pipeline/frame/product_lock.h"
+#include "pipeline/frame/reason.h"
 #include "pipeline/frame/settings_table.h"
 #include "pipeline/frame/sidecar.h"
+#include "pipeline/frame/stop_signals.h"
 
 namespace mammotwin {
 namespace {
@@ -68,13 +72,48 @@ bool lacks_room(const fs::path& folder) {
   return error || space.available < least_bytes;
 }
 
+/// What this run's files are called, and whether its products may say so.
+struct Naming {
+  PrivateNames names;
+  bool kept = false;
+
+  Outcome said(Outcome outcome) const {
+    if (kept) return outcome;
+    for (std::string& reason : outcome.reasons) reason = names.without(reason);
+    outcome.quality = names.without_in(std::move(outcome.quality));
+    return outcome;
+  }
+};
+
+/// `given`: the settings file of the command line, if any, already read.
+Naming naming_of(const SettingsFile& file, const fs::path& product,
+                 const std::optional<fs::path>& given) {
+  Naming naming{{}, file.keeps_names()};
+  PrivateNames& names = naming.names;
+  for (const NamedFile& named : file.named_files()) {
+    names.add(role_of_key(named.key), file.resolve(named.path));
+    names.add_text(role_of_key(named.key), named.path.string());
+  }
+  for (const fs::path& folder : {folder_of(product), fs::absolute(folder_of(product))})
+    names.add_text("results", folder.lexically_normal().string());
+  if (!given) return naming;
+  for (const fs::path& form : {*given, fs::absolute(*given), given->filename()})
+    names.add_text(file.subject() + ".toml", form.lexically_normal().string());
+  const std::string their_folder = "the " + file.subject() + "'s folder";
+  std::error_code none;
+  if (!fs::equivalent(folder_of(*given), folder_of(product), none))
+    names.add_files_of(their_folder, folder_of(*given));
+  for (const fs::path& folder : {folder_of(*given), fs::absolute(folder_of(*given))})
+    names.add_text(their_folder, folder.lexically_normal().string());
+  return naming;
+}
+
 struct Attempt {
   Outcome outcome;
   Usage usage;
 };
 
-Attempt attempt(const Stage& stage, Products& products, const Checkpoint& checkpoint, int argc,
-                char** argv) {
+Attempt attempt(const Stage& stage, Products& products, const Checkpoint& checkpoint) {
   const auto start = std::chrono::steady_clock::now();
   Attempt a;
   ProgressLine progress(stage.name);
@@ -86,28 +125,34 @@ Attempt attempt(const Stage& stage, Products& products, const Checkpoint& checkp
     a.outcome = {Status::refused, {"there is not enough memory for this input"}, {}};
     a.usage.starved = true;
   } catch (const std::exception& e) {
-    a.outcome = {Status::refused, {e.what()}, nlohmann::json::object()};
+    a.outcome = {Status::refused, {reason_of(e)}, nlohmann::json::object()};
     a.usage.starved = lacks_room(products.folder());
   }
   progress.finish();
   a.usage.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   a.usage.peak_memory_mb = peak_memory_mb();
-  a.usage.command = command_text(argc, argv, products.folder());
   return a;
 }
 
-int run_parsed(const Stage& stage, const fs::path& product, const Provenance& provenance, int argc,
-               char** argv) {
+/// The command line as a product may say it.
+std::string said_command(int argc, char** argv, const fs::path& folder, const Naming& naming) {
+  if (naming.kept) return command_text(argc, argv, folder, nullptr);
+  return naming.names.without(command_text(argc, argv, folder, &naming.names));
+}
+
+int run_parsed(const Stage& stage, const fs::path& product, const Provenance& provenance,
+               const Naming& naming, const std::string& command) {
   Products products(product);
   const Checkpoint checkpoint(product, provenance);
-  const Attempt a = attempt(stage, products, checkpoint, argc, argv);
+  Attempt a = attempt(stage, products, checkpoint);
+  a.usage.command = command;
   std::vector<std::string> written;
   if (a.outcome.usable()) {
     written = products.names();
     products.commit();
   }
   remove_stale_outputs(product, written);
-  const auto sidecar = make_sidecar(product, provenance, a.outcome, written, a.usage);
+  const auto sidecar = make_sidecar(product, provenance, naming.said(a.outcome), written, a.usage);
   write_sidecar(product, sidecar);
   if (a.outcome.status != Status::refused) checkpoint.remove();
   say_outcome(stage, product, a.outcome, a.usage.seconds);
@@ -116,12 +161,13 @@ int run_parsed(const Stage& stage, const fs::path& product, const Provenance& pr
 }
 
 /// A typing error must not cost a finished product: where there is one, only the message is given.
-int refuse_before_running(const Stage& stage, const fs::path& product, const std::string& reason) {
+int refuse_before_running(const Stage& stage, const fs::path& product, const Naming& naming,
+                          const std::string& reason) {
   std::cerr << stage.name << ": refused: " << reason << "\n";
   if (fs::exists(product)) return kBadData;
   try {
     Products products(product);
-    const Outcome outcome{Status::refused, {reason}, nlohmann::json::object()};
+    const Outcome outcome = naming.said({Status::refused, {reason}, nlohmann::json::object()});
     const auto provenance = make_provenance(stage.name, nlohmann::json::object(), {}, product);
     write_sidecar(product, make_sidecar(product, provenance, outcome, {}, {}));
   } catch (const std::exception& e) {
@@ -139,21 +185,54 @@ int say_standing_failure(const Stage& stage, const nlohmann::json& sidecar) {
   return exit_code(status == name_of(Status::refused) ? Status::refused : Status::not_converged);
 }
 
+/// How a product may speak of a file: one beside it that no settings file names is another stage's.
+StageInput as_input(const fs::path& path, const std::string& otherwise, const fs::path& product,
+                    Naming& naming) {
+  std::string role = naming.names.role_of(path);
+  std::error_code none;
+  const bool ours = role.empty() && fs::equivalent(folder_of(path), folder_of(product), none);
+  if (ours) role = path.filename().string();
+  if (role.empty()) naming.names.add(role = otherwise, path);
+  return {role, path, ours || naming.kept};
+}
+
 Provenance plan_provenance(const Stage& stage, const StageDeclaration& declaration,
-                           const SettingsFile& file, const Settings& settings) {
+                           const SettingsFile& file, const Settings& settings, Naming& naming) {
   const StagePlan plan = stage.plan();
-  std::vector<fs::path> inputs;
-  for (const fs::path* input : declaration.inputs()) inputs.push_back(*input);
-  inputs.insert(inputs.end(), plan.inputs.begin(), plan.inputs.end());
-  nlohmann::json parameters = settings.parameters(plan.setting_prefixes);
-  parameters.update(file.list_parameters(plan.setting_prefixes));
-  return make_provenance(stage.name, parameters, inputs, declaration.product_path());
+  const fs::path& product = declaration.product_path();
+  std::vector<StageInput> inputs;
+  for (const auto& [name, path] : declaration.inputs())
+    inputs.push_back(as_input(*path, name, product, naming));
+  for (const fs::path& path : plan.inputs)
+    inputs.push_back(as_input(path, "input", product, naming));
+  std::vector<std::string> prefixes = plan.setting_prefixes;
+  prefixes.push_back("privacy.");
+  nlohmann::json parameters = settings.parameters(prefixes);
+  parameters.update(file.list_parameters(prefixes));
+  return make_provenance(stage.name, parameters, inputs, product);
+}
+
+/// A pipe or a device might never end.
+void require_ordinary_files(const SettingsFile& file) {
+  for (const NamedFile& named : file.named_files()) {
+    const fs::path path = file.resolve(named.path);
+    std::error_code none;
+    if (fs::exists(path, none) && !fs::is_regular_file(path, none) && !fs::is_directory(path, none))
+      throw std::runtime_error(named.key + ": " + path.string() +
+                               ": is a pipe or a device; expected a file or a folder");
+  }
+}
+
+void say_edited(const Stage& stage, const fs::path& product) {
+  if (const std::string fault = read_sidecar(product).fault; !fault.empty())
+    std::cerr << stage.name << ": " << sidecar_path(product).string() << ": " << fault << "\n";
 }
 
 }  // namespace
 
 int run_stage(int argc, char** argv, SettingsFile& file, const Stage& stage) {
   prepare_process(argv);
+  stop_without_leftovers();
   Settings settings;
   file.declare(settings);
 
@@ -164,10 +243,11 @@ int run_stage(int argc, char** argv, SettingsFile& file, const Stage& stage) {
   declare_common(command, file, settings, common);
   if (const auto code = command.parse(argc, argv)) return *code;
   const fs::path product = declaration.product_path();
+  Naming naming = naming_of(file, product, common.settings_file);
   try {
     if (common.settings_file) file.read(*common.settings_file, settings);
   } catch (const std::exception& e) {
-    return refuse_before_running(stage, product, e.what());
+    return refuse_before_running(stage, product, naming, reason_of(e));
   }
   try {
     for (const auto& given : declaration.given())
@@ -176,8 +256,13 @@ int run_stage(int argc, char** argv, SettingsFile& file, const Stage& stage) {
     std::cerr << stage.name << ": " << e.what() << "\n";
     return kBadUsage;
   }
+  naming = naming_of(file, product, common.settings_file);
   try {
-    const Provenance provenance = plan_provenance(stage, declaration, file, settings);
+    require_ordinary_files(file);
+    const ProductLock lock(product, [&] {
+      std::cerr << stage.name << ": another run makes " << product.string() << "; waiting for it\n";
+    });
+    const Provenance provenance = plan_provenance(stage, declaration, file, settings, naming);
     if (!common.force && current_sidecar(product, provenance)) {
       std::cerr << stage.name << ": " << product.string() << " is up to date\n";
       say_data(stage);
@@ -186,9 +271,11 @@ int run_stage(int argc, char** argv, SettingsFile& file, const Stage& stage) {
     if (!common.force)
       if (const auto failure = standing_failure(product, provenance))
         return say_standing_failure(stage, *failure);
-    return run_parsed(stage, product, provenance, argc, argv);
+    say_edited(stage, product);
+    return run_parsed(stage, product, provenance, naming,
+                      said_command(argc, argv, folder_of(product), naming));
   } catch (const std::exception& e) {
-    return refuse_before_running(stage, product, e.what());
+    return refuse_before_running(stage, product, naming, reason_of(e));
   }
 }
 

@@ -22,7 +22,7 @@ std::string bracketed_range(const Setting& setting) {
 
 void StageDeclaration::input(const std::string& name, fs::path& variable, const std::string& help) {
   command_.option(name, variable, help).required();
-  inputs_.push_back(&variable);
+  inputs_.emplace_back(name, &variable);
 }
 
 void StageDeclaration::product(const std::string& name, fs::path& variable,

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "pipeline/frame/command_line.h"
@@ -27,14 +28,17 @@ class StageDeclaration {
   struct Given {
     std::string flag, key, text;
   };
-  const std::vector<std::filesystem::path*>& inputs() const { return inputs_; }
+  /// Name on the command line and path.
+  const std::vector<std::pair<std::string, std::filesystem::path*>>& inputs() const {
+    return inputs_;
+  }
   std::filesystem::path& product_path() const { return *product_; }
   std::vector<Given> given() const;
 
  private:
   CommandLine& command_;
   Settings& settings_;
-  std::vector<std::filesystem::path*> inputs_;
+  std::vector<std::pair<std::string, std::filesystem::path*>> inputs_;
   std::filesystem::path* product_ = nullptr;
   std::vector<std::shared_ptr<Given>> options_;
 };

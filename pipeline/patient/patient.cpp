@@ -11,6 +11,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
+constexpr char kDefaultMri[] = "mri";  // a folder beside patient.toml
 constexpr ForeignTissue kTissues[] = {ForeignTissue::air,        ForeignTissue::skin,
                                       ForeignTissue::fat,        ForeignTissue::fibroglandular,
                                       ForeignTissue::transition, ForeignTissue::muscle,
@@ -45,6 +46,10 @@ void Patient::declare(Settings& settings) {
 }
 
 void Patient::declare_inputs(Settings& s) {
+  s.flag(
+      "privacy.keep_names", keeps_names_,
+      "results name input files as they are called; else by role and checksum, as hospitals name "
+      "files after patients");
   s.choice("side", side_, {{"left", Side::left}, {"right", Side::right}},
            "the breast; default: the lesions' side");
   s.path("mri.path", mri_, "DICOM folder, NIfTI, NRRD or MHA; default: the folder mri");
@@ -173,30 +178,38 @@ void Patient::read_lesions(const std::string& file, const json& list) {
   }
 }
 
-void Patient::require_files() const {
-  const auto require = [&](const std::string& key, const std::optional<fs::path>& path) {
-    if (path && !fs::exists(resolve(*path)))
-      throw std::runtime_error(file_.string() + ": " + key + ": " + path->string() +
-                               ": no such file or folder (paths are absolute, or relative to " +
-                               file_.filename().string() + ")");
+std::vector<NamedFile> Patient::named_files() const {
+  std::vector<NamedFile> files;
+  const auto add = [&](const std::string& key, const std::optional<fs::path>& path) {
+    if (path) files.push_back({key, *path});
   };
-  require("mri.path", mri_);
-  require("mri.pre", pre_);
-  require("labels.path", labels_);
-  require("nipple.markups", nipple_markups_);
-  require("scan.path", scan_);
-  require("unload.second_state", gravity.second_state);
-  require("compress.paddle_stl", compression.paddle_stl);
-  require("compress.support_stl", compression.support_stl);
+  add("mri.path", mri_);
+  add("mri.pre", pre_);
+  add("labels.path", labels_);
+  add("nipple.markups", nipple_markups_);
+  add("scan.path", scan_);
+  add("unload.second_state", gravity.second_state);
+  add("compress.paddle_stl", compression.paddle_stl);
+  add("compress.support_stl", compression.support_stl);
   for (const char* name : {"cc", "mlo"}) {
-    require("views." + std::string(name) + ".mammogram", view(name).mammogram);
-    require("views." + std::string(name) + ".outline", view(name).outline);
+    add("views." + std::string(name) + ".mammogram", view(name).mammogram);
+    add("views." + std::string(name) + ".outline", view(name).outline);
   }
   for (std::size_t n = 0; n < lesions_.size(); ++n) {
     const std::string key = "lesions[" + std::to_string(n) + "]";
-    require(key + ".markups", lesions_[n].markups);
-    require(key + ".labels", lesions_[n].labels);
+    add(key + ".markups", lesions_[n].markups);
+    add(key + ".labels", lesions_[n].labels);
   }
+  if (!mri_ && fs::exists(resolve(kDefaultMri))) files.push_back({"mri.path", kDefaultMri});
+  return files;
+}
+
+void Patient::require_files() const {
+  for (const NamedFile& file : named_files())
+    if (!fs::exists(resolve(file.path)))
+      throw std::runtime_error(file_.string() + ": " + file.key + ": " + file.path.string() +
+                               ": no such file or folder (paths are absolute, or relative to " +
+                               file_.filename().string() + ")");
 }
 
 Settings Patient::list_settings() const {
@@ -244,7 +257,7 @@ LabelValues Patient::label_values() const {
 
 SegmentInput Patient::segment_input() const {
   SegmentInput input;
-  const fs::path default_mri = resolve("mri");
+  const fs::path default_mri = resolve(kDefaultMri);
   if (mri_)
     input.mri = resolve(*mri_);
   else if (fs::exists(default_mri))

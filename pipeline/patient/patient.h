@@ -72,13 +72,16 @@ class Patient : public SettingsFile {
   /// there, so that nothing runs before all of them are.
   void require_files() const;
 
+  std::vector<NamedFile> named_files() const override;
+  bool keeps_names() const override { return keeps_names_; }
+
   Settings list_settings() const override;
 
   /// Parameters that come in lists (lesions) below these prefixes, in the sidecar's form.
   nlohmann::json list_parameters(const std::vector<std::string>& prefixes) const override;
 
   /// A path of patient.toml, which may be relative to it.
-  std::filesystem::path resolve(const std::filesystem::path& path) const;
+  std::filesystem::path resolve(const std::filesystem::path& path) const override;
 
  private:
   void declare_inputs(Settings& settings);
@@ -90,6 +93,7 @@ class Patient : public SettingsFile {
   LabelValues label_values() const;
 
   std::filesystem::path file_;
+  bool keeps_names_ = false;
   std::optional<Side> side_;
   std::optional<std::filesystem::path> mri_, pre_, labels_, scan_, nipple_markups_;
   ScannedSkinOptions scan_options_;

@@ -220,7 +220,8 @@ void add_provenance(const PatientResults& results, json& page) {
     const json& s = stage.sidecar;
     json inputs = json::array();
     for (const json& input : s.value("inputs", json::array()))
-      inputs.push_back({{"path", input.value("path", "")}, {"sha256", input.value("sha256", "")}});
+      inputs.push_back({{"file", input.value("path", input.value("role", ""))},
+                        {"sha256", input.value("sha256", "")}});
     page["provenance"].push_back(
         {{"product", stage.product},
          {"stage", s.value("stage", "")},

@@ -3,6 +3,7 @@
 #include <functional>
 #include <stdexcept>
 
+#include "pipeline/frame/sidecar.h"
 #include "pipeline/report/patient_results.h"
 #include "registration/export/detector_record.h"
 #include "segmentation/files/segmentation_file.h"
@@ -18,13 +19,11 @@ constexpr const char* kViews[] = {"cc", "mlo"};
 
 void read_sidecars(const fs::path& folder, PatientResults& results) {
   for (const char* product : kProductsInOrder) {
-    std::ifstream in(folder / (std::string(product) + ".json"));
-    if (!in) continue;
-    nlohmann::json sidecar = nlohmann::json::parse(in, nullptr, false);
-    if (sidecar.is_object())
-      results.stages.push_back({product, std::move(sidecar)});
-    else
-      results.notes.push_back(std::string(product) + ".json is not a JSON object");
+    SidecarFile file = read_sidecar(folder / product);
+    if (file.sidecar)
+      results.stages.push_back({product, std::move(*file.sidecar)});
+    else if (!file.fault.empty())
+      results.notes.push_back(std::string(product) + ".json is not used: " + file.fault);
   }
 }
 

@@ -210,6 +210,16 @@ Series choose_series(std::vector<Series> all, const std::string& wanted,
   return matching.front();
 }
 
+/// One patient's identifier in every slice: an archive that is wrongly sorted mixes two.
+void check_slices_of_one_patient(const Series& series) {
+  std::set<std::string> patients;
+  for (const DicomSlice& slice : series.slices) patients.insert(slice.patient_id);
+  if (patients.size() > 1)
+    throw std::runtime_error(series.name() + " holds slices of " + std::to_string(patients.size()) +
+                             " patients (by PatientID); expected one patient's (take the others "
+                             "out, or export the series again)");
+}
+
 /// Leaves the slices of one phase in the series.
 void choose_phase(Series& series, const std::string& wanted, std::vector<std::string>& notes) {
   std::vector<SlicePlacement> placements;
@@ -283,6 +293,7 @@ DicomVolume read_dicom_series(const fs::path& path, const std::optional<std::str
       out.notes.push_back(std::to_string(set_aside) +
                           " file(s) that are not MR images were left aside");
     Series chosen = choose_series(std::move(all), wanted, out.notes);
+    check_slices_of_one_patient(chosen);
     choose_phase(chosen, wanted_phase, out.notes);
     out.geometry_known = chosen.slices.front().geometry_known;
     out.patient_position = chosen.slices.front().patient_position;

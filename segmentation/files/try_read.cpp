@@ -29,8 +29,10 @@ int main(int argc, char** argv) {
   const std::string_view trial = argc == 2 ? argv[1] : "";
   if (trial != "raw_header" && trial != "dicom") return 2;
   prctl(PR_SET_PDEATHSIG, SIGKILL);
-  const rlimit no_core{0, 0};
+  constexpr rlim_t most_memory = rlim_t{4} << 30;  // twice the largest image that is read
+  const rlimit no_core{0, 0}, memory{most_memory, most_memory};
   setrlimit(RLIMIT_CORE, &no_core);
+  setrlimit(RLIMIT_AS, &memory);
   std::vector<std::string> files;
   for (std::string name; std::getline(std::cin, name, '\0');) files.push_back(name);
   for (const std::string& file : files) {

@@ -32,4 +32,11 @@ void expect_nothing_lost_to_kills(const ChainRun& chain, int kills, int most_a_c
                                   double interval_s,
                                   const std::map<std::string, std::string>& expected);
 
+/// Kills each stage of a finished chain at single steps in the results folder (files opened,
+/// written, renamed, removed, fsync; fault_layer.cpp), `kills` of them spread evenly over all, from
+/// what the stages before have left; run again, it must hold the same products, byte for byte, and
+/// nothing half-written. `scratch`: for the layer and for copies.
+void expect_nothing_lost_at_steps(const ChainRun& chain, int kills,
+                                  const std::filesystem::path& scratch);
+
 }  // namespace mammotwin

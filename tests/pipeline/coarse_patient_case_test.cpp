@@ -1,11 +1,17 @@
-// A coarse patient whose DICOM headers name a person, through the real stages: no output tells who
-// it is, and a run that is killed and begun again ends as an undisturbed one does.
+// A coarse patient whose headers, files and folders name a person, through the real stages: no
+// output tells who it is, and a run that is killed and begun again ends as an undisturbed one does.
+
+#include <dcmtk/config/osconfig.h>
+#include <dcmtk/dcmdata/dctk.h>
+#include <zlib.h>
 
 #include <chrono>
 
+#include "registration/export/png_file.h"
 #include "segmentation/files/segmentation_file.h"
 #include "tests/pipeline/chain_run.h"
 #include "tests/pipeline/kills.h"
+#include "tests/pipeline/opened_streams.h"
 #include "tests/pipeline/patient_case.h"
 #include "tests/registration/mammogram_dicom.h"
 #include "tests/segmentation/files/dicom_writer.h"
@@ -36,55 +42,189 @@ Volume<float> coarse(const Volume<float>& fine) {
   return image;
 }
 
+/// What names of files and folders, comments and private tags say, besides planted_identity.
+std::vector<std::string> planted_words() {
+  std::vector<std::string> words = planted_identity();
+  for (const char* word :
+       {"PLANTEDFOLDER", "PLANTEDDATA", "PLANTEDSLICE", "PLANTEDMLO", "PLANTEDCC", "PLANTEDMAP",
+        "PLANTEDTEXT", "PLANTEDPRIVATE", "PLANTEDCOMMENT", "PLANTEDMEMBER"})
+    words.push_back(word);
+  return words;
+}
+
+/// A word in every text attribute that the mammogram does not need, and in a private block.
+void plant_text(DcmDataset& set) {
+  DcmDataDictionary& dictionary = dcmDataDict.wrlock();
+  for (auto at = dictionary.normalBegin(); at != dictionary.normalEnd(); ++at) {
+    const DcmEVR kind = (*at)->getEVR();
+    const bool is_text = kind == EVR_LO || kind == EVR_SH || kind == EVR_ST || kind == EVR_LT ||
+                         kind == EVR_UT || kind == EVR_PN || kind == EVR_UC;
+    const bool in_images = (*at)->getGroup() >= 0x0008 && (*at)->getGroup() <= 0x0040;
+    if (is_text && in_images && !set.tagExistsWithValue((*at)->getKey()))
+      set.putAndInsertString((*at)->getKey(), "PLANTEDTEXT");
+  }
+  dcmDataDict.wrunlock();
+  set.putAndInsertString(DcmTag(0x0011, 0x0010, EVR_LO), "PLANTEDPRIVATE");
+  set.putAndInsertString(DcmTag(0x0011, 0x1001, EVR_LO), "PLANTEDPRIVATE");
+}
+
+void write_dicom_mammogram(const fs::path& path) {
+  DcmFileFormat mammogram;
+  DcmDataset& set = *mammogram.getDataset();
+  fill_mammogram(set);
+  set.putAndInsertString(DCM_PatientID, "PLANTED-ID-4711");
+  set.putAndInsertString(DCM_StudyDate, "20010405");
+  set.putAndInsertString(DCM_StudyInstanceUID, "1.2.840.99.77.1.4711");
+  set.putAndInsertString(DCM_AccessionNumber, "PLANTED-ACCESSION");
+  set.putAndInsertString(DCM_StudyID, "PLANTED-STUDY");
+  set.putAndInsertString(DCM_ReferringPhysicianName, "PHYSICIAN^PLANTED");
+  plant_text(set);
+  ASSERT_TRUE(mammogram.saveFile(path.c_str(), EXS_LittleEndianExplicit).good());
+}
+
+std::string big_endian(std::uint32_t number) {
+  return {char(number >> 24), char(number >> 16), char(number >> 8), char(number)};
+}
+
+/// A PNG with a comment (PNG specification, 11.3.4.3) before its last chunk.
+void write_png_mammogram(const fs::path& path) {
+  write_png(path, GreyPixels{40, 60, std::vector<std::uint16_t>(40 * 60, 900)});
+  std::ifstream in(path, std::ios::binary);
+  std::string bytes(std::istreambuf_iterator<char>(in), {});
+  const std::string body = std::string("tEXtComment") + '\0' + "PLANTEDCOMMENT";
+  const auto sum = crc32(0, reinterpret_cast<const Bytef*>(body.data()), body.size());
+  bytes.insert(bytes.size() - 12, big_endian(body.size() - 4) + body + big_endian(sum));
+  std::ofstream(path, std::ios::binary) << bytes;
+}
+
+/// The lesion as a label map in NIfTI, packed by a gzip that keeps the name of what it packs.
+void write_lesion_map(const fs::path& path, const Volume<float>& image) {
+  const Eigen::Vector3d place(35.9, -14.5, -8.4);
+  std::string h(352, '\0');  // bytes of the fields by the NIfTI-1 standard
+  const auto put = [&](std::size_t at, auto value) { std::memcpy(&h[at], &value, sizeof value); };
+  put(0, std::int32_t{348});
+  put(40, std::int16_t{3});
+  for (int a = 0; a < 3; ++a) put(42 + 2 * a, static_cast<std::int16_t>(image.size[a]));
+  put(70, std::int16_t{2});  // unsigned char
+  put(72, std::int16_t{8});
+  put(76, 1.0f);
+  for (int a = 0; a < 3; ++a) put(80 + 4 * a, static_cast<float>(image.spacing[a]));
+  put(108, 352.0f);
+  h.replace(148, 11, "PLANTEDTEXT");  // descrip
+  put(254, std::int16_t{1});
+  for (int a = 0; a < 3; ++a) {  // x and y run the other way than in LPS
+    put(280 + 20 * a, static_cast<float>(a < 2 ? -image.spacing[a] : image.spacing[a]));
+    put(292 + 16 * a, static_cast<float>(a < 2 ? -image.origin[a] : image.origin[a]));
+  }
+  put(344, std::array<char, 4>{'n', '+', '1', 0});
+  for (int k = 0; k < image.size.z(); ++k)
+    for (int j = 0; j < image.size.y(); ++j)
+      for (int i = 0; i < image.size.x(); ++i)
+        h += static_cast<char>((image.position(i, j, k) - place).norm() < 4.8);
+  z_stream z{};
+  deflateInit2(&z, 1, Z_DEFLATED, 31, 8, Z_DEFAULT_STRATEGY);
+  gz_header names{};
+  std::string name = "PLANTEDMEMBER", comment = "PLANTEDCOMMENT";
+  names.name = reinterpret_cast<Bytef*>(name.data());
+  names.comment = reinterpret_cast<Bytef*>(comment.data());
+  deflateSetHeader(&z, &names);
+  std::string packed(deflateBound(&z, h.size()) + 200, '\0');
+  z.next_in = reinterpret_cast<Bytef*>(h.data());
+  z.avail_in = static_cast<uInt>(h.size());
+  z.next_out = reinterpret_cast<Bytef*>(packed.data());
+  z.avail_out = static_cast<uInt>(packed.size());
+  deflate(&z, Z_FINISH);
+  packed.resize(z.total_out);
+  deflateEnd(&z);
+  std::ofstream(path, std::ios::binary) << packed;
+}
+
 class CoarsePatient : public PatientCase {
  protected:
   void SetUp() override {
-    // Light compression of few elements, and no search: the chain is short, its stages are all
-    // there.
-    const fs::path folder = patient("c", R"(side = "left"
-register.search = false
-fit.elements = [4, 4, 1]
-[[lesions]]
-point_lps_mm = [35.9, -14.5, -8.4]
-radius_mm = 4.8
-[views.cc]
-thickness_mm = 48
-[views.mlo]
-mammogram = "mlo.dcm"
-thickness_mm = 45
-)");
+    fs::create_directories(patient_folder());
+    say("");
     DicomHeader header;
     header.identified = true;
-    write_dicom_series(folder / "mri", "", header,
-                       coarse(read_image_file(MAMMOTWIN_SOURCE_DIR "/sample_data/042/mri.nrrd")));
-    DcmFileFormat mammogram;
-    fill_mammogram(*mammogram.getDataset());
-    mammogram.getDataset()->putAndInsertString(DCM_PatientID, "PLANTED-ID-4711");
-    mammogram.getDataset()->putAndInsertString(DCM_StudyDate, "20010405");
-    mammogram.getDataset()->putAndInsertString(DCM_StudyInstanceUID, "1.2.840.99.77.1.4711");
-    ASSERT_TRUE(mammogram.saveFile((folder / "mlo.dcm").c_str(), EXS_LittleEndianExplicit).good());
+    const Volume<float> image =
+        coarse(read_image_file(MAMMOTWIN_SOURCE_DIR "/sample_data/042/mri.nrrd"));
+    write_dicom_series(patient_folder() / "PLANTEDFOLDER", "PLANTEDSLICE", header, image);
+    write_lesion_map(patient_folder() / "PLANTEDMAP.nii.gz", image);
+    write_png_mammogram(patient_folder() / "PLANTEDCC.png");
+    write_dicom_mammogram(patient_folder() / "PLANTEDMLO.dcm");
   }
-  ChainRun chain() const { return {"c", data(), results()}; }
-  void expect_no_planted_word_in(const std::string& text, const std::string& where) const {
-    for (const std::string& word : planted_identity())
-      EXPECT_EQ(text.find(word), std::string::npos) << where << " tells " << word;
+  /// Light compression of few elements, and no search: the chain is short, its stages are all
+  /// there.
+  void say(const std::string& more) const {
+    std::ofstream(patient_folder() / "patient.toml") << R"(side = "left"
+register.search = false
+fit.elements = [4, 4, 1]
+)" << more << R"(
+[mri]
+path = "PLANTEDFOLDER"
+[[lesions]]
+labels = "PLANTEDMAP.nii.gz"
+[views.cc]
+mammogram = "PLANTEDCC.png"
+thickness_mm = 48
+detector.pixel_spacing_mm = 2
+detector.columns = 40
+detector.rows = 60
+[views.mlo]
+mammogram = "PLANTEDMLO.dcm"
+thickness_mm = 45
+)";
   }
-  void expect_nobody_named(const std::string& said);
+  fs::path data_folder() const { return folder_ / "PLANTEDDATA"; }
+  fs::path patient_folder() const { return data_folder() / "c"; }
+  ChainRun chain() const { return {"c", data_folder(), results()}; }
+  void expect_nobody_named(const std::string& when);
 };
 
-void CoarsePatient::expect_nobody_named(const std::string& said) {
-  // The search finds what is there: the input itself names the patient.
-  EXPECT_NE(text_of(data() / "c" / "mri" / "0000.dcm").find(planted_identity()[4]),
-            std::string::npos);
-  expect_no_planted_word_in(said, "what is said");
+/// What dicom_export asks for: objects that hang in the patient's study.
+bool may_say(const fs::path& file, const std::string& word) {
+  const std::vector<std::string> shared{
+      "SECRET",        "PLANTED-ACCESSION", "PLANTED-ID-4711", "20010405", "1.2.840.99.77.1.4711",
+      "PLANTED-STUDY", "PHYSICIAN^PLANTED"};
+  return file.parent_path().filename() == "dicom" &&
+         std::find(shared.begin(), shared.end(), word) != shared.end();
+}
+
+void CoarsePatient::expect_nobody_named(const std::string& when) {
+  std::map<std::string, int> opened;
   int files = 0;
   for (const auto& entry : fs::recursive_directory_iterator(results())) {
-    if (!entry.is_regular_file()) continue;
-    expect_no_planted_word_in(entry.path().string(), "a file's name");
-    expect_no_planted_word_in(text_of(entry.path()), entry.path().filename().string());
+    const fs::path& path = entry.path();
+    if (!entry.is_regular_file() || path.parent_path().filename() == "logs") continue;
+    const OpenedStreams streams = opened_streams(text_of(path));
+    for (const std::string& word : planted_words()) {
+      EXPECT_EQ(path.lexically_relative(results()).string().find(word), std::string::npos) << path;
+      for (const std::string& text : streams.texts)
+        EXPECT_TRUE(text.find(word) == std::string::npos || may_say(path, word))
+            << path << " tells " << word << ": "
+            << text.substr(std::max<std::size_t>(60, text.find(word)) - 60, 140);
+    }
+    for (const auto& [kind, count] : streams.opened) opened[kind] += count;
     ++files;
   }
-  EXPECT_GT(files, 35);  // products, sidecars, page, scene, tables, logs
+  EXPECT_GT(files, 35);  // products, sidecars, page, scene, tables
+  std::cerr << when << ": searched " << files << " files, opened";
+  for (const auto& [kind, count] : opened) std::cerr << " " << count << " " << kind;
+  std::cerr << "\n";
+  EXPECT_GT(opened["gzip"], 3);
+  EXPECT_GT(opened["zlib"], 20);
+  EXPECT_GT(opened["base64"], 20);
+}
+
+// The search finds what is there: the inputs themselves name the patient.
+TEST_F(CoarsePatient, IsNamedByItsInputs) {
+  std::string all;
+  for (const auto& entry : fs::recursive_directory_iterator(data_folder())) {
+    all += entry.path().string();
+    if (entry.is_regular_file()) all += text_of(entry.path());
+  }
+  for (const std::string& word : planted_words())
+    EXPECT_NE(all.find(word), std::string::npos) << word;
 }
 
 TEST_F(CoarsePatient, IsNamedNowhereAndLosesNothingToKills) {
@@ -98,11 +238,35 @@ TEST_F(CoarsePatient, IsNamedNowhereAndLosesNothingToKills) {
             std::string::npos);
   const CommandResult scene = chain().run_script("run_patient.sh", "slicer");
   EXPECT_EQ(scene.exit_code, 0) << scene.text;
-  expect_nobody_named(run.text + scene.text);
+  expect_nobody_named("without dicom_export");
 
   // A third of a chain apart, so that the longest stage comes through, too.
   if (std::getenv("MAMMOTWIN_KILLS"))
     expect_nothing_lost_to_kills(chain(), num_kills(), 4, seconds / 3, expected);
+  if (const char* kills = std::getenv("MAMMOTWIN_STEP_KILLS"))
+    expect_nothing_lost_at_steps(chain(), std::atoi(kills), folder_ / "layer");
+
+  say("dicom_export = true\n");
+  const CommandResult exported = chain().run_script("run_patient.sh", "slicer");
+  EXPECT_EQ(exported.exit_code, 0) << exported.text;
+  EXPECT_TRUE(fs::exists(results() / "c" / "dicom" / "mlo_gsps.dcm"));
+  expect_nobody_named("with dicom_export");
+}
+
+// A refusal names the file on the terminal and not in what is left.
+TEST_F(CoarsePatient, IsNotNamedByARefusal) {
+  std::ofstream(patient_folder() / "PLANTEDFOLDER" / "PLANTEDSLICE0003.dcm", std::ios::app) << "x";
+  fs::resize_file(patient_folder() / "PLANTEDFOLDER" / "PLANTEDSLICE0003.dcm", 2000);
+  const CommandResult run = chain().run_script("run_patient.sh", "patient");
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_NE(run.text.find("PLANTEDSLICE0003.dcm"), std::string::npos) << run.text;
+  for (const auto& entry : fs::recursive_directory_iterator(results()))
+    if (entry.is_regular_file()) {
+      for (const std::string& text : opened_streams(text_of(entry.path())).texts)
+        EXPECT_EQ(text.find("PLANTED"), std::string::npos)
+            << entry.path()
+            << text.substr(std::max<std::size_t>(60, text.find("PLANTED")) - 60, 140);
+    }
 }
 
 }  // namespace

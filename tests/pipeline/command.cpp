@@ -28,15 +28,16 @@ namespace {
   _exit(127);
 }
 
-}  // namespace
-
-CommandResult run_command(const std::vector<std::string>& arguments,
-                          const std::vector<std::string>& environment) {
+CommandResult run(const std::vector<std::string>& arguments,
+                  const std::vector<std::string>& environment, bool in_group) {
   std::array<int, 2> ends{};
   if (pipe(ends.data()) != 0) throw std::runtime_error("pipe");
   const pid_t child = fork();
   if (child < 0) throw std::runtime_error("fork");
-  if (child == 0) become(arguments, environment, ends[1]);
+  if (child == 0) {
+    if (in_group) setpgid(0, 0);
+    become(arguments, environment, ends[1]);
+  }
   close(ends[1]);
   CommandResult result{};
   std::array<char, 4096> buffer{};
@@ -47,6 +48,18 @@ CommandResult run_command(const std::vector<std::string>& arguments,
   waitpid(child, &status, 0);
   result.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   return result;
+}
+
+}  // namespace
+
+CommandResult run_command(const std::vector<std::string>& arguments,
+                          const std::vector<std::string>& environment) {
+  return run(arguments, environment, false);
+}
+
+CommandResult run_command_in_group(const std::vector<std::string>& arguments,
+                                   const std::vector<std::string>& environment) {
+  return run(arguments, environment, true);
 }
 
 bool run_and_kill_after(double seconds, const std::vector<std::string>& arguments,

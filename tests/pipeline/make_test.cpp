@@ -62,10 +62,34 @@ TEST_F(RunPatientTest, DoesNotTakeAnEmptyFolderForTheRoot) {
 
 TEST_F(RunPatientTest, MakeExpandsNothingInItsVariables) {
   const std::string mark = (folder_ / "mark").string();
-  for (const char* variable : {"P", "DATA", "RESULTS", "FORCE", "SEED", "PRESS"})
+  for (const char* variable : {"P", "DATA", "RESULTS", "FORCE", "SEED", "PRESS", "TABLE", "UNLOAD"})
     run_command({"make", "-C", MAMMOTWIN_SOURCE_DIR, "--dry-run", "patient",
                  std::string(variable) + "=$(shell touch " + mark + ")"});
   EXPECT_FALSE(std::filesystem::exists(mark));
+}
+
+// Words of a variable are words of a command, and no command themselves.
+TEST_F(RunPatientTest, WordsOfAVariableReachNoShell) {
+  const std::string mark = (folder_ / "mark").string();
+  std::filesystem::create_directories(folder_ / "bin");
+  const CommandResult run =
+      run_command({"make", "-C", MAMMOTWIN_SOURCE_DIR, "-o", "mammotwin-evaluate-gravity",
+                   "evaluate-gravity", "BIN=" + (folder_ / "bin").string(),
+                   "UNLOAD=--a;touch " + mark + " `touch " + mark + "` $(touch " + mark + ")"});
+  EXPECT_NE(run.exit_code, 0) << "there is no such program in BIN";
+  EXPECT_FALSE(std::filesystem::exists(mark));
+}
+
+TEST_F(RunPatientTest, NoTargetTakesAnEmptyFolderForTheRoot) {
+  for (const char* target : {"patient", "cohort", "evaluate-unload"}) {
+    const CommandResult run =
+        run_command({"make", "-C", MAMMOTWIN_SOURCE_DIR, "--dry-run", target, "RESULTS="});
+    EXPECT_EQ(run.exit_code, 2);
+    EXPECT_NE(run.text.find("RESULTS is empty"), std::string::npos) << run.text;
+  }
+  const CommandResult run = run_command({MAMMOTWIN_SOURCE_DIR "/pipeline/cohort/run_cohort.sh"},
+                                        {"DATA=" + folder_.string(), "RESULTS="});
+  EXPECT_EQ(run.exit_code, 2);
 }
 
 }  // namespace

@@ -1,7 +1,8 @@
 // A stage without mathematics inside the real frame: by the name that it is called by (a link
 // "mammotwin-fit") it reads its inputs and writes products whose bytes follow from them. A file
 // behaviour.txt beside patient.toml makes it fail: "refuse fit", "diverge compress", "die fit",
-// "look fit", "slow fit", "short fit" (only its main product), a line each.
+// "look fit", "slow fit", "linger fit" (between its products), "short fit" (only its main product),
+// a line each.
 
 #include <unistd.h>
 
@@ -82,6 +83,7 @@ Outcome run_fake(const std::string& name, const Shape& shape, const Arguments& a
   for (std::size_t i = 0; i < shape.num_inputs; ++i) text += sha256_of_path(args.inputs[i]);
   const std::string hash = sha256_of_text(text);
   write_product(run.products.write_main(), hash);
+  if (is_asked("linger")) std::this_thread::sleep_for(std::chrono::seconds(3));
   for (const std::string& side :
        is_asked("short") ? std::vector<std::string>{} : shape.side_products)
     write_product(run.products.write(side), sha256_of_text(hash + side));

@@ -81,9 +81,9 @@ TEST(Tables, KeepAReasonOnOneLine) {
             "patient\tstatus\tstage\treason\na\tok\t\tfirst line second\n");
 }
 
-TEST(RunAgain, QuotesFoldersForAShell) {
-  EXPECT_EQ((RunAgain{"make", "my data", "it's $HOME"}).command("042"),
-            "make patient P=042 DATA='my data' RESULTS='it'\\''s $HOME'");
+TEST(RunAgain, NamesNoFolder) {
+  EXPECT_EQ(RunAgain{"make"}.command("042"),
+            R"(make patient P=042 DATA="$DATA" RESULTS="$RESULTS")");
 }
 
 // 160 patients between 1 and 5, and 40 at 1000: the fence stands near 10, and all 40 lie outside.

@@ -52,7 +52,10 @@ class CohortFolderTest : public ScratchFolder {
                        environment({"P=" + patient}));
   }
   CommandResult verify(const std::string& patient) const {
-    return run_command({program("verify").string(), results(patient).string()});
+    std::vector<std::string> words{program("verify").string(), results(patient).string()};
+    if (const auto data = folder_ / "data" / patient; std::filesystem::exists(data))
+      words.insert(words.end(), {"--data", data.string()});
+    return run_command(words);
   }
 
   /// Rows of a table in results/ by patient; each maps a column's name to its value.

@@ -4,6 +4,7 @@
 
 #include "pipeline/frame/checksum.h"
 #include "pipeline/frame/products.h"
+#include "pipeline/frame/sidecar_check.h"
 #include "tests/pipeline/scratch_folder.h"
 
 namespace mammotwin {
@@ -21,12 +22,11 @@ class SidecarTest : public ScratchFolder {
 
   Provenance provenance(double smoothing = 1) const {
     return make_provenance("fit", {{"fit.smoothing", {{"value", smoothing}, {"unit", "-"}}}},
-                           {input_}, product_);
+                           {{"data", input_, true}}, product_);
   }
   void write_sidecar(Status status) const {
     const Outcome outcome{status, {"because"}, {{"rms_mm", 0.25}}};
-    write_text_atomically(sidecar_path(product_),
-                          make_sidecar(product_, provenance(), outcome, {"out"}, {}).dump());
+    mammotwin::write_sidecar(product_, make_sidecar(product_, provenance(), outcome, {"out"}, {}));
   }
 
   std::filesystem::path input_, product_;
@@ -50,7 +50,7 @@ TEST_F(SidecarTest, AProductIsNotCurrentAfterAnyChange) {
 }
 
 TEST_F(SidecarTest, TextThatIsNoUtf8DoesNotEndAStage) {
-  nlohmann::json sidecar{{"reasons", {"a series called M\xfcller"}}};
+  const nlohmann::json sidecar{{"reasons", {"a series called M\xfcller"}}};
   mammotwin::write_sidecar(product_, sidecar);
   EXPECT_NE(text_of(sidecar_path(product_)).find("M\xef\xbf\xbdller"), std::string::npos);
 }
@@ -63,9 +63,55 @@ TEST_F(SidecarTest, APipeAsAnInputIsRefusedAndNotWaitedFor) {
 
 TEST_F(SidecarTest, FormerOutputsDoNotLeadOutOfTheFolder) {
   EXPECT_TRUE(former_outputs(product_).empty());
-  write("out.json", R"({"outputs": [{"path": "out"}, {"path": "dicom/cc.dcm"}, {"path": "../in"},
-                                    {"path": "a/../../in"}, {"path": "/in"}]})");
+  nlohmann::json sidecar =
+      make_sidecar(product_, provenance(), {Status::ok, {}, nlohmann::json::object()}, {}, {});
+  for (const char* path : {"out", "dicom/cc.dcm", "../in", "a/../../in", "/in"})
+    sidecar["outputs"].push_back({{"path", path}, {"sha256", std::string(64, 'a')}});
+  mammotwin::write_sidecar(product_, sidecar);
   EXPECT_EQ(former_outputs(product_), (std::vector<std::string>{"out", "dicom/cc.dcm"}));
+}
+
+TEST_F(SidecarTest, AnEditedOneIsNoticed) {
+  write_sidecar(Status::ok);
+  ASSERT_TRUE(read_sidecar(product_).sidecar);
+  std::string text = text_of(sidecar_path(product_));
+  const std::size_t figure = text.find("0.25");
+  ASSERT_NE(figure, std::string::npos);
+  write("out.json", text.replace(figure, 4, "0.15"));
+  EXPECT_NE(read_sidecar(product_).fault.find("it was edited"), std::string::npos);
+  EXPECT_FALSE(current_sidecar(product_, provenance()));
+}
+
+// A reading program would stop, or take what stands there for something else.
+TEST_F(SidecarTest, AnyFieldThatIsMissingOrOfAnotherTypeIsNamed) {
+  write_sidecar(Status::ok);
+  const nlohmann::json whole = *read_sidecar(product_).sidecar;
+  for (const auto& [name, value] : whole.items()) {
+    for (const nlohmann::json& other :
+         {nlohmann::json(), nlohmann::json(-1), nlohmann::json({{"path", 3}})}) {
+      nlohmann::json damaged = whole;
+      damaged[name] = other;
+      if (name == "parameters" || name == "quality") damaged[name] = -1;
+      write("out.json", sealed(damaged).dump());
+      if (name == "sidecar_sha256") continue;  // sealed anew
+      EXPECT_NE(read_sidecar(product_).fault.find(name + " is "), std::string::npos) << name;
+    }
+    nlohmann::json damaged = whole;
+    damaged.erase(name);
+    write("out.json", damaged.dump());
+    EXPECT_NE(read_sidecar(product_).fault.find(name + " is missing"), std::string::npos) << name;
+  }
+}
+
+TEST_F(SidecarTest, WhatIsNoSidecarAtAllIsSaidToBeNone) {
+  EXPECT_TRUE(read_sidecar(product_).fault.empty()) << "none is there";
+  for (const std::string& text : {std::string(), std::string("[1, 2"), std::string("[1, 2]"),
+                                  std::string(200000, '['), std::string("{\"stage\": \"\xff\"}")}) {
+    write("out.json", text);
+    EXPECT_FALSE(read_sidecar(product_).fault.empty()) << text.substr(0, 9);
+    EXPECT_FALSE(current_sidecar(product_, provenance()));
+    EXPECT_TRUE(former_outputs(product_).empty());
+  }
 }
 
 TEST_F(SidecarTest, AFailedStageIsNeverCurrent) {
@@ -92,7 +138,7 @@ TEST_F(SidecarTest, ReasonsNameFilesByTheirFolderAndName) {
 TEST_F(SidecarTest, PathsAreTheSameBeforeTheResultsFolderExists) {
   const auto here = std::filesystem::current_path();
   std::filesystem::current_path(folder_);
-  const auto p = make_provenance("fit", {}, {"in"}, "results/042/out");
+  const auto p = make_provenance("fit", {}, {{"data", "in", true}}, "results/042/out");
   std::filesystem::current_path(here);
   EXPECT_EQ(p.inputs[0]["path"], "../../in");
 }

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "pipeline/frame/sidecar.h"
 #include "pipeline/report/answer_data.h"
 #include "pipeline/report/figures/overview_picture.h"
 #include "pipeline/report/page_data.h"
@@ -136,9 +137,11 @@ TEST(ReportPage, EscapesWhatComesFromOutside) {
 TEST(ReportPage, IsWrittenWhenTheFirstStageRefused) {
   const fs::path folder = scratch("refused");
   fs::create_directories(folder);
-  write_text(folder / "segmentation.seg.nrrd.json",
-             R"({"status": "refused", "stage": "segment", "version": "0.1.0",
-                 "reasons": ["the 100.8 mm hole between slices 40 and 41"]})");
+  const fs::path product = folder / "segmentation.seg.nrrd";
+  const nlohmann::json none = nlohmann::json::object();
+  const Outcome refused{Status::refused, {"the 100.8 mm hole between slices 40 and 41"}, none};
+  write_sidecar(product, make_sidecar(product, make_provenance("segment", none, {}, product),
+                                      refused, {}, {}));
   write_report(read_patient_results(folder), folder / "report.html", "0.1.0");
   const std::string page = text_of(folder / "report.html");
   EXPECT_NE(page.find("Refused"), std::string::npos);

@@ -64,6 +64,21 @@ TEST(DicomSeries, TheTomlNamesAnother) {
                   {"mri.series names no series", "series 9"});
 }
 
+TEST(DicomSeries, ASliceOfAnotherPatientIsRefusedAndNobodyNamed) {
+  const ScratchFolder folder("mixed");
+  DicomHeader h;
+  h.patient_id = "SECRET1";
+  write_dicom_series(folder.path, "a", h, stack(5));
+  EXPECT_NO_THROW(read_mri(folder.path));
+  h.patient_id = "SECRET2";
+  const Eigen::Vector3d x = stack(5).position(0, 0, 7);
+  std::ofstream(folder.path / "a0007.dcm", std::ios::binary)
+      << dicom_slice_bytes(h, 7, 8, 8, {x.x(), x.y(), x.z()}, 2, std::vector<std::uint16_t>(64, 5));
+  const std::string message = message_of([&] { read_mri(folder.path); });
+  expect_mentions(message, {"series 1 (20 slices)", "slices of 2 patients", "by PatientID"});
+  EXPECT_EQ(message.find("SECRET"), std::string::npos);
+}
+
 TEST(DicomSeries, HandsOnHowThePatientLayAndNoName) {
   const ScratchFolder folder("position");
   DicomHeader h;

@@ -21,6 +21,7 @@ struct DicomHeader {
   std::string acquisition_time;   ///< "120000"
   std::string temporal_position;  ///< phase of a dynamic series
   std::string contrast_agent;
+  std::string patient_id;  ///< where `identified` says none
   bool identified =
       false;  ///< names, dates and identifiers besides the patient's name, as planted_identity says
 };
@@ -75,6 +76,8 @@ inline std::string dicom_slice_bytes(const DicomHeader& header, int number, int 
     element(0x10, 0x0020, "LO", "PLANTED-ID-4711");
     element(0x10, 0x0030, "DA", "19510203");
   }
+  if (!header.identified && !header.patient_id.empty())
+    element(0x10, 0x0020, "LO", header.patient_id);
   if (!header.contrast_agent.empty()) element(0x18, 0x0010, "LO", header.contrast_agent);
   element(0x18, 0x5100, "CS", header.patient_position);
   if (header.identified) element(0x20, 0x000d, "UI", "1.2.840.99.77.1.4711");
