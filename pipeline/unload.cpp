@@ -50,7 +50,7 @@ std::string patient_position(const std::filesystem::path& segmentation) {
 }
 
 /// One factor for all stiffnesses where a second state is there to ask; else the settings'.
-double find_stiffness(const Patient& patient, StageRun& stage, const CompressionProblem& as_set,
+double find_stiffness(const Patient& patient, StageRun& stage, const BreastProblem& as_set,
                       UnloadingRecord& record) {
   const double factor = patient.compression.stiffness_factor;
   const auto second = patient.second_state();
@@ -63,9 +63,9 @@ double find_stiffness(const Patient& patient, StageRun& stage, const Compression
   return factor * record.stiffness_fit->factor;
 }
 
-void hang_in_other_poses(const CompressionProblem& unloaded, UnloadingRecord& record) {
+void hang_in_other_poses(const BreastProblem& unloaded, UnloadingRecord& record) {
   for (const Pose pose : {Pose::standing, Pose::supine}) {
-    CompressionProblem problem = unloaded;
+    BreastProblem problem = unloaded;
     problem.gravity = gravity_in_lps(pose);
     PoseState state{hang(problem, {}), 0};
     state.wall_slide_mm =
@@ -91,7 +91,7 @@ Outcome run(const Arguments& args, const Patient& patient, StageRun& stage) {
   const TissueSampler tissue = tissue_of(prone, segmentation.fractions);
   const Pose imaged = patient.imaged_pose(patient_position(args.segmentation));
   const auto problem_with = [&](double factor) {
-    CompressionProblem problem = breast_problem(prone, tissue, patient.compression, factor);
+    BreastProblem problem = breast_problem(prone, tissue, patient.compression, factor);
     problem.gravity = gravity_in_lps(imaged);
     problem.density = patient.gravity.density();
     return problem;
@@ -101,7 +101,7 @@ Outcome run(const Arguments& args, const Patient& patient, StageRun& stage) {
   record.stiffness_factor =
       find_stiffness(patient, stage, problem_with(patient.compression.stiffness_factor), record);
   if (record.stiffness_fit && !record.stiffness_fit->usable()) return judge_unloading(record);
-  const CompressionProblem problem = problem_with(record.stiffness_factor);
+  const BreastProblem problem = problem_with(record.stiffness_factor);
   const UnloadResult result = unload(problem, {}, stage.progress);
   record.report = result.report;
   if (result.report.usable()) {

@@ -8,7 +8,7 @@
 #include "pipeline/frame/settings.h"
 #include "registration/view/detector.h"
 #include "segmentation/segmentation.h"
-#include "solver/press/compress.h"
+#include "solver/press/compression_problem.h"
 
 namespace mammotwin {
 

@@ -30,10 +30,10 @@ TissueSampler tissue_of(const MeshFile& mesh, const Volume<Fractions>& fractions
   };
 }
 
-CompressionProblem breast_problem(MeshFile mesh, TissueSampler tissue,
-                                  const CompressionSettings& settings, double stiffness_factor) {
+BreastProblem breast_problem(MeshFile mesh, TissueSampler tissue,
+                             const CompressionSettings& settings, double stiffness_factor) {
   require_face_labels(mesh);
-  CompressionProblem problem;
+  BreastProblem problem;
   problem.mesh = std::move(mesh);
   if (const auto prone = problem.mesh.configurations.find("prone");
       prone != problem.mesh.configurations.end())

@@ -2,7 +2,7 @@
 
 #include "pipeline/patient/compression_settings.h"
 #include "segmentation/segmentation.h"
-#include "solver/press/compress.h"
+#include "solver/breast/breast_problem.h"
 
 namespace mammotwin {
 
@@ -10,11 +10,11 @@ namespace mammotwin {
 /// them as imaged (fitting/tissue/cell_tissue.h).
 TissueSampler tissue_of(const MeshFile& mesh, const Volume<Fractions>& fractions);
 
-/// The patient's breast as the solver takes it, without plates or gravity: a mesh file's shape (and
+/// The patient's breast as the solver takes it, without gravity: a mesh file's shape (and
 /// its configuration "prone", where it has one), the tissue in it, laws, skin and what holds it.
 /// All stiffnesses are multiplied by `stiffness_factor`.
-CompressionProblem breast_problem(MeshFile mesh, TissueSampler tissue,
-                                  const CompressionSettings& settings, double stiffness_factor);
+BreastProblem breast_problem(MeshFile mesh, TissueSampler tissue,
+                             const CompressionSettings& settings, double stiffness_factor);
 
 /// The factor that `unload` used, from the metadata of the mesh that it wrote; else the settings'.
 double stiffness_factor_of(const MeshFile& mesh, const CompressionSettings& settings);

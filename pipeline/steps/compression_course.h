@@ -1,6 +1,6 @@
 #pragma once
 
-#include "solver/press/compress.h"
+#include "solver/press/compression_result.h"
 
 namespace mammotwin {
 

@@ -2,7 +2,7 @@
 
 #include "pipeline/frame/outcome.h"
 #include "pipeline/steps/sideways_escape.h"
-#include "solver/press/compress.h"
+#include "solver/press/compression_result.h"
 
 namespace mammotwin {
 

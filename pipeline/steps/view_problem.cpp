@@ -68,8 +68,10 @@ PlateOptions plates_of(const Patient& patient, const ViewSettings& view,
 CompressionProblem view_problem(const Patient& patient, const ViewSettings& view,
                                 const Eigen::Matrix3d& axes, const MeshFile& mesh,
                                 const TissueSampler& tissue) {
-  CompressionProblem problem = breast_problem(mesh, tissue, patient.compression,
-                                              stiffness_factor_of(mesh, patient.compression));
+  CompressionProblem problem{breast_problem(mesh, tissue, patient.compression,
+                                            stiffness_factor_of(mesh, patient.compression)),
+                             {},
+                             {}};
   problem.friction = patient.compression.friction;
   problem.plates = plates_of(patient, view, axes, prone_file(mesh));
   if (patient.compression.standing_gravity) {

@@ -2,7 +2,8 @@
 
 #include "pipeline/patient/patient.h"
 #include "registration/search/reduced_view.h"
-#include "solver/press/compress.h"
+#include "solver/press/compression_problem.h"
+#include "solver/press/compression_result.h"
 
 namespace mammotwin {
 

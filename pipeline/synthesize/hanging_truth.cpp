@@ -11,8 +11,8 @@
 namespace mammotwin {
 namespace {
 
-CompressionProblem hanging_problem(MeshFile mesh, TissueSampler tissue) {
-  CompressionProblem problem = breast_problem(std::move(mesh), std::move(tissue), {}, 1);
+BreastProblem hanging_problem(MeshFile mesh, TissueSampler tissue) {
+  BreastProblem problem = breast_problem(std::move(mesh), std::move(tissue), {}, 1);
   problem.gravity = gravity_in_lps(Pose::prone);
   problem.density = GravitySettings().density();
   return problem;
@@ -25,7 +25,7 @@ Segmentation truth_of(const SyntheticPatient& p) {
 }  // namespace
 
 void with_true_breast(const SyntheticPatient& patient, const MeshFile& mesh,
-                      const std::function<void(const CompressionProblem&)>& use) {
+                      const std::function<void(const BreastProblem&)>& use) {
   const Segmentation truth = truth_of(patient);
   // Cubes round the points and not the mesh's cells: what the sample's truth was made with.
   const MeanFractions mean(truth.fractions);
@@ -43,7 +43,7 @@ MeshFile hanging_truth(const SyntheticPatient& patient,
   if (!fit.report.usable())
     throw std::runtime_error("no mesh of the true breast: " + fit.report.reasons.front());
   MeshFile file = fit.mesh;
-  with_true_breast(patient, fit.mesh, [&](const CompressionProblem& problem) {
+  with_true_breast(patient, fit.mesh, [&](const BreastProblem& problem) {
     const UnloadResult result = unload(problem, {}, progress);
     if (!result.report.usable())
       throw std::runtime_error("the true breast cannot hang as it was made: " +

@@ -4,7 +4,7 @@
 
 #include "fitting/mesh/mesh_file.h"
 #include "pipeline/synthesize/patient.h"
-#include "solver/press/compress.h"
+#include "solver/breast/breast_problem.h"
 
 namespace mammotwin {
 
@@ -21,6 +21,6 @@ MeshFile hanging_truth(const SyntheticPatient& patient,
 /// Calls `use` with the true breast on the given mesh (its configuration "prone", where it has
 /// one), prone gravity on it.
 void with_true_breast(const SyntheticPatient& patient, const MeshFile& mesh,
-                      const std::function<void(const CompressionProblem&)>& use);
+                      const std::function<void(const BreastProblem&)>& use);
 
 }  // namespace mammotwin

@@ -9,6 +9,7 @@
 #include "pipeline/validation/true_skin.h"
 #include "registration/view/view_frame.h"
 #include "solver/material/neo_hookean.h"
+#include "solver/press/compress.h"
 
 namespace mammotwin {
 namespace {

@@ -4,7 +4,6 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "fitting/scan/scanned_breast.h"
-#include "solver/press/compress.h"
 
 namespace mammotwin {
 

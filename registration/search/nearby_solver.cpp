@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "solver/press/compress.h"
 #include "solver/press/nearby_equilibria.h"
 
 namespace mammotwin {

@@ -8,6 +8,7 @@
 #include "fitting/mesh/mesh_file.h"
 #include "registration/search/state_walk.h"
 #include "registration/search/view_state.h"
+#include "solver/press/compression_problem.h"
 
 namespace mammotwin {
 

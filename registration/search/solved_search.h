@@ -1,6 +1,7 @@
 #pragma once
 
 #include "registration/search/pose_search.h"
+#include "solver/progress.h"
 
 namespace mammotwin {
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "registration/view/compressed_view.h"
-#include "solver/press/compress.h"
+#include "solver/press/compression_result.h"
 
 namespace mammotwin {
 

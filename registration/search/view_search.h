@@ -4,6 +4,7 @@
 #include "registration/search/model_discrepancy.h"
 #include "registration/search/search_ellipse.h"
 #include "registration/search/search_verdict.h"
+#include "solver/progress.h"
 
 namespace mammotwin {
 

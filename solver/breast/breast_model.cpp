@@ -16,17 +16,13 @@ namespace mammotwin {
 
 namespace {
 
-using Faces = std::vector<std::pair<int, int>>;
-
-constexpr int kContactPoints =
-    12;  // a face of 27 mm passes 3 mm through an edge between 5 x 5 points
 constexpr double kWallPenalty = 1000;  // x modulus/size: 10 kPa moves the wall by about 0.05 mm
 
 void check(bool good, const std::string& message) {
   if (!good) throw std::invalid_argument(message);
 }
 
-void check_problem(const CompressionProblem& p) {
+void check_problem(const BreastProblem& p) {
   check(static_cast<int>(p.mesh.faces.size()) == p.mesh.mesh.num_elements(),
         "the mesh has face labels for " + std::to_string(p.mesh.faces.size()) + " of its " +
             std::to_string(p.mesh.mesh.num_elements()) + " elements; expected all");
@@ -45,15 +41,7 @@ void check_problem(const CompressionProblem& p) {
         "density must be positive and gravity finite");
 }
 
-Faces faces_labelled(const MeshFile& mesh, FaceLabel label) {
-  Faces faces;
-  for (int e = 0; e < mesh.mesh.num_elements(); ++e)
-    for (int face = 0; face < 6; ++face)
-      if (mesh.faces[e][face] == label) faces.push_back({e, face});
-  return faces;
-}
-
-HermiteMesh prone_mesh(const CompressionProblem& problem) {
+HermiteMesh prone_mesh(const BreastProblem& problem) {
   return problem.prone.empty() ? problem.mesh.mesh
                                : HermiteMesh(problem.prone, problem.mesh.mesh.elements());
 }
@@ -73,7 +61,7 @@ struct ProneTissue {
   double volume = 0;                                       ///< [mm³]
 };
 
-ProneTissue prone_tissue(const CompressionProblem& problem, const HermiteMesh& mesh) {
+ProneTissue prone_tissue(const BreastProblem& problem, const HermiteMesh& mesh) {
   ProneTissue tissue;
   for (int e = 0; e < mesh.num_elements(); ++e) {
     const SolidElement element = prone_element(mesh, e);
@@ -105,7 +93,7 @@ double mean_modulus(const SolidElement& element) {
 
 /// Tissue fractions count skin as fat and the mesh reaches to its outside, so the solid holds fat
 /// where skin is: the membrane has what skin has more.
-void add_skin(const CompressionProblem& problem, Model& model) {
+void add_skin(const BreastProblem& problem, Model& model) {
   if (!problem.skin.on) return;
   const double c1 = positive_modulus("c1 (skin)", problem.skin.c1);
   const double c1_fat = problem.laws.laws[0]->shear_modulus() / 2;
@@ -120,8 +108,7 @@ std::shared_ptr<SpringBed> spring_bed(double k, std::optional<double> reach) {
   return std::make_shared<SpringBed>(k, reach.value_or(std::numeric_limits<double>::infinity()));
 }
 
-void hold_chest_wall(const CompressionProblem& problem, const HermiteMesh& prone,
-                     BreastModel& breast) {
+void hold_chest_wall(const BreastProblem& problem, const HermiteMesh& prone, BreastModel& breast) {
   const auto& options = problem.boundary;
   if (options.chest_wall == ChestWall::clamped)
     return hold_clamped(problem.mesh.mesh, breast.wall_faces, *breast.dofs);
@@ -144,7 +131,7 @@ void hold_chest_wall(const CompressionProblem& problem, const HermiteMesh& prone
   }
 }
 
-void hold_cut_faces(const CompressionProblem& problem, BreastModel& breast) {
+void hold_cut_faces(const BreastProblem& problem, BreastModel& breast) {
   const auto& options = problem.boundary;
   const Faces faces = faces_labelled(problem.mesh, FaceLabel::cut);
   if (options.cut_faces == CutFaces::clamped)
@@ -156,25 +143,6 @@ void hold_cut_faces(const CompressionProblem& problem, BreastModel& breast) {
   }
 }
 
-void add_contact(const CompressionProblem& problem, BreastModel& breast) {
-  breast.contact = std::make_shared<PlateContact>();
-  breast.contact->points1d = kContactPoints;
-  breast.contact_faces = faces_labelled(problem.mesh, FaceLabel::skin);
-  const Faces cut = faces_labelled(problem.mesh, FaceLabel::cut);
-  breast.contact_faces.insert(breast.contact_faces.end(), cut.begin(), cut.end());
-  for (const auto& [e, face] : breast.contact_faces)
-    breast.model->add_surface_potential(e, face, breast.contact, breast.contact->points1d);
-}
-
-void add_friction(const CompressionProblem& problem, BreastModel& breast) {
-  const auto& options = problem.friction;
-  if (options.coefficient == 0) return;
-  breast.friction =
-      std::make_shared<PlateFriction>(breast.contact, options.coefficient, options.slip);
-  for (const auto& [e, face] : breast.contact_faces)
-    breast.model->add_surface_potential(e, face, breast.friction, breast.contact->points1d);
-}
-
 void tie_nodes(const MeshFile& mesh, DofMap& dofs) {
   for (const ParameterTie& tie : mesh.ties)
     for (int i = 0; i < 3; ++i)
@@ -184,7 +152,15 @@ void tie_nodes(const MeshFile& mesh, DofMap& dofs) {
 
 }  // namespace
 
-BreastModel make_breast_model(const CompressionProblem& problem, const SolidOptions& solid) {
+Faces faces_labelled(const MeshFile& mesh, FaceLabel label) {
+  Faces faces;
+  for (int e = 0; e < mesh.mesh.num_elements(); ++e)
+    for (int face = 0; face < 6; ++face)
+      if (mesh.faces[e][face] == label) faces.push_back({e, face});
+  return faces;
+}
+
+BreastModel make_breast_model(const BreastProblem& problem, const SolidOptions& solid) {
   check_problem(problem);
   BreastModel breast;
   const HermiteMesh& mesh = problem.mesh.mesh;
@@ -207,17 +183,8 @@ BreastModel make_breast_model(const CompressionProblem& problem, const SolidOpti
   add_skin(problem, *breast.model);
   hold_chest_wall(problem, prone, breast);
   hold_cut_faces(problem, breast);
-  add_contact(problem, breast);
-  add_friction(problem, breast);
   breast.dofs->number(mesh);
   return breast;
-}
-
-void hold_by_friction(BreastModel& breast, const std::vector<PlateFriction::Hold>& holds,
-                      const State& state, double frozen_mm) {
-  if (!breast.friction) return;
-  breast.friction->hold(holds, *breast.model, state, breast.contact_faces);
-  if (frozen_mm > 0) breast.friction->freeze(frozen_mm, *breast.model, state, breast.contact_faces);
 }
 
 }  // namespace mammotwin

@@ -4,21 +4,21 @@
 #include <utility>
 #include <vector>
 
-#include "solver/contact/plate_friction.h"
+#include "solver/breast/breast_problem.h"
 #include "solver/load/wall_surface.h"
 #include "solver/newton/dof_map.h"
-#include "solver/press/compress.h"
+#include "solver/newton/model.h"
 
 namespace mammotwin {
 
-/// A compression problem turned into energies and equations.
+using Faces = std::vector<std::pair<int, int>>;  ///< (element, face)
+
+/// A breast turned into energies and equations.
 struct BreastModel {
   std::unique_ptr<Model> model;
   std::unique_ptr<DofMap> dofs;
-  std::shared_ptr<PlateContact> contact;
-  std::shared_ptr<PlateFriction> friction;  ///< null if there is none
-  std::shared_ptr<WallSurface> wall;        ///< null if the chest wall is clamped
-  std::vector<std::pair<int, int>> contact_faces, wall_faces;  ///< (element, face)
+  std::shared_ptr<WallSurface> wall;  ///< null if the chest wall is clamped
+  Faces wall_faces;
   double largest_modulus = 0;  ///< of the tissue at the quadrature points [kPa]
   double element_size = 0;     ///< cube root of the mean element volume [mm]
 
@@ -27,10 +27,8 @@ struct BreastModel {
 };
 
 /// Throws std::invalid_argument that names what is wrong with the problem.
-BreastModel make_breast_model(const CompressionProblem& problem, const SolidOptions& solid);
+BreastModel make_breast_model(const BreastProblem& problem, const SolidOptions& solid);
 
-/// Friction as it held a state that was solved elsewhere; frozen_mm: PlateFriction::freeze; 0: not.
-void hold_by_friction(BreastModel& breast, const std::vector<PlateFriction::Hold>& holds,
-                      const State& state, double frozen_mm);
+Faces faces_labelled(const MeshFile& mesh, FaceLabel label);
 
 }  // namespace mammotwin

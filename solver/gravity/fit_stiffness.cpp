@@ -10,13 +10,13 @@ namespace {
 constexpr double kLowest = 0.1, kHighest = 10, kPrecision = 0.02;
 
 /// Distance from the second state with stiffnesses times `factor`; infinite without convergence.
-double distance_with(double factor, CompressionProblem prone, const Eigen::Vector3d& second_gravity,
+double distance_with(double factor, BreastProblem prone, const Eigen::Vector3d& second_gravity,
                      const StateDistance& distance, UnloadOptions options) {
   options.check = false;
   prone.gravity /= factor;
   const UnloadResult unloaded = unload(prone, options);
   if (!unloaded.report.usable()) return std::numeric_limits<double>::infinity();
-  CompressionProblem second = from_unloaded(prone, unloaded.unloaded);
+  BreastProblem second = from_unloaded(prone, unloaded.unloaded);
   second.gravity = second_gravity / factor;
   HangOptions hanging;
   hanging.solid = options.solid;
@@ -26,7 +26,7 @@ double distance_with(double factor, CompressionProblem prone, const Eigen::Vecto
 
 }  // namespace
 
-StiffnessFit fit_stiffness(const CompressionProblem& prone, const Eigen::Vector3d& second_gravity,
+StiffnessFit fit_stiffness(const BreastProblem& prone, const Eigen::Vector3d& second_gravity,
                            const StateDistance& distance, const UnloadOptions& options,
                            const Progress& progress) {
   const double golden = (std::sqrt(5.0) - 1) / 2;

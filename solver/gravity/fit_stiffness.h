@@ -21,7 +21,7 @@ struct StiffnessFit {
 /// factor and loaded again by `second_gravity`, it shall come nearest to that state. Golden section
 /// on the factor's logarithm from 0.1 to 10, to 2 %; a factor that does not converge is too low.
 /// Only gravity over stiffness counts, so gravity is divided and the tissue left as it is.
-StiffnessFit fit_stiffness(const CompressionProblem& prone, const Eigen::Vector3d& second_gravity,
+StiffnessFit fit_stiffness(const BreastProblem& prone, const Eigen::Vector3d& second_gravity,
                            const StateDistance& distance, const UnloadOptions& options,
                            const Progress& progress = {});
 

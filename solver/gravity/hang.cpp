@@ -30,7 +30,7 @@ double largest_distance(const std::vector<HermiteMesh::Node>& a,
   return largest;
 }
 
-HangResult hang(const CompressionProblem& problem, const HangOptions& options) {
+HangResult hang(const BreastProblem& problem, const HangOptions& options) {
   BreastModel breast = make_breast_model(problem, options.solid);
   Newton newton(*breast.model, *breast.dofs);
   State state = breast.model->rest();

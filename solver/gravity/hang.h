@@ -1,8 +1,9 @@
 #pragma once
 
+#include "solver/breast/breast_problem.h"
+#include "solver/element/solid_element.h"
 #include "solver/load/load_stepping.h"
 #include "solver/newton/newton.h"
-#include "solver/press/compress.h"
 
 namespace mammotwin {
 
@@ -29,9 +30,9 @@ struct HangResult {
   HangReport report;
 };
 
-/// The breast under `problem.gravity` alone; `problem.mesh` is the unloaded shape and plates are
-/// not looked at. Throws std::invalid_argument as `compress` does.
-HangResult hang(const CompressionProblem& problem, const HangOptions& options);
+/// The breast under `problem.gravity` alone; `problem.mesh` is the unloaded shape. Throws
+/// std::invalid_argument as make_breast_model does.
+HangResult hang(const BreastProblem& problem, const HangOptions& options);
 
 /// Raises a constant body force [mN/mm³] on the model from 0, from the state's shape on.
 LoadSteppingReport raise_body_force(BreastModel& breast, Newton& newton,

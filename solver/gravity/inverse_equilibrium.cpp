@@ -55,7 +55,7 @@ NewtonReport& stopped(NewtonReport& report, const char* reason) {
 
 }  // namespace
 
-InverseEquilibrium::InverseEquilibrium(const CompressionProblem& problem, const SolidOptions& solid)
+InverseEquilibrium::InverseEquilibrium(const BreastProblem& problem, const SolidOptions& solid)
     : problem_(problem), solid_(solid) {
   problem_.prone.clear();
   problem_.gravity.setZero();
@@ -79,7 +79,7 @@ bool InverseEquilibrium::folded(const std::vector<HermiteMesh::Node>& X) const {
 }
 
 BreastModel InverseEquilibrium::forward_model(const State& reference) const {
-  CompressionProblem problem = problem_;
+  BreastProblem problem = problem_;
   problem.mesh.mesh = HermiteMesh(reference.x, problem_.mesh.mesh.elements());
   return make_breast_model(problem, solid_);
 }

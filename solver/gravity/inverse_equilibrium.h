@@ -21,7 +21,7 @@ class InverseEquilibrium {
  public:
   /// problem.mesh is the deformed shape; problem.prone is not looked at. Throws as
   /// make_breast_model does.
-  InverseEquilibrium(const CompressionProblem& problem, const SolidOptions& solid);
+  InverseEquilibrium(const BreastProblem& problem, const SolidOptions& solid);
 
   /// The deformed shape as its own reference, without pressure: the solution without a load.
   State start() const;
@@ -63,7 +63,7 @@ class InverseEquilibrium {
   Step step_of(const Eigen::VectorXd& correction, const Evaluation& here) const;
   bool search(State& reference, Evaluation& here, const Eigen::Vector3d& body_force) const;
 
-  CompressionProblem problem_;  ///< its tissue is remembered: every reference has the same
+  BreastProblem problem_;  ///< its tissue is remembered: every reference has the same
   SolidOptions solid_;
   BreastModel prone_;
   SparsePattern pattern_;

@@ -19,8 +19,7 @@ std::string percent(double share) {
 }
 
 /// Strain from the unloaded to the prone shape at the quadrature points.
-void measure_strain(const CompressionProblem& hanging, const SolidOptions& solid,
-                    UnloadReport& report) {
+void measure_strain(const BreastProblem& hanging, const SolidOptions& solid, UnloadReport& report) {
   const BreastModel breast = make_breast_model(hanging, solid);
   std::vector<double> stretches;
   report.min_J = report.max_J = 1;
@@ -41,8 +40,7 @@ void measure_strain(const CompressionProblem& hanging, const SolidOptions& solid
 /// One unloading under way.
 class Unloading {
  public:
-  Unloading(const CompressionProblem& problem, const UnloadOptions& options,
-            const Progress& progress)
+  Unloading(const BreastProblem& problem, const UnloadOptions& options, const Progress& progress)
       : problem_(problem),
         options_(options),
         progress_(progress),
@@ -70,7 +68,7 @@ class Unloading {
     if (progress_) progress_(fraction, what);
   }
 
-  const CompressionProblem& problem_;
+  const BreastProblem& problem_;
   const UnloadOptions& options_;
   const Progress& progress_;
   InverseEquilibrium inverse_;
@@ -106,7 +104,7 @@ HangOptions Unloading::reload_options() const {
 
 /// Where an unloaded shape hangs to, beside the prone one.
 Unloading::Reload Unloading::reload(const Nodes& unloaded, double share) const {
-  CompressionProblem hanging = from_unloaded(problem_, unloaded);
+  BreastProblem hanging = from_unloaded(problem_, unloaded);
   hanging.gravity *= share;
   const HangResult again = hang(hanging, reload_options());
   if (!again.report.usable())
@@ -117,7 +115,7 @@ Unloading::Reload Unloading::reload(const Nodes& unloaded, double share) const {
 
 /// What many do: solve the prone shape with gravity reversed and call that unloaded.
 std::optional<double> Unloading::naive_error() const {
-  CompressionProblem reversed = problem_;
+  BreastProblem reversed = problem_;
   reversed.prone.clear();
   reversed.gravity = -problem_.gravity;
   HangOptions options = reload_options();
@@ -196,14 +194,14 @@ UnloadResult Unloading::run() {
 
 }  // namespace
 
-CompressionProblem from_unloaded(const CompressionProblem& prone, const Nodes& unloaded) {
-  CompressionProblem problem = prone;
+BreastProblem from_unloaded(const BreastProblem& prone, const Nodes& unloaded) {
+  BreastProblem problem = prone;
   problem.prone = prone.mesh.mesh.nodes();
   problem.mesh.mesh = HermiteMesh(unloaded, prone.mesh.mesh.elements());
   return problem;
 }
 
-UnloadResult unload(const CompressionProblem& problem, const UnloadOptions& options,
+UnloadResult unload(const BreastProblem& problem, const UnloadOptions& options,
                     const Progress& progress) {
   return Unloading(problem, options, progress).run();
 }

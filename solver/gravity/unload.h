@@ -1,6 +1,9 @@
 #pragma once
 
+#include <optional>
+
 #include "solver/gravity/hang.h"
+#include "solver/progress.h"
 
 namespace mammotwin {
 
@@ -45,16 +48,16 @@ struct UnloadResult {
 };
 
 /// The shape free of stress that `problem.gravity` turns into `problem.mesh`, which is the breast
-/// as imaged (`problem.prone` is not looked at; plates neither).
+/// as imaged (`problem.prone` is not looked at).
 ///
 /// Springs are taken to be relaxed, and the skin unstressed, in the unloaded shape; the chest wall
 /// stands where the prone one does, and tissue slides on it.
-/// Throws std::invalid_argument as `compress` does.
-UnloadResult unload(const CompressionProblem& problem, const UnloadOptions& options,
+/// Throws std::invalid_argument as make_breast_model does.
+UnloadResult unload(const BreastProblem& problem, const UnloadOptions& options,
                     const Progress& progress = {});
 
 /// The problem whose mesh is the unloaded shape and which remembers the prone one.
-CompressionProblem from_unloaded(const CompressionProblem& prone,
-                                 const std::vector<HermiteMesh::Node>& unloaded);
+BreastProblem from_unloaded(const BreastProblem& prone,
+                            const std::vector<HermiteMesh::Node>& unloaded);
 
 }  // namespace mammotwin

@@ -5,7 +5,8 @@
 
 #include "solver/contact/plate_friction.h"
 #include "solver/load/load_stepping.h"
-#include "solver/press/compress.h"
+#include "solver/newton/model.h"
+#include "solver/press/compression_result.h"
 
 namespace mammotwin {
 

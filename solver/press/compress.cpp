@@ -10,7 +10,6 @@
 #include "fitting/mesh/jacobian_bound.h"
 #include "solver/gravity/hang.h"
 #include "solver/load/load_stepping.h"
-#include "solver/material/neo_hookean.h"
 #include "solver/press/checkpoint.h"
 #include "solver/press/compression_figures.h"
 #include "solver/press/finish.h"
@@ -296,12 +295,6 @@ CompressionResult Compression::run_from(const CompressionResult& near) {
 }
 
 }  // namespace
-
-TissueLaws TissueLaws::defaults() {
-  return {{std::make_shared<NeoHookean>(0.75), std::make_shared<NeoHookean>(2.5),
-           std::make_shared<NeoHookean>(3.3)},
-          Mixing::geometric};
-}
 
 CompressionResult compress(const CompressionProblem& problem, const CompressionOptions& options,
                            const Progress& progress, const CompressionRestart& restart) {

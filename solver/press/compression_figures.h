@@ -1,5 +1,6 @@
 #pragma once
 
+#include "solver/press/compression_result.h"
 #include "solver/press/press.h"
 
 namespace mammotwin {

@@ -3,13 +3,13 @@
 #include <stdexcept>
 #include <utility>
 
-#include "solver/breast/breast_model.h"
+#include "solver/press/pressed_breast.h"
 
 namespace mammotwin {
 
 /// A breast and its plates with the linear system at the solved state.
 struct NearbyEquilibria::Posed {
-  BreastModel breast;
+  PressedBreast breast;
   PlacedPlates plates;
   std::unique_ptr<Assembler> assembler;
 };
@@ -27,7 +27,7 @@ NearbyEquilibria::NearbyEquilibria(const CompressionResult& near, const Compress
 }
 
 NearbyEquilibria::Posed NearbyEquilibria::posed(const CompressionProblem& problem) const {
-  Posed posed{make_breast_model(problem, options_.solid), {}, nullptr};
+  Posed posed{make_pressed_breast(problem, options_.solid), {}, nullptr};
   const PlateFrame frame(problem.mesh, problem.plates);
   const PlacedPlates asked =
       PlateWay(frame, problem, options_.moving).at(1, problem.plates.paddle_tilt);

@@ -4,7 +4,7 @@
 
 #include "solver/newton/assembler.h"
 #include "solver/newton/cholesky.h"
-#include "solver/press/compress.h"
+#include "solver/press/compression_result.h"
 #include "solver/press/plate_way.h"
 
 namespace mammotwin {

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "solver/contact/plate_placement.h"
-#include "solver/press/compress.h"
+#include "solver/press/compression_problem.h"
 
 namespace mammotwin {
 

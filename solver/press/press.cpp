@@ -25,7 +25,7 @@ PenaltyOptions penalties_of_steps() {
 Press::Press(const CompressionProblem& problem, const CompressionOptions& options)
     : problem_(problem),
       options_(options),
-      breast_(make_breast_model(problem, options.solid)),
+      breast_(make_pressed_breast(problem, options.solid)),
       frame_(problem.mesh, problem.plates),
       newton_(*breast_.model, *breast_.dofs) {
   if (breast_.friction) breast_.contact->follow = [this](const State& s) { track_friction(s); };

@@ -1,10 +1,10 @@
 #pragma once
 
-#include "solver/breast/breast_model.h"
 #include "solver/contact/contact_figures.h"
 #include "solver/contact/penalty_continuation.h"
 #include "solver/newton/newton.h"
-#include "solver/press/compress.h"
+#include "solver/press/compression_problem.h"
+#include "solver/press/pressed_breast.h"
 
 namespace mammotwin {
 
@@ -27,8 +27,8 @@ class Press {
   const Model& model() const { return *breast_.model; }
   const PlateFrame& frame() const { return frame_; }
   const PlacedPlates& placed() const { return placed_; }
-  const BreastModel& breast() const { return breast_; }
-  BreastModel& breast() { return breast_; }
+  const PressedBreast& breast() const { return breast_; }
+  PressedBreast& breast() { return breast_; }
   const Newton& newton() const { return newton_; }
   Newton& newton() { return newton_; }
   double penalty() const { return breast_.contact->penalty; }  ///< [kPa/mm]
@@ -70,7 +70,7 @@ class Press {
  private:
   const CompressionProblem& problem_;
   const CompressionOptions& options_;
-  BreastModel breast_;
+  PressedBreast breast_;
   PlateFrame frame_;
   Newton newton_;
   PlacedPlates placed_;

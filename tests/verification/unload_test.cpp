@@ -12,8 +12,8 @@ constexpr double kWeight = 1e-6 * 9810;  // density times gravity [mN/mm³]
 
 /// A body that hangs along +z from a wall at z = 0 on which it slides against faint springs; sides
 /// free.
-CompressionProblem hanging_body(const HermiteMesh& mesh, const TissueSampler& tissue, double pull) {
-  CompressionProblem problem;
+BreastProblem hanging_body(const HermiteMesh& mesh, const TissueSampler& tissue, double pull) {
+  BreastProblem problem;
   FaceLabels inside;
   inside.fill(FaceLabel::interior);
   problem.mesh.mesh = mesh;
@@ -51,7 +51,7 @@ TEST(Unload, ColumnThatHangsStraightWasThisLong) {
   const auto fat = [](const Eigen::Vector3d&, double) -> std::array<double, 3> {
     return {1, 0, 0};
   };
-  CompressionProblem problem = hanging_body(box_mesh({6, 6, kLength}, {1, 1, 6}), fat, pull);
+  BreastProblem problem = hanging_body(box_mesh({6, 6, kLength}, {1, 1, 6}), fat, pull);
   UnloadOptions options;
   options.solid = {PressureSpace::trilinear, 1e6, 0};
   const UnloadResult result = unload(problem, options);
@@ -96,7 +96,7 @@ TEST(Unload, BlockConvergesUnderRefinement) {
 // The other way to the same shape, which uses the forward solve alone: X − (x(X) − prone), again
 // and again. It contracts by the strain, here by a third a round.
 TEST(Unload, AgreesWithTheFixedPoint) {
-  CompressionProblem problem = dome_problem(60);
+  BreastProblem problem = dome_problem(60);
   problem.mesh = dome_breast({3, 3, 1});
   problem.gravity = {0, -9810 * 5, 0};
   const UnloadResult inverse = unload(problem, without_checks());
@@ -119,7 +119,7 @@ TEST(Unload, AgreesWithTheFixedPoint) {
 // A breast that gravity presses on the chest: its unloaded shape would be higher than it can stand.
 // Only gravity over stiffness counts, so the share of gravity that works says what stiffness does.
 TEST(Unload, TooSoftTissueIsSaidSoWithTheStiffnessThatWouldDo) {
-  CompressionProblem problem = dome_problem(60);
+  BreastProblem problem = dome_problem(60);
   problem.mesh = dome_breast({2, 2, 1});
   problem.gravity = {0, 9810 * 25, 0};
   const UnloadReport report = unload(problem, {}).report;
@@ -140,13 +140,13 @@ TEST(Unload, TooSoftTissueIsSaidSoWithTheStiffnessThatWouldDo) {
 // off by a factor, the supine shape gives that factor back. The search stops within 2 %.
 TEST(FitStiffness, FindsTheFactorFromASupineShape) {
   constexpr double true_factor = 0.6;
-  CompressionProblem prone = dome_problem(60);
+  BreastProblem prone = dome_problem(60);
   prone.mesh = dome_breast({2, 2, 1});
   const Eigen::Vector3d down(0, -9810, 0);
   prone.gravity = down / true_factor;
   const UnloadResult unloaded = unload(prone, without_checks());
   ASSERT_TRUE(unloaded.report.usable()) << unloaded.report.reason;
-  CompressionProblem supine = from_unloaded(prone, unloaded.unloaded);
+  BreastProblem supine = from_unloaded(prone, unloaded.unloaded);
   supine.gravity = -down / true_factor;
   const HangResult seen = hang(supine, {});
   ASSERT_TRUE(seen.report.usable()) << seen.report.reason;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <ctime>
+#include <nlohmann/json.hpp>
 #include <numeric>
 #include <stdexcept>
 
@@ -11,6 +12,7 @@
 #include "registration/view/view_frame.h"
 #include "segmentation/files/segmentation_file.h"
 #include "solver/gravity/unload.h"
+#include "solver/press/compress.h"
 
 namespace mammotwin {
 namespace {
@@ -33,8 +35,8 @@ struct FittedBreast {
         mesh(read_mesh_file(folder / "prone.vtu")),
         tissue(tissue_of(mesh, segmentation.fractions)) {}
 
-  CompressionProblem problem(const CompressionSettings& settings, Pose pose, double factor) const {
-    CompressionProblem problem = breast_problem(mesh, tissue, settings, factor);
+  BreastProblem problem(const CompressionSettings& settings, Pose pose, double factor) const {
+    BreastProblem problem = breast_problem(mesh, tissue, settings, factor);
     problem.gravity = gravity_in_lps(pose);
     problem.density = GravitySettings().density();
     return problem;
@@ -58,7 +60,7 @@ json row_of(const std::string& stiffness, const UnloadReport& r, double seconds)
           {"solve_seconds", seconds}};
 }
 
-json unload_with(const std::string& name, const CompressionProblem& problem) {
+json unload_with(const std::string& name, const BreastProblem& problem) {
   UnloadOptions options;
   options.check = false;
   const double begin = cpu_seconds();
@@ -71,12 +73,12 @@ json unload_with(const std::string& name, const CompressionProblem& problem) {
 json standing_slide(const FittedBreast& breast, double spring) {
   CompressionSettings settings;
   settings.boundary.chest_wall_spring = spring;
-  const CompressionProblem prone = breast.problem(settings, Pose::prone, 1);
+  const BreastProblem prone = breast.problem(settings, Pose::prone, 1);
   UnloadOptions options;
   options.check = false;
   const UnloadResult unloaded = unload(prone, options);
   if (!unloaded.report.usable()) return nullptr;
-  CompressionProblem standing = from_unloaded(prone, unloaded.unloaded);
+  BreastProblem standing = from_unloaded(prone, unloaded.unloaded);
   standing.gravity = gravity_in_lps(Pose::standing);
   const HangResult state = hang(standing, {});
   if (!state.report.usable()) return nullptr;
@@ -89,7 +91,8 @@ struct ViewSolution {
 };
 
 /// The breast between plates; the free thickness is the prone breast's, whatever the reference is.
-ViewSolution squeeze(const FittedBreast& breast, CompressionProblem problem, double angle_deg) {
+ViewSolution squeeze(const FittedBreast& breast, const BreastProblem& loaded, double angle_deg) {
+  CompressionProblem problem{loaded, {}, {}};
   problem.gravity.setZero();
   const Eigen::Matrix3d axes = view_axes(breast.segmentation.region.side, angle_deg);
   problem.plates.depth = axes.row(0);
@@ -145,7 +148,7 @@ json unload_rows(const std::filesystem::path& folder) {
 
 json view_shifts(const std::filesystem::path& folder) {
   const FittedBreast breast(folder);
-  const CompressionProblem prone = breast.problem({}, Pose::prone, 1);
+  const BreastProblem prone = breast.problem({}, Pose::prone, 1);
   UnloadOptions options;
   options.check = false;
   const UnloadResult unloaded = unload(prone, options);

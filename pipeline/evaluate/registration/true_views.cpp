@@ -11,6 +11,7 @@
 #include "pipeline/synthesize/counter_random.h"
 #include "registration/view/view_frame.h"
 #include "solver/gravity/unload.h"
+#include "solver/press/compress.h"
 
 namespace mammotwin {
 namespace {
@@ -50,8 +51,7 @@ MeshFile true_mesh(const Segmentation& truth, const Eigen::Vector3i& elements) {
 MeshFile unloaded_truth(const Segmentation& truth, const DrawnPatient& drawn) {
   MeshFile file = true_mesh(truth, drawn.true_elements);
   const TissueSampler tissue = tissue_of(file, truth.fractions);
-  CompressionProblem problem =
-      breast_problem(file, tissue, true_settings(drawn.stiffness_ratio), 1);
+  BreastProblem problem = breast_problem(file, tissue, true_settings(drawn.stiffness_ratio), 1);
   problem.gravity = gravity_in_lps(Pose::prone);
   problem.density = GravitySettings().density();
   UnloadOptions options;
@@ -124,8 +124,8 @@ TrueBreast::TrueBreast(const SyntheticPatient& patient, const DrawnPatient& draw
 
 TrueView TrueBreast::compress_view(const DrawnView& drawn) const {
   const CompressionSettings settings = true_settings(stiffness_ratio_);
-  CompressionProblem problem =
-      breast_problem(unloaded_, tissue_of(unloaded_, truth_.fractions), settings, 1);
+  CompressionProblem problem{
+      breast_problem(unloaded_, tissue_of(unloaded_, truth_.fractions), settings, 1), {}, {}};
   problem.gravity = gravity_in_lps(Pose::standing);
   problem.density = GravitySettings().density();
   problem.friction = settings.friction;

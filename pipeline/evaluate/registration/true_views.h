@@ -4,10 +4,10 @@
 #include <optional>
 #include <string>
 
+#include "fitting/mesh/mesh_file.h"
 #include "pipeline/synthesize/patient.h"
 #include "registration/view/compressed_view.h"
 #include "registration/view/detector.h"
-#include "solver/press/compress.h"
 
 namespace mammotwin {
 

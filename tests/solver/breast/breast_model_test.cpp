@@ -11,8 +11,8 @@ namespace {
 const Eigen::Vector3d kSize(20, 16, 12);  // [mm]
 
 /// A block of fat that slides on a flat wall under it, with skin on its top.
-CompressionProblem block_problem(double c1_skin) {
-  CompressionProblem problem;
+BreastProblem block_problem(double c1_skin) {
+  BreastProblem problem;
   problem.mesh.mesh = box_mesh(kSize, {2, 2, 2});
   for (int e = 0; e < 8; ++e) {
     FaceLabels labels;
@@ -29,7 +29,7 @@ CompressionProblem block_problem(double c1_skin) {
 }
 
 /// Stored by the block when it is strained alike everywhere.
-double stored(const CompressionProblem& problem, const Eigen::Matrix3d& F) {
+double stored(const BreastProblem& problem, const Eigen::Matrix3d& F) {
   const BreastModel breast = make_breast_model(problem, {});
   State state = breast.model->rest();
   state.x = affine(problem.mesh.mesh, F, {0, 0, 0});
@@ -51,7 +51,7 @@ std::vector<Eigen::Matrix3d> strains() {
 // A layered body strained alike in all layers stores, at J = 1, (tr FᵀF − 3) times each layer's
 // c₁ and volume. The mesh holds the skin's volume as fat, so its fat is (height − h) thick.
 TEST(BreastModel, FatAndSkinStoreWhatALayeredBodyStores) {
-  const CompressionProblem problem = block_problem(3.3);
+  const BreastProblem problem = block_problem(3.3);
   const double fat = problem.laws.laws[0]->shear_modulus() / 2, h = problem.skin.thickness;
   for (const Eigen::Matrix3d& F : strains()) {
     const double layered =
@@ -61,10 +61,10 @@ TEST(BreastModel, FatAndSkinStoreWhatALayeredBodyStores) {
 }
 
 TEST(BreastModel, SkinNoStifferThanFatAddsNothing) {
-  CompressionProblem none = block_problem(3.3);
+  BreastProblem none = block_problem(3.3);
   none.skin.on = false;
   for (const double c1 : {0.1, 0.75}) {
-    const CompressionProblem soft = block_problem(c1);
+    const BreastProblem soft = block_problem(c1);
     for (const Eigen::Matrix3d& F : strains()) EXPECT_EQ(stored(soft, F), stored(none, F)) << c1;
   }
 }

@@ -131,8 +131,8 @@ TEST(ReferenceTangent, RefusesALoadThatCannotSay) {
 }
 
 /// A dome of lumpy tissue that hangs under gravity times `pull`, its skin and walls as by default.
-CompressionProblem hanging_dome(double pull) {
-  CompressionProblem problem = dome_problem(60);
+BreastProblem hanging_dome(double pull) {
+  BreastProblem problem = dome_problem(60);
   problem.mesh = dome_breast({3, 3, 1});
   problem.gravity = {0, -9810 * pull, 0};
   return problem;
@@ -150,7 +150,7 @@ TEST(Unload, ReloadedTheBreastHangsAsItDid) {
 }
 
 TEST(Unload, WithoutGravityTheShapeIsTheImagedOne) {
-  CompressionProblem problem = hanging_dome(0);
+  BreastProblem problem = hanging_dome(0);
   const UnloadResult result = unload(problem, {});
   ASSERT_TRUE(result.report.usable()) << result.report.reason;
   EXPECT_EQ(result.report.sag_max_mm, 0);
@@ -158,7 +158,7 @@ TEST(Unload, WithoutGravityTheShapeIsTheImagedOne) {
 }
 
 TEST(Unload, AClampedWallStaysWhereItIs) {
-  CompressionProblem problem = hanging_dome(5);
+  BreastProblem problem = hanging_dome(5);
   problem.boundary.chest_wall = ChestWall::clamped;
   const UnloadResult result = unload(problem, {});
   ASSERT_TRUE(result.report.usable()) << result.report.reason;

@@ -1,0 +1,44 @@
+#pragma once
+
+#include "solver/breast/breast_problem.h"
+#include "solver/contact/plate_placement.h"
+#include "solver/element/solid_element.h"
+
+namespace mammotwin {
+
+/// With the plates (contact/plate_friction.h).
+struct FrictionOptions {
+  double coefficient = 0;  ///< in [0, 1]; 0: none
+  double slip = 0.1;       ///< a point sticks until it slid so far [mm] > 0
+};
+
+/// One breast between two plates. The solver knows nothing of views: the plates say which way.
+/// Where gravity is not zero the breast first comes to rest under it, then plates close.
+struct CompressionProblem : BreastProblem {
+  FrictionOptions friction;
+  PlateOptions plates;
+};
+
+enum class Moving {
+  both,   ///< plates close on the breast from both sides
+  paddle  ///< the support first lifts the breast to its place, then only the paddle moves
+};
+
+struct CompressionOptions {
+  SolidOptions solid;
+  Moving moving = Moving::both;
+  double gap_tolerance = 0.08;        ///< largest penetration [mm] > 0
+  double thickness_tolerance = 0.05;  ///< |measured − asked| [mm] > 0
+  double first_step = 1;              ///< of the way, in (0, 1]
+  double longest_move = 10;           ///< of a plate in one load step [mm] > 0
+  double smallest_step = 1.0 / 64;    ///< give up below this part of the way
+  int max_iterations = 500;           ///< Newton iterations of the load steps together
+  /// Of the tissue in front of the plates' edges, in [0, 1): where less stays there the breast
+  /// counts as slipped out.
+  double least_retained = 0.5;
+  /// In `compress_from`: friction's tractions stay those of the result that it starts from, but for
+  /// springs of this reach [mm] > 0 (PlateFriction::freeze); 0: they follow Coulomb's law.
+  double frozen_friction = 0;
+};
+
+}  // namespace mammotwin
