@@ -12,6 +12,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "segmentation/image/trilinear.h"
+
 namespace mammotwin {
 
 namespace {
@@ -139,23 +141,6 @@ Volume<float> smoothed_along(const Volume<float>& volume, int axis, double sigma
   return result;
 }
 
-float trilinear(const Volume<float>& v, const Eigen::Vector3d& index) {
-  Eigen::Vector3i at;
-  Eigen::Vector3d part;
-  for (int a = 0; a < 3; ++a) {
-    const double x = std::clamp(index[a], 0.0, v.size[a] - 1.0);
-    at[a] = std::min(static_cast<int>(x), v.size[a] - 2);
-    part[a] = x - at[a];
-  }
-  double value = 0;
-  for (int c = 0; c < 8; ++c) {
-    double w = 1;
-    for (int a = 0; a < 3; ++a) w *= c >> a & 1 ? part[a] : 1 - part[a];
-    value += w * v(at[0] + (c & 1), at[1] + (c >> 1 & 1), at[2] + (c >> 2));
-  }
-  return static_cast<float>(value);
-}
-
 }  // namespace
 
 Volume<float> solid_from_labels(const Volume<std::uint8_t>& labels, const BreastRegion& region,
@@ -183,10 +168,14 @@ Volume<float> resampled(const Volume<float>& volume, double spacing_mm) {
   const Eigen::Vector3d left_over =
       extent - spacing_mm * (size - Eigen::Vector3i::Ones()).cast<double>();
   Volume<float> result(size, Eigen::Vector3d::Constant(spacing_mm), volume.origin + left_over / 2);
+  const Eigen::Vector3d last = (volume.size - Eigen::Vector3i::Ones()).cast<double>();
   tbb::parallel_for(0, size.z(), [&](int k) {
     for (int j = 0; j < size.y(); ++j)
       for (int i = 0; i < size.x(); ++i)
-        result(i, j, k) = trilinear(volume, volume.index(result.position(i, j, k)));
+        result(i, j, k) = static_cast<float>(
+            trilinear_corners(volume,
+                              volume.index(result.position(i, j, k)).cwiseMax(0).cwiseMin(last))
+                .of(volume));
   });
   return result;
 }

@@ -3,13 +3,13 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 
 #include "registration/carry/point_carrier.h"
 #include "registration/carry/position_grid.h"
 #include "segmentation/files/write_image_file.h"
+#include "segmentation/image/trilinear.h"
 
 namespace mammotwin {
 namespace {
@@ -42,30 +42,7 @@ void continue_one_layer(const PointCarrier& carrier, Volume<std::uint8_t>& state
   });
 }
 
-/// Voxels that a point is interpolated from, with their weights.
-struct Corners {
-  int count = 0;  // of the eight that lie in the grid
-  std::array<std::size_t, 8> voxels;
-  std::array<double, 8> weights;
-};
-Corners corners_of(const DisplacementField& field, const Eigen::Vector3d& x) {
-  const Eigen::Vector3d index = field.index(x);
-  const Eigen::Vector3i low = index.array().floor().cast<int>();
-  const Eigen::Vector3d t = index - low.cast<double>();
-  Corners corners;
-  for (int corner = 0; corner < 8; ++corner) {
-    const Eigen::Vector3i bits(corner & 1, corner >> 1 & 1, corner >> 2);
-    const Eigen::Vector3i v = low + bits;
-    if (!field.contains(v.x(), v.y(), v.z())) continue;
-    double weight = 1;
-    for (int a = 0; a < 3; ++a) weight *= bits[a] ? t[a] : 1 - t[a];
-    corners.voxels[corners.count] = field.offset(v.x(), v.y(), v.z());
-    corners.weights[corners.count++] = weight;
-  }
-  return corners;
-}
-
-Eigen::Vector3d interpolate(const DisplacementField& field, const Corners& corners) {
+Eigen::Vector3d interpolate(const DisplacementField& field, const TrilinearCorners& corners) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (int c = 0; c < corners.count; ++c)
     sum += corners.weights[c] * field.values[corners.voxels[c]].cast<double>();
@@ -115,16 +92,17 @@ DisplacementField displacement_field(const HermiteMesh& here, const HermiteMesh&
 }
 
 Eigen::Vector3d displacement_at(const DisplacementField& field, const Eigen::Vector3d& x) {
-  return interpolate(field, corners_of(field, x));
+  return interpolate(field, trilinear_corners(field, field.index(x)));
 }
 
 void compose_to_identity(const DisplacementField& there, const HermiteMesh& there_mesh,
                          double tolerance_mm, DisplacementField& back) {
   constexpr int most_rounds = 60;
   const std::vector<Composed> points = composed(there, there_mesh);
-  std::vector<Corners> corners(points.size());  // the same in every round
-  tbb::parallel_for(std::size_t{0}, points.size(),
-                    [&](std::size_t p) { corners[p] = corners_of(back, points[p].y); });
+  std::vector<TrilinearCorners> corners(points.size());  // the same in every round
+  tbb::parallel_for(std::size_t{0}, points.size(), [&](std::size_t p) {
+    corners[p] = trilinear_corners(back, back.index(points[p].y));
+  });
   std::vector<Eigen::Vector3d> misses(points.size());
   std::vector<Eigen::Vector4d> left(back.values.size());
   for (int round = 0; round < most_rounds; ++round) {

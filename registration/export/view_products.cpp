@@ -3,27 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "segmentation/image/trilinear.h"
+
 namespace mammotwin {
-namespace {
-
-float trilinear(const Volume<float>& image, const Eigen::Vector3d& x) {
-  const Eigen::Vector3d index = image.index(x);
-  const Eigen::Vector3i low = index.array().floor().cast<int>();
-  double sum = 0;
-  for (int corner = 0; corner < 8; ++corner) {
-    double weight = 1;
-    Eigen::Vector3i v = low;
-    for (int a = 0; a < 3; ++a) {
-      const bool up = corner >> a & 1;
-      v[a] += up;
-      weight *= up ? index[a] - low[a] : 1 - (index[a] - low[a]);
-    }
-    if (image.contains(v.x(), v.y(), v.z())) sum += weight * image(v.x(), v.y(), v.z());
-  }
-  return static_cast<float>(sum);
-}
-
-}  // namespace
 
 ViewFields view_fields(const HermiteMesh& prone, const HermiteMesh& compressed) {
   constexpr double tolerance = 0.05;  // [mm], where 0.1 is asked
@@ -43,7 +25,8 @@ Volume<float> mri_in_view(const HermiteMesh& prone, const HermiteMesh& compresse
   fill_positions(compressed, prone, positions);
   Volume<float> image = positions.like<float>();
   for (std::size_t i = 0; i < image.values.size(); ++i)
-    if (positions.values[i].allFinite()) image.values[i] = trilinear(mri, positions.values[i]);
+    if (const Eigen::Vector3d& x = positions.values[i]; x.allFinite())
+      image.values[i] = static_cast<float>(trilinear_corners(mri, mri.index(x)).of(mri));
   return image;
 }
 

@@ -21,7 +21,8 @@ Volume<float> weighted_smoothed(const Volume<float>& image, const Volume<float>&
 /// Largest value in the cube of 2 n + 1 voxels a side.
 Volume<float> local_maximum(Volume<float> image, int n);
 
-/// Trilinear value at a point [mm]; beyond the grid the nearest face's value.
+/// Trilinear value at a point [mm]; beyond the grid the nearest face's value. In single precision,
+/// unlike trilinear.h: it is asked for every voxel of whole images.
 float interpolated(const Volume<float>& image, const Eigen::Vector3d& x_in_lps);
 
 /// A coarser grid of blocks of whole voxels, about `block_mm` a side: mean over the voxels in the
