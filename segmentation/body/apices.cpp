@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 
 namespace mammotwin {
@@ -31,6 +32,14 @@ Second second_apex(const std::vector<double>& front, int first, int direction, d
 }
 
 }  // namespace
+
+std::vector<double> front_profile(const std::vector<double>& fronts, int nx, int low, int high) {
+  std::vector<double> profile(nx, -std::numeric_limits<double>::infinity());
+  for (int k = low; k <= high; ++k)
+    for (int i = 0; i < nx; ++i)
+      profile[i] = std::max(profile[i], fronts[static_cast<std::size_t>(k) * nx + i]);
+  return profile;
+}
 
 std::optional<Apices> find_apices(const std::vector<double>& front, double step) {
   if (front.empty()) return std::nullopt;

@@ -1,9 +1,31 @@
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <vector>
 
+#include "segmentation/image/volume.h"
+
 namespace mammotwin {
+
+/// How far forward (-y) [mm] the first voxel for which `counts(i, j, k)` lies, one value a column
+/// (i, k), i fastest; -infinity where there is none.
+template <class T, class Counts>
+std::vector<double> column_fronts(const Volume<T>& image, const Counts& counts) {
+  std::vector<double> fronts;
+  for (int k = 0; k < image.size.z(); ++k)
+    for (int i = 0; i < image.size.x(); ++i) {
+      int j = 0;
+      while (j < image.size.y() && !counts(i, j, k)) ++j;
+      fronts.push_back(j < image.size.y() ? -image.position(i, j, k).y()
+                                          : -std::numeric_limits<double>::infinity());
+    }
+  return fronts;
+}
+
+/// How far forward each column of x reaches, over the slices `low` to `high`; `fronts`: of `nx`
+/// columns a slice.
+std::vector<double> front_profile(const std::vector<double>& fronts, int nx, int low, int high);
 
 /// The two most anterior places of a front profile, and the valley between them, as indices.
 struct Apices {

@@ -13,49 +13,27 @@ namespace {
 
 constexpr double least_cleft_mm = 20;  // over the skin between the breasts
 
-/// First body voxel of each column, i fastest; the number of rows where there is none.
-std::vector<int> front_rows(const Volume<std::uint8_t>& body) {
-  std::vector<int> rows;
-  for (int k = 0; k < body.size.z(); ++k)
-    for (int i = 0; i < body.size.x(); ++i) {
-      int j = 0;
-      while (j < body.size.y() && !body(i, j, k)) ++j;
-      rows.push_back(j);
-    }
-  return rows;
-}
-
 /// The middle of the voxels that lie most anterior.
-Eigen::Vector3d most_anterior(const Volume<std::uint8_t>& body, const std::vector<int>& rows,
+Eigen::Vector3d most_anterior(const Volume<std::uint8_t>& body, const std::vector<double>& fronts,
                               int low, int high) {
-  int first = body.size.y() - 1, count = 0;
-  Eigen::Vector3d sum = body.position(low, first, 0);
+  double foremost = -std::numeric_limits<double>::infinity();
+  Eigen::Vector3d sum = body.position(low, body.size.y() - 1, 0);
+  int count = 0;
   for (int k = 0; k < body.size.z(); ++k)
     for (int i = low; i <= high; ++i) {
-      const int j = rows[static_cast<std::size_t>(k) * body.size.x() + i];
-      if (j > first || j == body.size.y()) continue;
-      if (j < first || count == 0) first = j, count = 0, sum.setZero();
-      sum += body.position(i, j, k);
+      const double front = fronts[static_cast<std::size_t>(k) * body.size.x() + i];
+      if (front < foremost || !std::isfinite(front)) continue;
+      if (front > foremost) foremost = front, count = 0, sum.setZero();
+      const Eigen::Vector3d column = body.position(i, 0, k);
+      sum += Eigen::Vector3d(column.x(), -front, column.z());
       ++count;
     }
   return sum / std::max(count, 1);
 }
 
-/// How far forward the skin reaches in each column of x, over slices `low` to `high`.
-std::vector<double> front_profile(const Volume<std::uint8_t>& body, const std::vector<int>& rows,
-                                  int low, int high) {
-  std::vector<double> front(body.size.x(), -std::numeric_limits<double>::infinity());
-  for (int k = low; k <= high; ++k)
-    for (int i = 0; i < body.size.x(); ++i) {
-      const int j = rows[static_cast<std::size_t>(k) * body.size.x() + i];
-      if (j < body.size.y()) front[i] = std::max(front[i], -body.position(i, j, k).y());
-    }
-  return front;
-}
-
 /// The valley at the height of the apices: above and below, the chest lies further forward than
 /// there, and not in its middle.
-double valley_x(const Volume<std::uint8_t>& body, const std::vector<int>& rows,
+double valley_x(const Volume<std::uint8_t>& body, const std::vector<double>& fronts,
                 const BreastFrame& frame) {
   constexpr double reach_mm = 10;
   const auto slice = [&](double z) {
@@ -67,22 +45,21 @@ double valley_x(const Volume<std::uint8_t>& body, const std::vector<int>& rows,
   };
   const double height = (frame.left_apex.z() + frame.right_apex.z()) / 2;
   const std::vector<double> front =
-      front_profile(body, rows, slice(height - reach_mm), slice(height + reach_mm));
+      front_profile(fronts, body.size.x(), slice(height - reach_mm), slice(height + reach_mm));
   const double valley = valley_between(front, column(frame.right_apex), column(frame.left_apex));
   return body.origin.x() + valley * body.spacing.x();
 }
 
 /// Slices in which some column stands out enough, as an unbroken run around the apices.
-void find_slices(const Volume<std::uint8_t>& body, const std::vector<int>& rows,
+void find_slices(const Volume<std::uint8_t>& body, const std::vector<double>& fronts,
                  BreastFrame& frame) {
   constexpr double least_mm = 12, least_share = 0.25;
   const double height = frame.sternal_y - frame.front_y;
   const double needed = std::max(least_mm, least_share * height);
   std::vector<bool> stands(body.size.z(), false);
   for (int k = 0; k < body.size.z(); ++k) {
-    const auto first = rows.begin() + static_cast<std::ptrdiff_t>(k) * body.size.x();
-    const int row = *std::min_element(first, first + body.size.x());
-    stands[k] = row < body.size.y() && frame.sternal_y - body.position(0, row, 0).y() > needed;
+    const auto first = fronts.begin() + static_cast<std::ptrdiff_t>(k) * body.size.x();
+    stands[k] = frame.sternal_y + *std::max_element(first, first + body.size.x()) > needed;
   }
   const auto slice = [&](const Eigen::Vector3d& x) {
     return static_cast<int>((x.z() - body.origin.z()) / body.spacing.z() + 0.5);
@@ -98,8 +75,9 @@ void find_slices(const Volume<std::uint8_t>& body, const std::vector<int>& rows,
 }  // namespace
 
 BreastFrame find_breast_frame(const Volume<std::uint8_t>& body) {
-  const std::vector<int> rows = front_rows(body);
-  const std::vector<double> front = front_profile(body, rows, 0, body.size.z() - 1);
+  const std::vector<double> fronts =
+      column_fronts(body, [&](int i, int j, int k) { return body(i, j, k) != 0; });
+  const std::vector<double> front = front_profile(fronts, body.size.x(), 0, body.size.z() - 1);
   const auto apices = find_apices(front, body.spacing.x());
   if (!apices)
     throw std::runtime_error(
@@ -108,16 +86,16 @@ BreastFrame find_breast_frame(const Volume<std::uint8_t>& body) {
         "breast?)");
   BreastFrame frame;
   frame.sternal_y = -*std::min_element(front.begin() + apices->right, front.begin() + apices->left);
-  frame.right_apex = most_anterior(body, rows, 0, static_cast<int>(apices->valley));
+  frame.right_apex = most_anterior(body, fronts, 0, static_cast<int>(apices->valley));
   frame.left_apex =
-      most_anterior(body, rows, static_cast<int>(std::ceil(apices->valley)), body.size.x() - 1);
-  frame.midline_x = valley_x(body, rows, frame);
+      most_anterior(body, fronts, static_cast<int>(std::ceil(apices->valley)), body.size.x() - 1);
+  frame.midline_x = valley_x(body, fronts, frame);
   frame.front_y = std::min(frame.left_apex.y(), frame.right_apex.y());
   if (frame.sternal_y - frame.front_y < least_cleft_mm)
     throw std::runtime_error(
         "no breast found: nothing stands 20 mm or more out from the skin at "
         "the middle; expected a prone breast MRI");
-  find_slices(body, rows, frame);
+  find_slices(body, fronts, frame);
   return frame;
 }
 

@@ -20,17 +20,10 @@ constexpr double least_apex_mm = 15;  // a breast thinner than this is none
 constexpr double flank_worth = 0.1;   // of tissue behind the breastbone's skin, over that before it
 constexpr double most_outside = 0.03;  // of the pendant tissue, before the region is widened
 
-double farthest_front(const TissueColumns& columns, int i) {
-  double front = -std::numeric_limits<double>::infinity();
-  for (int k = 0; k < columns.nz; ++k) front = std::max(front, columns.front[columns.at(i, k)]);
-  return front;
-}
-
 /// The columns of one side, from the medial end on.
 ColumnBox side_columns(const Volume<std::uint8_t>& labels, const TissueColumns& columns, Side side,
                        LabelsHold hold) {
-  std::vector<double> profile;
-  for (int i = 0; i < columns.nx; ++i) profile.push_back(farthest_front(columns, i));
+  const std::vector<double> profile = front_profile(columns.front, columns.nx, 0, columns.nz - 1);
   ColumnBox half{0, columns.nx - 1, 0, columns.nz - 1};
   while (half.i0 < half.i1 && !std::isfinite(profile[half.i0])) ++half.i0;
   while (half.i1 > half.i0 && !std::isfinite(profile[half.i1])) --half.i1;

@@ -1,7 +1,5 @@
 #include "segmentation/body/midline.h"
 
-#include <algorithm>
-#include <limits>
 #include <vector>
 
 #include "segmentation/body/apices.h"
@@ -9,14 +7,9 @@
 namespace mammotwin {
 
 std::optional<double> find_midline(const Volume<std::uint8_t>& labels) {
-  std::vector<double> front(labels.size.x(), -std::numeric_limits<double>::infinity());
-  for (int k = 0; k < labels.size.z(); ++k)
-    for (int i = 0; i < labels.size.x(); ++i)
-      for (int j = 0; j < labels.size.y(); ++j) {
-        if (!label::is_breast(labels(i, j, k))) continue;
-        front[i] = std::max(front[i], -labels.position(i, j, k).y());
-        break;
-      }
+  const std::vector<double> fronts =
+      column_fronts(labels, [&](int i, int j, int k) { return label::is_breast(labels(i, j, k)); });
+  const std::vector<double> front = front_profile(fronts, labels.size.x(), 0, labels.size.z() - 1);
   // Columns beyond the body are no valley: only what lies between finite values counts.
   const auto apices = find_apices(front, labels.spacing.x());
   if (!apices) return std::nullopt;
