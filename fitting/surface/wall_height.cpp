@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "segmentation/image/components.h"
+#include "segmentation/image/order_statistics.h"
 
 namespace mammotwin {
 
@@ -137,8 +138,7 @@ std::vector<double> median_filtered(const ColumnRange& range, int nx,
       for (int dk = -rk; dk <= rk; ++dk)
         for (int di = -ri; di <= ri; ++di)
           window.push_back(heights[i + di + static_cast<std::size_t>(nx) * (k + dk)]);
-      std::nth_element(window.begin(), window.begin() + window.size() / 2, window.end());
-      result[i + static_cast<std::size_t>(nx) * k] = window[window.size() / 2];
+      result[i + static_cast<std::size_t>(nx) * k] = median(window);
     }
   return result;
 }

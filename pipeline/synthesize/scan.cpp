@@ -9,6 +9,7 @@
 #include "pipeline/synthesize/counter_random.h"
 #include "pipeline/synthesize/implicit.h"
 #include "pipeline/synthesize/lattice_noise.h"
+#include "segmentation/image/order_statistics.h"
 
 namespace mammotwin {
 namespace {
@@ -117,12 +118,7 @@ double shading_ratio(const Volume<float>& shading, const TissueMap& tissue) {
   for (std::size_t n = 0; n < shading.values.size(); ++n)
     if (tissue.mixtures.values[n][Substance::air] == 0) body.push_back(shading.values[n]);
   if (body.empty()) return 1;
-  const auto percentile = [&](double p) {
-    const auto at = body.begin() + static_cast<std::ptrdiff_t>(p * (body.size() - 1));
-    std::nth_element(body.begin(), at, body.end());
-    return *at;
-  };
-  return percentile(0.99) / percentile(0.01);
+  return quantile(body, 0.99) / quantile(body, 0.01);
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "registration/mammogram/mammogram_masks.h"
+#include "segmentation/image/order_statistics.h"
 
 namespace mammotwin {
 namespace {
@@ -22,12 +23,6 @@ constexpr double kLeastBreast = 0.03, kMostBreast = 0.9;  // of the image
 constexpr double kMostCut = 0.05;
 /// Air of an exposed field is looked for so often above darker frames.
 constexpr int kMostFrames = 3;
-
-float median(std::vector<float>& values) {
-  const auto middle = values.begin() + values.size() / 2;
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 /// Share of a line of pixels that is as bright as anything.
 template <class At>

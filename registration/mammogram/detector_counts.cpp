@@ -9,18 +9,15 @@
 #include <vector>
 
 #include "registration/mammogram/breast_mask.h"
+#include "segmentation/image/order_statistics.h"
 
 namespace mammotwin {
 namespace {
 
 constexpr int kStride = 8;  // of the pixels that are enough for statistics
 
-/// A value below which that share of all lies; `values` must not be empty.
-double quantile(std::vector<float>& values, double share) {
-  const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * (values.size() - 1));
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
-}
+/// In double precision: levels are subtracted from one another.
+double level(std::vector<float>& values, double share) { return quantile(values, share); }
 
 /// Every stride-th pixel of every stride-th row.
 MammogramImage sparse(const MammogramImage& image) {
@@ -41,7 +38,7 @@ MammogramImage absorption(MammogramImage image, const CountsEncoding& encoding,
   if (!brighter_is_more)
     for (float& grey : image.grey) grey = static_cast<float>(scale - grey);
   std::vector<float> values = sparse(image).grey;
-  const double open = std::max(1., quantile(values, kOpen));
+  const double open = std::max(1., level(values, kOpen));
   for (float& grey : image.grey) {
     const double counts = std::clamp<double>(grey, 0, open);
     grey = static_cast<float>(encoding.logarithmic
@@ -62,7 +59,7 @@ std::vector<double> clearest(const MammogramImage& image, bool columns) {
     line.clear();
     for (int i = 0; i < length; i += kStride)
       line.push_back(columns ? image.at(l, i) : image.at(i, l));
-    clear[l] = quantile(line, kTenth);
+    clear[l] = level(line, kTenth);
   }
   return clear;
 }
@@ -116,11 +113,11 @@ double likeness(const MammogramImage& image, const ExposedField& f) {
       right.push_back(image.at(f.last_column - i, row));
     }
   const auto width = [](std::vector<float>& band) {
-    return quantile(band, kHigh) - quantile(band, kLow);
+    return level(band, kHigh) - level(band, kLow);
   };
   if (width(right) > width(left)) std::swap(left, right);
-  const double air = quantile(right, 0.5);
-  const double more = quantile(left, kHigh) - air, less = air - quantile(left, kLow);
+  const double air = level(right, 0.5);
+  const double more = level(left, kHigh) - air, less = air - level(left, kLow);
   return (more - less) / std::max(1e-6, width(right));
 }
 
@@ -200,9 +197,9 @@ void take_out_heel(MammogramImage& image) {
       for (int column = 0; column < image.columns; column += kStride)
         if (is_air(column, row))
           off.push_back(static_cast<float>(image.at(column, row) - open.at(column, row)));
-    const double middle = quantile(off, 0.5);
+    const double middle = level(off, 0.5);
     for (float& v : off) v = static_cast<float>(std::abs(v - middle));
-    within = kWithin * kSdOfMad * quantile(off, 0.5);
+    within = kWithin * kSdOfMad * level(off, 0.5);
     last = open;
   }
   for (int row = 0; row < image.rows; ++row)

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "registration/mammogram/mammogram_masks.h"
+#include "segmentation/image/order_statistics.h"
 
 namespace mammotwin {
 namespace {
@@ -17,10 +18,8 @@ constexpr Colour kGreen{60, 220, 60}, kYellow{230, 210, 40}, kRed{240, 70, 60}, 
 ColourPicture grey_picture(const MammogramImage& image) {
   constexpr double kBright = 0.999;
   std::vector<float> greys = image.grey;
-  const auto bright = greys.begin() + static_cast<std::ptrdiff_t>(kBright * (greys.size() - 1));
-  std::nth_element(greys.begin(), bright, greys.end());
-  const float dark = *std::min_element(greys.begin(), bright + 1);
-  const float range = std::max(1e-6f, *bright - dark);
+  const float dark = *std::min_element(greys.begin(), greys.end());
+  const float range = std::max(1e-6f, quantile(greys, kBright) - dark);
   ColourPicture picture(image.columns, image.rows);
   for (std::size_t i = 0; i < image.grey.size(); ++i) {
     const float share = std::clamp((image.grey[i] - dark) / range, 0.f, 1.f);

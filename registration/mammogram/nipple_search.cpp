@@ -8,6 +8,8 @@
 #include <optional>
 #include <stdexcept>
 
+#include "segmentation/image/order_statistics.h"
+
 namespace mammotwin {
 namespace {
 
@@ -113,8 +115,7 @@ std::vector<double> over_flanks(const std::vector<double>& values) {
     sizes.push_back(std::abs(over[i]));
   }
   if (sizes.empty()) return over;
-  std::nth_element(sizes.begin(), sizes.begin() + sizes.size() / 2, sizes.end());
-  const double sd = std::max(1e-9, 1.4826 * sizes[sizes.size() / 2]);  // of a normal distribution
+  const double sd = std::max(1e-9, 1.4826 * median(sizes));  // of a normal distribution
   for (double& o : over) o /= sd;
   return over;
 }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "segmentation/image/order_statistics.h"
+
 namespace mammotwin {
 namespace {
 
@@ -55,8 +57,7 @@ class EdgeResponse {
           changes.push_back(std::abs(smooth_.at(x - reach) - smooth_.at(x + reach)));
       }
     if (changes.empty()) return 1;
-    std::nth_element(changes.begin(), changes.begin() + changes.size() / 2, changes.end());
-    return std::max(1e-6, 2 * changes[changes.size() / 2]);
+    return std::max(1e-6, 2 * median(changes));
   }
 
   const UprightImage& smooth_;

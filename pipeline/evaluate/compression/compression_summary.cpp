@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <iomanip>
+#include <nlohmann/json.hpp>
 #include <sstream>
 
 namespace mammotwin {

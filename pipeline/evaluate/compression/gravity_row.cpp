@@ -1,9 +1,11 @@
 #include "pipeline/evaluate/compression/gravity_row.h"
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 #include <random>
 #include <stdexcept>
 
+#include "pipeline/evaluate/cases/sorted_figures.h"
 #include "pipeline/evaluate/cases/stage_command.h"
 #include "pipeline/evaluate/compression/pressed_places.h"
 #include "pipeline/frame/products.h"

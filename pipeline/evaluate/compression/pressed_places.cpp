@@ -71,9 +71,4 @@ void add_moves(const FollowedPoints& points, const PressedPlaces& base,
   add(points.tissue, "tissue");
 }
 
-double median_of_sorted(const std::vector<double>& values) {
-  const std::size_t n = values.size();
-  return (values[(n - 1) / 2] + values[n / 2]) / 2;
-}
-
 }  // namespace mammotwin

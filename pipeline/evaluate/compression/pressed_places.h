@@ -52,7 +52,4 @@ std::vector<double> moves(const std::vector<Eigen::Vector3d>& points, const Pres
 void add_moves(const FollowedPoints& points, const PressedPlaces& base,
                const PressedPlaces& changed, nlohmann::json& row);
 
-/// Of sorted values, at least one.
-double median_of_sorted(const std::vector<double>& values);
-
 }  // namespace mammotwin

@@ -1,7 +1,9 @@
 #include "pipeline/evaluate/compression/stabilisation_rows.h"
 
+#include <nlohmann/json.hpp>
 #include <optional>
 
+#include "pipeline/evaluate/cases/sorted_figures.h"
 #include "pipeline/evaluate/cases/stage_command.h"
 #include "pipeline/evaluate/compression/pressed_places.h"
 #include "solver/element/solid_element.h"

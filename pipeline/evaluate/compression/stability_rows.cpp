@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <sstream>
 #include <stdexcept>
 
 #include "pipeline/evaluate/cases/real_breasts.h"
+#include "pipeline/evaluate/cases/sorted_figures.h"
 #include "pipeline/evaluate/cases/stage_command.h"
 #include "pipeline/evaluate/compression/pressed_places.h"
 #include "pipeline/frame/products.h"

@@ -1,6 +1,7 @@
 #include "pipeline/evaluate/fitting/fitting_row.h"
 
 #include <map>
+#include <nlohmann/json.hpp>
 
 #include "fitting/mesh/mesh_file.h"
 #include "fitting/tissue/cell_tissue.h"

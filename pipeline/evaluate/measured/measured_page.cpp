@@ -7,6 +7,8 @@
 #include <set>
 #include <stdexcept>
 
+#include "pipeline/evaluate/cases/sorted_figures.h"
+
 namespace mammotwin {
 namespace {
 
@@ -82,11 +84,6 @@ std::string cell_of(const json& value, const MeasuredColumn& column) {
   std::string list;
   for (const json& item : value) list += (list.empty() ? "" : ", ") + in_words(item);
   return list;
-}
-
-double median_of_sorted(const std::vector<double>& sorted) {
-  const std::size_t half = sorted.size() / 2;
-  return sorted.size() % 2 ? sorted[half] : (sorted[half - 1] + sorted[half]) / 2;
 }
 
 /// "median, worst" of numbers, "held of all" of truth values; empty for text.

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <ctime>
 #include <iostream>
+#include <nlohmann/json.hpp>
 
 #include "pipeline/evaluate/registration/mammogram_rows.h"
 #include "pipeline/frame/command_line.h"

@@ -4,19 +4,16 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <nlohmann/json.hpp>
 #include <numeric>
 
+#include "pipeline/evaluate/cases/sorted_figures.h"
 #include "registration/search/search_ellipse.h"
 
 namespace mammotwin {
 namespace {
 
 using nlohmann::json;
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values[static_cast<std::size_t>(0.5 * (values.size() - 1) + 0.5)];
-}
 
 double mean(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / values.size();
@@ -32,7 +29,7 @@ void add_ellipse(const std::vector<JudgedMark>& marks, double probability, const
     major.push_back(ellipse.major_mm);
   }
   row["inside_" + name] = mean(inside);
-  row["major_" + name + "_mm"] = median(major);
+  row["major_" + name + "_mm"] = quantile_of(major, 0.5);
 }
 
 /// Of the mean over patients; the marks of one are wrong together, so patients are what is counted.
@@ -97,7 +94,7 @@ json coverage_of(const std::vector<JudgedMark>& marks) {
   add_ellipse(marks, 0.9, "90", row);
   std::vector<double> errors;
   for (const JudgedMark& mark : marks) errors.push_back(mark.off.norm());
-  row["median_error_mm"] = median(errors);
+  row["median_error_mm"] = quantile_of(errors, 0.5);
   return row;
 }
 

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cstdio>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <numeric>
 
+#include "pipeline/evaluate/cases/sorted_figures.h"
 #include "pipeline/evaluate/registration/mark_coverage.h"
 #include "pipeline/frame/settings.h"
 #include "pipeline/patient/patient.h"
@@ -19,13 +21,8 @@ using nlohmann::json;
 
 constexpr const char* kSpaces[] = {"cc", "mlo", "3d"};
 
-double quantile(std::vector<double> values, double fraction) {
-  std::sort(values.begin(), values.end());
-  return values[static_cast<std::size_t>(fraction * (values.size() - 1) + 0.5)];
-}
-
 json median_of(const std::vector<double>& values) {
-  return values.empty() ? json() : json(quantile(values, 0.5));
+  return values.empty() ? json() : json(quantile_of(values, 0.5));
 }
 
 struct Views {
@@ -130,8 +127,9 @@ std::string registration_summary(const json& cases) {
       if (all.empty()) continue;
       char line[160];
       std::snprintf(line, sizeof line, "  %-26s %6.2f %6.2f %6.2f  n %zu\n", key.c_str(),
-                    quantile(all, 0.5), std::accumulate(all.begin(), all.end(), 0.0) / all.size(),
-                    quantile(all, 0.95), all.size());
+                    quantile_of(all, 0.5),
+                    std::accumulate(all.begin(), all.end(), 0.0) / all.size(),
+                    quantile_of(all, 0.95), all.size());
       text += line;
     }
   std::vector<std::vector<JudgedMark>> patients;
