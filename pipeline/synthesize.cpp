@@ -2,6 +2,7 @@
 
 #include <fstream>
 #include <iostream>
+#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "pipeline/frame/process.h"
@@ -11,7 +12,7 @@
 #include "pipeline/synthesize/nrrd_file.h"
 #include "pipeline/synthesize/option_table.h"
 #include "pipeline/synthesize/patient_files.h"
-#include "pipeline/synthesize/slices_png.h"
+#include "pipeline/synthesize/slice_picture.h"
 
 namespace mammotwin {
 namespace {
@@ -77,8 +78,9 @@ void run(Arguments args) {
   write_text(products.write_main(), patient_toml(patient));
   if (args.hang) write_mesh_file(products.write("truth_unloaded.vtu"), hanging_truth(patient));
   if (args.picture)
-    write_slices(*args.picture, patient.scan.image, patient.truth.lesions.back().centroid_in_lps,
-                 white_over_fat * fat_grey);
+    write_png(*args.picture,
+              slice_picture(patient.scan.image, patient.truth.lesions.back().centroid_in_lps,
+                            white_over_fat * fat_grey));
   products.commit();
   std::cerr << "synthesize: wrote " << args.folder.string() << "\n";
 }
