@@ -13,7 +13,7 @@ namespace mammotwin {
 ///
 /// Branches of the elimination tree and tiles of large fronts run in parallel on single-threaded
 /// BLAS; tiles have a fixed size and sums a fixed order, so the factor is bit for bit the same at
-/// any number of threads. Against CHOLMOD: solver/README.md.
+/// any number of threads. `make bench` runs CHOLMOD on the same matrices.
 class Cholesky {
  public:
   /// `pattern` must outlive this.

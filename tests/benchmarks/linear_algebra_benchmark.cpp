@@ -1,4 +1,6 @@
 #include <benchmark/benchmark.h>
+#include <omp.h>
+#include <suitesparse/cholmod.h>
 #include <tbb/global_control.h>
 
 #include <algorithm>
@@ -11,6 +13,7 @@
 extern "C" void dgemm_(const char*, const char*, const int*, const int*, const int*, const double*,
                        const double*, const int*, const double*, const int*, const double*, double*,
                        const int*);
+extern "C" void openblas_set_num_threads(int);
 
 namespace mammotwin {
 
@@ -59,6 +62,76 @@ void Factorisation(benchmark::State& state) {
   state.counters["of_dgemm"] = rate / dgemm_rate();  // both a core
 }
 
+/// CHOLMOD on the same matrix, as it is fastest: METIS, supernodes.
+class Cholmod {
+ public:
+  Cholmod(const SparsePattern& pattern, const std::vector<double>& values) {
+    cholmod_start(&common_);
+    common_.supernodal = CHOLMOD_SUPERNODAL;
+    common_.nmethods = 1;
+    common_.method[0].ordering = CHOLMOD_METIS;
+    const auto n = static_cast<std::size_t>(pattern.num_columns());
+    matrix_ =
+        cholmod_allocate_sparse(n, n, values.size(), 1, 1, kLowerTriangle, CHOLMOD_REAL, &common_);
+    std::copy(pattern.starts.begin(), pattern.starts.end(), static_cast<int*>(matrix_->p));
+    std::copy(pattern.rows.begin(), pattern.rows.end(), static_cast<int*>(matrix_->i));
+    std::copy(values.begin(), values.end(), static_cast<double*>(matrix_->x));
+    factor_ = cholmod_analyze(matrix_, &common_);
+  }
+  ~Cholmod() {
+    cholmod_free_factor(&factor_, &common_);
+    cholmod_free_sparse(&matrix_, &common_);
+    cholmod_finish(&common_);
+  }
+  Cholmod(const Cholmod&) = delete;
+
+  void factor() { cholmod_factorize(matrix_, factor_, &common_); }
+  double flops() const { return common_.fl; }
+
+  Eigen::VectorXd solve(Eigen::VectorXd right) {
+    cholmod_dense b{};
+    b.nrow = b.nzmax = b.d = static_cast<std::size_t>(right.size());
+    b.ncol = 1;
+    b.x = right.data();
+    b.xtype = CHOLMOD_REAL;
+    b.dtype = CHOLMOD_DOUBLE;
+    cholmod_dense* x = cholmod_solve(CHOLMOD_A, factor_, &b, &common_);
+    right = Eigen::Map<Eigen::VectorXd>(static_cast<double*>(x->x), right.size());
+    cholmod_free_dense(&x, &common_);
+    return right;
+  }
+
+ private:
+  static constexpr int kLowerTriangle = -1;
+  cholmod_common common_;
+  cholmod_sparse* matrix_ = nullptr;
+  cholmod_factor* factor_ = nullptr;
+};
+
+/// Where Cholesky has TBB's threads, CHOLMOD has BLAS's and OpenMP's.
+void CholmodFactorisation(benchmark::State& state) {
+  CylinderProblem& p = problem(static_cast<int>(state.range(0)));
+  const int threads = static_cast<int>(state.range(1));
+  openblas_set_num_threads(threads);
+  omp_set_max_active_levels(threads > 1 ? 1 : 0);
+  p.assembler->linearise(p.state, {});
+  Cholmod cholmod(p.assembler->pattern(), p.assembler->matrix());
+  cholmod.factor();
+  double best = 1e300;
+  for (auto _ : state) best = std::min(best, seconds_of([&] { cholmod.factor(); }));
+  openblas_set_num_threads(1);
+  Cholesky own(p.assembler->pattern(), p.dofs.node_of_equation());
+  own.factor(p.assembler->matrix());
+  const Eigen::VectorXd x = own.solve(p.assembler->right_hand_side());
+  const Eigen::VectorXd y = cholmod.solve(p.assembler->right_hand_side());
+  const double rate = cholmod.flops() / best * 1e-9;
+  state.counters["unknowns"] = p.dofs.num_equations();
+  state.counters["Gflop"] = cholmod.flops() * 1e-9;
+  state.counters["GF/s"] = rate;
+  state.counters["of_dgemm"] = rate / dgemm_rate();
+  state.counters["off_ours"] = (x - y).norm() / x.norm();  // rounding only
+}
+
 /// What is left of a Newton iteration: solve, pressures, one balance of the line search.
 void Rest(benchmark::State& state) {
   CylinderProblem& p = problem(static_cast<int>(state.range(0)));
@@ -81,6 +154,7 @@ void sizes(benchmark::internal::Benchmark* b) {
 }
 BENCHMARK(Assembly)->Apply(sizes);
 BENCHMARK(Factorisation)->Apply(sizes);
+BENCHMARK(CholmodFactorisation)->Apply(sizes);
 BENCHMARK(Rest)->Apply(sizes);
 
 void Dgemm(benchmark::State& state) {
