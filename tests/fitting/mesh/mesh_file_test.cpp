@@ -21,8 +21,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-const std::vector<Vector3d> places = {{0, 0, 0},       {1, 1, 1},       {0.5, 0.5, 0.5},
-                                      {0.1, 0.7, 0.3}, {0.9, 0.2, 0.6}, {1, 0, 0.4}};
+const std::vector<Vector3d> places_in_element = {{0, 0, 0},       {1, 1, 1},       {0.5, 0.5, 0.5},
+                                                 {0.1, 0.7, 0.3}, {0.9, 0.2, 0.6}, {1, 0, 0.4}};
 
 class MeshFileTest : public testing::Test {
  protected:
@@ -115,7 +115,7 @@ TEST_F(MeshFileTest, VtkEvaluatesTheSamePositions) {
   ASSERT_EQ(grid->GetNumberOfCells(), file.mesh.num_elements());
   for (int e = 0; e < file.mesh.num_elements(); ++e) {
     ASSERT_EQ(grid->GetCellType(e), VTK_BEZIER_HEXAHEDRON);
-    for (const Vector3d& xi : places) {
+    for (const Vector3d& xi : places_in_element) {
       int sub = 0;
       double parametric[3] = {xi[0], xi[1], xi[2]};
       Vector3d x;
@@ -134,7 +134,7 @@ TEST_F(MeshFileTest, VtkSeesTheDisplacementAndTheFields) {
   vtkDataArray* u = grid->GetPointData()->GetArray("displacement_from_prone");
   vtkDataArray* distance = grid->GetPointData()->GetArray("distance_mm");
   ASSERT_TRUE(u && distance);
-  for (const Vector3d& xi : places) {
+  for (const Vector3d& xi : places_in_element) {
     double weights[64], parametric[3] = {xi[0], xi[1], xi[2]}, x[3];
     int sub = 0;
     vtkCell* cell = grid->GetCell(1);

@@ -9,7 +9,7 @@
 namespace mammotwin {
 namespace {
 
-const BreastRegion region{Side::left, -2, 3, 10, 14};
+const BreastRegion hill_region{Side::left, -2, 3, 10, 14};
 
 /// A height field over the region on a grid, its triangles and vertices in a random order.
 TriangleSurface shuffled_hill(int seed) {
@@ -22,7 +22,8 @@ TriangleSurface shuffled_hill(int seed) {
   surface.vertices.resize(nx * nz);
   for (int k = 0; k < nz; ++k)
     for (int i = 0; i < nx; ++i)
-      surface.vertices[place[i + nx * k]] = {region.x_min + i, -0.3 * i * k, region.z_min + k};
+      surface.vertices[place[i + nx * k]] = {hill_region.x_min + i, -0.3 * i * k,
+                                             hill_region.z_min + k};
   for (int k = 0; k + 1 < nz; ++k)
     for (int i = 0; i + 1 < nx; ++i) {
       const int a = i + nx * k;
@@ -37,10 +38,10 @@ TriangleSurface shuffled_hill(int seed) {
 TEST(Flatten, LaysXAlongUAndZAlongVWhereverTheBorderBegins) {
   for (int seed = 0; seed < 20; ++seed) {
     const TriangleSurface hill = shuffled_hill(seed);
-    const FlatSkin flat = flatten(hill, region);
+    const FlatSkin flat = flatten(hill, hill_region);
     for (std::size_t v = 0; v < hill.vertices.size(); ++v) {
-      const double u = (hill.vertices[v].x() - region.x_min) / 5;
-      const double w = (hill.vertices[v].z() - region.z_min) / 4;
+      const double u = (hill.vertices[v].x() - hill_region.x_min) / 5;
+      const double w = (hill.vertices[v].z() - hill_region.z_min) / 4;
       EXPECT_EQ(u == 0, flat.uv[v].x() == 0) << "seed " << seed;
       EXPECT_EQ(u == 1, flat.uv[v].x() == 1) << "seed " << seed;
       EXPECT_EQ(w == 0, flat.uv[v].y() == 0) << "seed " << seed;
