@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <iostream>
+#include <nlohmann/json.hpp>
 
 #include "pipeline/frame/command_line.h"
 #include "pipeline/steps/registered_view.h"

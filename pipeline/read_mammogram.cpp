@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iostream>
+#include <nlohmann/json.hpp>
 
 #include "pipeline/frame/command_line.h"
 #include "pipeline/patient/patient.h"

@@ -2,6 +2,7 @@
 // validation.json, pictures.
 
 #include <iostream>
+#include <nlohmann/json.hpp>
 
 #include "pipeline/frame/command_line.h"
 #include "pipeline/frame/products.h"

@@ -1,6 +1,7 @@
 #include "pipeline/cohort/figures.h"
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 namespace mammotwin {
 namespace {

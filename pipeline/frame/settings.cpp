@@ -1,6 +1,8 @@
 #include "pipeline/frame/settings.h"
 
+#include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "pipeline/frame/checksum.h"
@@ -16,8 +18,31 @@ std::string short_number(double x) {
   return out.str();
 }
 
+std::string one_of(const std::vector<std::string>& names) {
+  std::string text;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    text += (i == 0 ? "" : i + 1 == names.size() ? " or " : ", ") + ("\"" + names[i] + "\"");
+  return text;
+}
+
+std::string text_of(const json& value) { return value.is_null() ? "empty" : value.dump(); }
+
+std::size_t number_of(const json& value, const std::vector<std::string>& names) {
+  const auto found = std::find_if(names.begin(), names.end(),
+                                  [&](const std::string& name) { return value == name; });
+  if (found == names.end())
+    throw BadSetting("is " + text_of(value) + "; expected " + one_of(names));
+  return static_cast<std::size_t>(found - names.begin());
+}
+
+std::string joined(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : " | ") + name;
+  return text;
+}
+
 double checked_number(const json& value, const Range& range) {
-  if (!value.is_number()) throw BadSetting("is " + detail::text_of(value) + "; expected a number");
+  if (!value.is_number()) throw BadSetting("is " + text_of(value) + "; expected a number");
   const double x = value.get<double>();
   if (std::isfinite(x) && x >= range.low && x <= range.high) return x;
   Setting shown;
@@ -28,13 +53,13 @@ double checked_number(const json& value, const Range& range) {
 
 int checked_integer(const json& value, const Range& range) {
   if (!value.is_number_integer())
-    throw BadSetting("is " + detail::text_of(value) + "; expected a whole number");
+    throw BadSetting("is " + text_of(value) + "; expected a whole number");
   return static_cast<int>(checked_number(value, range));
 }
 
 const json& checked_list(const json& value, std::size_t size) {
   if (!value.is_array() || (size > 0 && value.size() != size))
-    throw BadSetting("is " + detail::text_of(value) + "; expected a list of " +
+    throw BadSetting("is " + text_of(value) + "; expected a list of " +
                      (size > 0 ? std::to_string(size) + " " : std::string()) + "numbers");
   return value;
 }
@@ -60,30 +85,16 @@ json list_of(const Vector& v) {
 
 std::string checked_text(const json& value) {
   if (!value.is_string() || value.get<std::string>().empty())
-    throw BadSetting("is " + detail::text_of(value) + "; expected text in quotes");
+    throw BadSetting("is " + text_of(value) + "; expected text in quotes");
   return value.get<std::string>();
 }
 
 bool checked_flag(const json& value) {
-  if (!value.is_boolean())
-    throw BadSetting("is " + detail::text_of(value) + "; expected true or false");
+  if (!value.is_boolean()) throw BadSetting("is " + text_of(value) + "; expected true or false");
   return value.get<bool>();
 }
 
 }  // namespace
-
-namespace detail {
-
-std::string one_of(const std::vector<std::string>& names) {
-  std::string text;
-  for (std::size_t i = 0; i < names.size(); ++i)
-    text += (i == 0 ? "" : i + 1 == names.size() ? " or " : ", ") + ("\"" + names[i] + "\"");
-  return text;
-}
-
-std::string text_of(const json& value) { return value.is_null() ? "empty" : value.dump(); }
-
-}  // namespace detail
 
 std::string Setting::range_text() const {
   const std::string unit = range.unit == "-" ? "" : " " + range.unit;
@@ -98,6 +109,21 @@ void Settings::add(std::string key, std::string type, Range range, std::string h
                    std::function<void(const json&)> assign, std::function<json()> value) {
   settings_.push_back({std::move(key), std::move(type), std::move(range), std::move(help),
                        std::move(assign), std::move(value)});
+}
+
+void Settings::add_choice(std::string key, std::vector<std::string> names, std::string help,
+                          std::function<void(std::size_t)> choose,
+                          std::function<std::optional<std::string>()> chosen) {
+  const std::string type = joined(names);
+  add(
+      std::move(key), type, Range{}, std::move(help),
+      [names = std::move(names), choose = std::move(choose)](const json& v) {
+        choose(number_of(v, names));
+      },
+      [chosen = std::move(chosen)] {
+        const auto name = chosen();
+        return name ? json(*name) : json();
+      });
 }
 
 void Settings::number(std::string key, double& variable, Range range, std::string help) {
@@ -186,8 +212,8 @@ void Settings::points(std::string key, std::vector<Eigen::Vector2d>& variable, s
       std::move(key), "[[x, y], ...]", range, std::move(help),
       [&variable, count, range](const json& v) {
         if (!v.is_array() || v.size() != count)
-          throw BadSetting("is " + detail::text_of(v) + "; expected a list of " +
-                           std::to_string(count) + " points [x, y]");
+          throw BadSetting("is " + text_of(v) + "; expected a list of " + std::to_string(count) +
+                           " points [x, y]");
         std::vector<Eigen::Vector2d> points;
         for (const json& point : v) points.push_back(checked_vector<Eigen::Vector2d>(point, range));
         variable = points;

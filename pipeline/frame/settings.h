@@ -1,10 +1,11 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <filesystem>
 #include <functional>
 #include <limits>
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -91,22 +92,14 @@ class Settings {
   void add(std::string key, std::string type, Range range, std::string help,
            std::function<void(const nlohmann::json&)> assign,
            std::function<nlohmann::json()> value);
+  /// One of `names`: `choose` is called with its number; `chosen` is empty where none is set.
+  void add_choice(std::string key, std::vector<std::string> names, std::string help,
+                  std::function<void(std::size_t)> choose,
+                  std::function<std::optional<std::string>()> chosen);
   std::vector<Setting> settings_;
 };
 
 namespace detail {
-std::string one_of(const std::vector<std::string>& names);
-std::string text_of(const nlohmann::json& value);
-
-template <class E>
-E chosen(const nlohmann::json& value, const std::vector<std::pair<std::string, E>>& names) {
-  for (const auto& [name, e] : names)
-    if (value == name) return e;
-  std::vector<std::string> known;
-  for (const auto& pair : names) known.push_back(pair.first);
-  throw BadSetting("is " + text_of(value) + "; expected " + one_of(known));
-}
-
 template <class E>
 std::string name_of(E e, const std::vector<std::pair<std::string, E>>& names) {
   for (const auto& [name, value] : names)
@@ -115,29 +108,30 @@ std::string name_of(E e, const std::vector<std::pair<std::string, E>>& names) {
 }
 
 template <class E>
-std::string type_of(const std::vector<std::pair<std::string, E>>& names) {
-  std::string type;
-  for (const auto& pair : names) type += (type.empty() ? "" : " | ") + pair.first;
-  return type;
+std::vector<std::string> names_of(const std::vector<std::pair<std::string, E>>& names) {
+  std::vector<std::string> all;
+  for (const auto& pair : names) all.push_back(pair.first);
+  return all;
 }
+
 }  // namespace detail
 
 template <class E>
 void Settings::choice(std::string key, E& variable, ChoiceNames<E> names, std::string help) {
-  add(
-      std::move(key), detail::type_of(names), Range{}, std::move(help),
-      [&variable, names](const nlohmann::json& v) { variable = detail::chosen(v, names); },
-      [&variable, names] { return nlohmann::json(detail::name_of(variable, names)); });
+  add_choice(
+      std::move(key), detail::names_of(names), std::move(help),
+      [&variable, names](std::size_t n) { variable = names[n].second; },
+      [&variable, names] { return std::optional(detail::name_of(variable, names)); });
 }
 
 template <class E>
 void Settings::choice(std::string key, std::optional<E>& variable,
                       std::vector<std::pair<std::string, E>> names, std::string help) {
-  add(
-      std::move(key), detail::type_of(names), Range{}, std::move(help),
-      [&variable, names](const nlohmann::json& v) { variable = detail::chosen(v, names); },
+  add_choice(
+      std::move(key), detail::names_of(names), std::move(help),
+      [&variable, names](std::size_t n) { variable = names[n].second; },
       [&variable, names] {
-        return variable ? nlohmann::json(detail::name_of(*variable, names)) : nlohmann::json();
+        return variable ? std::optional(detail::name_of(*variable, names)) : std::nullopt;
       });
 }
 

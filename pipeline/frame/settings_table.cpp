@@ -1,5 +1,7 @@
 #include "pipeline/frame/settings_table.h"
 
+#include <nlohmann/json.hpp>
+
 namespace mammotwin {
 namespace {
 

@@ -1,6 +1,7 @@
 #include "pipeline/frame/stage_declaration.h"
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 namespace mammotwin {
 namespace {

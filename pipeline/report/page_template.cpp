@@ -1,6 +1,7 @@
 #include "pipeline/report/page_template.h"
 
 #include <kainjow/mustache.hpp>
+#include <nlohmann/json.hpp>
 #include <stdexcept>
 
 // Laid into the program by the linker: see embed_files in CMakeLists.txt.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "fitting/fit_limits.h"
 #include "pipeline/report/word.h"

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <iomanip>
+#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "pipeline/synthesize/counter_random.h"

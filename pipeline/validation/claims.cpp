@@ -1,6 +1,7 @@
 #include "pipeline/validation/claims.h"
 
 #include <cstdio>
+#include <nlohmann/json.hpp>
 
 #include "pipeline/validation/lagrange/lagrange_cylinder.h"
 #include "pipeline/validation/lagrange/strain_jump.h"

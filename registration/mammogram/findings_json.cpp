@@ -1,5 +1,7 @@
 #include "registration/mammogram/findings_json.h"
 
+#include <nlohmann/json.hpp>
+
 namespace mammotwin {
 namespace {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include "registration/mammogram/header_geometry.h"
 #include "registration/mammogram/mammogram_findings.h"

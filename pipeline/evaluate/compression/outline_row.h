@@ -1,6 +1,6 @@
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include "fitting/mesh/mesh_file.h"
 #include "pipeline/evaluate/compression/outline_population.h"

@@ -1,5 +1,7 @@
 #include "pipeline/patient/patient.h"
 
+#include <nlohmann/json.hpp>
+
 #include "tests/pipeline/scratch_folder.h"
 
 namespace mammotwin {

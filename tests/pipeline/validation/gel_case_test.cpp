@@ -1,3 +1,5 @@
+#include <nlohmann/json.hpp>
+
 #include "pipeline/validation/gel_result.h"
 #include "tests/pipeline/scratch_folder.h"
 #include "tests/where.h"

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "pipeline/evaluate/compression/outline_row.h"
 #include "registration/view/compressed_view.h"
