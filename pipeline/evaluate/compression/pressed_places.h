@@ -9,6 +9,7 @@
 
 #include "fitting/mesh/inverse_map.h"
 #include "fitting/mesh/mesh_file.h"
+#include "pipeline/evaluate/cases/sorted_figures.h"
 #include "registration/view/view_frame.h"
 
 namespace mammotwin {
