@@ -37,7 +37,7 @@ struct MuscleFront {
 
 /// Columns without muscle: gaps that do not reach the region's border are interpolated (a tumour
 /// on the pectoral muscle leaves such pits), others take the end of the tissue. Pieces of muscle
-/// of fewer than 2,000 voxels are ignored.
+/// of less than `least_muscle_ml` are ignored.
 MuscleFront find_muscle_front(const Volume<std::uint8_t>& labels, const BreastRegion& region);
 
 }  // namespace mammotwin

@@ -18,9 +18,10 @@ struct WallStage {
 };
 
 /// Finds it in the image, with muscle as bright as the study saw it or, where the image does not
-/// support that, as learnt from it (muscle_brightness.h); then again in its mean with the image before contrast agent, if there is
-/// one and the patient did not move in between: there the heart is as dark as muscle when fat is
-/// not suppressed, and noise is less. `side`: whose breast is compared for movement.
+/// support that, as learnt from it (muscle_brightness.h); then again in its mean with the image
+/// before contrast agent, if there is one and the patient did not move in between: there the heart
+/// is as dark as muscle when fat is not suppressed, and noise is less. `side`: whose breast is
+/// compared for movement.
 WallStage find_wall(const BodyStage& body, const BeforeAgent& before, Side side, double stiffness);
 
 }  // namespace mammotwin
