@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "segmentation/body/tissue_columns.h"
 #include "segmentation/image/components.h"
 #include "segmentation/image/order_statistics.h"
 
@@ -12,7 +13,6 @@ namespace mammotwin {
 
 namespace {
 
-constexpr double smallest_muscle_ml = 2;  // vessels and specks are smaller
 constexpr int median_radius = 4;          // columns
 constexpr double gaussian_sigma = 2.0;    // [mm]
 constexpr double pit_slope = 1.5;         // steeper pits fold the slab
@@ -43,7 +43,7 @@ Volume<std::uint8_t> large_muscle(const Volume<std::uint8_t>& labels) {
   auto muscle = labels.like<std::uint8_t>(0);
   for (std::size_t v = 0; v < labels.values.size(); ++v)
     muscle.values[v] = labels.values[v] == label::muscle;
-  return without_small_components(muscle, smallest_muscle_ml);
+  return without_small_components(muscle, least_muscle_ml);
 }
 
 /// Raw heights of one region: muscle front, else end of tissue, with a note of which it is.
