@@ -52,18 +52,25 @@ std::vector<std::string> planted_words() {
   return words;
 }
 
-/// A word in every text attribute that the mammogram does not need, and in a private block.
-void plant_text(DcmDataset& set) {
+/// Text attributes of images that the dictionary knows.
+std::vector<DcmTagKey> text_attributes() {
+  std::vector<DcmTagKey> tags;
   DcmDataDictionary& dictionary = dcmDataDict.wrlock();
   for (auto at = dictionary.normalBegin(); at != dictionary.normalEnd(); ++at) {
     const DcmEVR kind = (*at)->getEVR();
     const bool is_text = kind == EVR_LO || kind == EVR_SH || kind == EVR_ST || kind == EVR_LT ||
                          kind == EVR_UT || kind == EVR_PN || kind == EVR_UC;
-    const bool in_images = (*at)->getGroup() >= 0x0008 && (*at)->getGroup() <= 0x0040;
-    if (is_text && in_images && !set.tagExistsWithValue((*at)->getKey()))
-      set.putAndInsertString((*at)->getKey(), "PLANTEDTEXT");
+    if (is_text && (*at)->getGroup() >= 0x0008 && (*at)->getGroup() <= 0x0040)
+      tags.push_back((*at)->getKey());
   }
   dcmDataDict.wrunlock();
+  return tags;
+}
+
+/// A word in every text attribute that the mammogram does not need, and in a private block.
+void plant_text(DcmDataset& set) {
+  for (const DcmTagKey& tag : text_attributes())
+    if (!set.tagExistsWithValue(tag)) set.putAndInsertString(tag, "PLANTEDTEXT");
   set.putAndInsertString(DcmTag(0x0011, 0x0010, EVR_LO), "PLANTEDPRIVATE");
   set.putAndInsertString(DcmTag(0x0011, 0x1001, EVR_LO), "PLANTEDPRIVATE");
 }
