@@ -20,6 +20,6 @@ inline constexpr std::array<WhatIf, 4> kWhatIf = {
 /// How far tissue lay from where full solves put it on the detector [mm], on the sample patient's
 /// CC with 4 x 4 x 1 elements, in ranges of 3 mm, 4 degrees, 0.7 and 4 mm
 /// (docs/measured/notes/report.md).
-inline constexpr double kWhatIfMedian_mm = 1.0, kWhatIfP95_mm = 3.4;
+inline constexpr double kWhatIfMedian_mm = 1.0, kWhatIfP95_mm = 3.5;
 
 }  // namespace mammotwin
