@@ -14,7 +14,7 @@ TEST(HangingTruth, UnloadedSampleHangsAsItWasImaged) {
   options.anatomy.seed = 42;
   const SyntheticPatient patient = make_patient_without_scan(options);
   const MeshFile truth = read_mesh_file(MAMMOTWIN_SOURCE_DIR "/sample_data/042/truth_unloaded.vtu");
-  with_true_breast(patient, truth, [&](const CompressionProblem& problem) {
+  with_true_breast(patient, truth, [&](const BreastProblem& problem) {
     const HangResult hanging = hang(problem, {});
     ASSERT_TRUE(hanging.report.usable()) << hanging.report.reason;
     EXPECT_GT(hanging.report.sag_max_mm, 3);
