@@ -1,6 +1,7 @@
 #include "solver/contact/penalty_continuation.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace mammotwin {
 
@@ -8,9 +9,17 @@ namespace {
 
 void add(NewtonReport& total, const NewtonReport& part) { total = then(total, part); }
 
-/// Only has to come near.
+NewtonReport settle(Newton& newton, PlateContact& contact, NewtonOptions options, State& state) {
+  options.stabilise = [&contact](bool on) { contact.with_curvature = !on; };
+  const NewtonReport report = newton.solve(state, options);
+  contact.with_curvature = true;
+  return report;
+}
+
+/// Only has to come near. Friction stays as the last load step left it: of a soft penalty's
+/// pressures it is not the load's, and following them circled for ever on a breast of 1.4 l.
 NewtonReport approach(Newton& newton, PlateContact& contact, NewtonOptions options, State& state) {
-  return resettle(newton, contact, loosened(options, 1e-2), state);
+  return settle(newton, contact, loosened(options, 1e-2), state);
 }
 
 }  // namespace
@@ -22,11 +31,8 @@ NewtonReport then(const NewtonReport& first, NewtonReport second) {
 }
 
 NewtonReport resettle(Newton& newton, PlateContact& contact, NewtonOptions options, State& state) {
-  options.stabilise = [&contact](bool on) { contact.with_curvature = !on; };
   options.refresh = contact.follow;
-  const NewtonReport report = newton.solve(state, options);
-  contact.with_curvature = true;
-  return report;
+  return settle(newton, contact, std::move(options), state);
 }
 
 NewtonReport solve_contact(Newton& newton, PlateContact& contact, double unit,
