@@ -4,6 +4,7 @@
 #include <chrono>
 #include <iostream>
 
+#include "pipeline/frame/partial_path.h"
 #include "pipeline/frame/private_names.h"
 #include "pipeline/frame/process.h"
 #include "pipeline/frame/product_lock.h"
@@ -262,6 +263,7 @@ int run_stage(int argc, char** argv, SettingsFile& file, const Stage& stage) {
     const ProductLock lock(product, [&] {
       std::cerr << stage.name << ": another run makes " << product.string() << "; waiting for it\n";
     });
+    remove_partial_leftovers(folder_of(product), product.filename().string());
     const Provenance provenance = plan_provenance(stage, declaration, file, settings, naming);
     if (!common.force && current_sidecar(product, provenance)) {
       std::cerr << stage.name << ": " << product.string() << " is up to date\n";
