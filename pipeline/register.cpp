@@ -45,7 +45,8 @@ void declare(StageDeclaration& stage, Arguments& args) {
 }
 
 StagePlan plan(const Arguments& args, const Patient& patient) {
-  StagePlan plan{{}, {"views.", "register.", "compress.", "materials.", "unload.density"}};
+  StagePlan plan{
+      {}, {"views.", "register.", "compress.", "materials.", "unload.density", "dicom_export"}};
   for (const ViewSettings* view : {&patient.cc, &patient.mlo})
     for (const auto& file : {view->mammogram, view->outline})
       if (file) plan.inputs.push_back(patient.resolve(*file));
