@@ -20,6 +20,13 @@ using namespace dicom;
 
 using Labels = Volume<std::uint8_t>;
 
+/// A segmentation lies in a frame of reference (PS3.3 A.51); old MRI may name none, and gets one.
+void name_frame_of_reference(DcmItem& source) {
+  if (text_of(source, DCM_FrameOfReferenceUID).empty())
+    put(source, DCM_FrameOfReferenceUID,
+        derived_uid(text_of(source, DCM_SeriesInstanceUID) + "frame of reference"));
+}
+
 std::unique_ptr<DcmSegmentation> empty_segmentation(const Labels& labels, DcmItem& source) {
   DcmSegmentation* made = nullptr;
   check(DcmSegmentation::createBinarySegmentation(
@@ -125,6 +132,7 @@ void write_lesion_segmentation(const fs::path& path, const std::vector<fs::path>
                                const Segmentation& segmentation) {
   DcmFileFormat source_file = load_header(slices.at(0)), file;
   DcmItem &source = *source_file.getDataset(), &object = *file.getDataset();
+  name_frame_of_reference(source);
   const Moment made = moment_of_making();
   const auto seg = empty_segmentation(segmentation.labels, source);
   add_geometry(segmentation.labels, segmentation.region.side, *seg);
