@@ -54,6 +54,14 @@ Volume<float> look_of(const SegmentResult& result) {
   return look;
 }
 
+/// Gland below the skin of a label map is no areola: without an image only a papilla tells.
+Nipple nipple_of(const SegmentResult& result) {
+  const Segmentation& s = result.segmentation;
+  const Nipple nipple = find_nipple(s.labels, s.region, look_of(result));
+  const bool is_seen = !result.image.values.empty() || !nipple.papilla.values.empty();
+  return is_seen ? nipple : unknown_nipple(s.labels, s.region);
+}
+
 void place_nipple(const SegmentInput& input, SegmentResult& result) {
   Segmentation& s = result.segmentation;
   if (input.nipple_in_lps) {
@@ -61,7 +69,7 @@ void place_nipple(const SegmentInput& input, SegmentResult& result) {
   } else if (input.nipple_markups) {
     s.nipple_in_lps = read_markups_point(*input.nipple_markups);
   } else {
-    const Nipple nipple = find_nipple(s.labels, s.region, look_of(result));
+    const Nipple nipple = nipple_of(result);
     s.nipple_in_lps = nipple.tip_in_lps;
     if (!input.label_map) label_papilla(nipple, s);
     judge_nipple(nipple, result.quality);

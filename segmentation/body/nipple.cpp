@@ -149,14 +149,19 @@ void take_papilla(const Mask& body, Nipple& nipple) {
 
 }  // namespace
 
+Nipple unknown_nipple(const Mask& labels, const BreastRegion& region) {
+  Nipple nipple;
+  nipple.tip_in_lps = nipple.rival_in_lps = most_anterior_point(labels, region);
+  nipple.sd_mm = not_found_sd_mm;
+  return nipple;
+}
+
 Nipple find_nipple(const Mask& labels, const BreastRegion& region, const Volume<float>& look) {
-  const Vector3d front = most_anterior_point(labels, region);
+  Nipple nipple = unknown_nipple(labels, region);
+  const Vector3d front = nipple.tip_in_lps;
   const Near near = cut_near(labels, look, front);
   const std::vector<Candidate> best =
       candidates(skin_around(near.body, near.look, front, reach_mm), region, front);
-  Nipple nipple;
-  nipple.tip_in_lps = nipple.rival_in_lps = front;
-  nipple.sd_mm = not_found_sd_mm;
   if (best.empty()) return nipple;
   nipple.evidence = best.front().at.sum();
   nipple.is_found = nipple.evidence >= least_evidence;

@@ -29,6 +29,9 @@ struct Nipple {
 Nipple find_nipple(const Volume<std::uint8_t>& labels, const BreastRegion& region,
                    const Volume<float>& look);
 
+/// Not found: taken as the most anterior point.
+Nipple unknown_nipple(const Volume<std::uint8_t>& labels, const BreastRegion& region);
+
 /// Calls fibroglandular tissue in the papilla skin, as which it counts: it is as bright as gland.
 void label_papilla(const Nipple& nipple, Segmentation& s);
 
