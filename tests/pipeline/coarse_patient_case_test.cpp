@@ -192,7 +192,7 @@ thickness_mm = 45
 bool may_say(const fs::path& file, const std::string& word) {
   const std::vector<std::string> shared{
       "SECRET",        "PLANTED-ACCESSION", "PLANTED-ID-4711", "20010405", "1.2.840.99.77.1.4711",
-      "PLANTED-STUDY", "PHYSICIAN^PLANTED"};
+      "PLANTED-STUDY", "PHYSICIAN^PLANTED", "19510203"};
   return file.parent_path().filename() == "dicom" &&
          std::find(shared.begin(), shared.end(), word) != shared.end();
 }

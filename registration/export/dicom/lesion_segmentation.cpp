@@ -27,6 +27,13 @@ void name_frame_of_reference(DcmItem& source) {
         derived_uid(text_of(source, DCM_SeriesInstanceUID) + "frame of reference"));
 }
 
+/// DCMTK takes the scanner's over: patient and study were asked for.
+void leave_out_institution(DcmItem& object) {
+  for (const DcmTagKey& tag : {DCM_InstitutionName, DCM_InstitutionAddress,
+                               DCM_InstitutionalDepartmentName, DCM_StationName})
+    object.findAndDeleteElement(tag);
+}
+
 std::unique_ptr<DcmSegmentation> empty_segmentation(const Labels& labels, DcmItem& source) {
   DcmSegmentation* made = nullptr;
   check(DcmSegmentation::createBinarySegmentation(
@@ -144,6 +151,7 @@ void write_lesion_segmentation(const fs::path& path, const std::vector<fs::path>
     add_frames(segmentation.labels, value, add_segment(segmentation.lesions[n], *seg), *seg, set);
   }
   check(seg->writeDataset(object), "segmentation");
+  leave_out_institution(object);
   begin(source, UID_SegmentationStorage, "SEG", "lesions", made, object);
   put(object, DCM_ContentDate, made.date);
   put(object, DCM_ContentTime, made.time);
