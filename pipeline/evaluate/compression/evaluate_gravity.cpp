@@ -1,5 +1,6 @@
 // evaluate-gravity: lays every breast of a folder of cases on its back, unattended -> one table.
 
+#include "pipeline/evaluate/cases/case_arguments.h"
 #include "pipeline/evaluate/cases/evaluation_table.h"
 #include "pipeline/evaluate/compression/gravity_row.h"
 #include "pipeline/frame/command_line.h"
@@ -16,14 +17,9 @@ struct Arguments {
 };
 
 void declare(CommandLine& command, Arguments& args) {
-  command.option("cases", args.cases, "folder with label_maps/*.nii.gz and mimbcd_*/mri")
-      .required()
-      .existing_folder();
-  command
-      .option("table", args.table,
-              "gravity.json to write; each breast's files go to the folder gravity beside it")
-      .required();
-  command.option("--only", args.only, "breasts whose name-side contains one of these (texts)");
+  declare_cases(command, args.cases);
+  declare_table(command, args.table, "gravity");
+  declare_only(command, args.only);
   command.option("--jobs", args.jobs, "breasts at a time [1 to 64]").between(1, 64).with_default();
   command.option("--unload", args.unload_options,
                  "options of mammotwin-unload (such as --unload=--stiffness-factor "

@@ -1,6 +1,7 @@
 // evaluate-other-meshes: breasts pressed with this program's meshes and with another one's -> one
 // table.
 
+#include "pipeline/evaluate/cases/case_arguments.h"
 #include "pipeline/evaluate/cases/evaluation_table.h"
 #include "pipeline/evaluate/compression/other_mesh_rows.h"
 #include "pipeline/frame/command_line.h"
@@ -16,23 +17,15 @@ struct Arguments {
 };
 
 void declare(CommandLine& command, Arguments& args) {
-  command.option("patient", args.patient, "patient.toml of a first breast")
-      .required()
-      .existing_file();
-  command.option("cases", args.cases, "folder of real cases, as of evaluate-fitting")
-      .required()
-      .existing_folder();
+  declare_patient(command, args.patient);
+  declare_cases(command, args.cases);
   command
       .option(
           "others", args.others,
           "folder of meshes of the same segmentations: 042/prone.vtu, Exam_02-left/prone.vtu, ...")
       .required()
       .existing_folder();
-  command
-      .option("table", args.table,
-              "other_meshes.json to write; each breast's files go to the folder other_meshes "
-              "beside it")
-      .required();
+  declare_table(command, args.table, "other_meshes");
   command.option("--views", args.views, "cc, mlo (default: both)");
 }
 

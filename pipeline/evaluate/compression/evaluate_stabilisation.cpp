@@ -1,6 +1,7 @@
 // evaluate-stabilisation: breasts pressed with more and less of the term that keeps each point's
 // volume -> one table.
 
+#include "pipeline/evaluate/cases/case_arguments.h"
 #include "pipeline/evaluate/cases/evaluation_table.h"
 #include "pipeline/evaluate/compression/stabilisation_rows.h"
 #include "pipeline/frame/command_line.h"
@@ -17,18 +18,10 @@ struct Arguments {
 };
 
 void declare(CommandLine& command, Arguments& args) {
-  command.option("patient", args.patient, "patient.toml of a first breast")
-      .required()
-      .existing_file();
-  command.option("cases", args.cases, "folder of real cases, as of evaluate-fitting")
-      .required()
-      .existing_folder();
-  command
-      .option("table", args.table,
-              "stabilisation.json to write; each breast's files go to the folder stabilisation "
-              "beside it")
-      .required();
-  command.option("--only", args.only, "cases whose name contains one of these (texts)");
+  declare_patient(command, args.patient);
+  declare_cases(command, args.cases);
+  declare_table(command, args.table, "stabilisation");
+  declare_only(command, args.only);
 }
 
 int run(const Arguments& args) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "pipeline/evaluate/cases/case_arguments.h"
 #include "pipeline/evaluate/cases/evaluation_table.h"
 #include "pipeline/evaluate/cases/real_breasts.h"
 #include "pipeline/evaluate/compression/stability_rows.h"
@@ -22,11 +23,8 @@ void declare(CommandLine& command, Arguments& args) {
   command.option("cases", args.cases, "folder with label_maps/*.nii.gz")
       .required()
       .existing_folder();
-  command
-      .option("table", args.table,
-              "stability.json to write; each breast's files go to the folder stability beside it")
-      .required();
-  command.option("--only", args.only, "breasts whose name contains one of these (texts)");
+  declare_table(command, args.table, "stability");
+  declare_only(command, args.only);
   command.option("--changes", args.changes,
                  "turn_1, turn_3, turn_5, mirror, half_voxel, elements, thickness (default: all)");
   command.option("--views", args.views, "cc, mlo (default: both)");

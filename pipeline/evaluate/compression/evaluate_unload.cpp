@@ -3,6 +3,7 @@
 #include <fstream>
 
 #include "pipeline/evaluate/cases/breast_inputs.h"
+#include "pipeline/evaluate/cases/case_arguments.h"
 #include "pipeline/evaluate/cases/evaluation_table.h"
 #include "pipeline/evaluate/cases/stage_command.h"
 #include "pipeline/evaluate/compression/unload_rows.h"
@@ -24,9 +25,7 @@ struct Arguments {
 };
 
 void declare(CommandLine& command, Arguments& args) {
-  command.option("cases", args.cases, "folder with label_maps/*.nii.gz and mimbcd_*/mri")
-      .required()
-      .existing_folder();
+  declare_cases(command, args.cases);
   command
       .option("table", args.table,
               "unload.json to write; inputs of each breast go to the folder compression beside it, "

@@ -3,6 +3,7 @@
 
 #include <sstream>
 
+#include "pipeline/evaluate/cases/case_arguments.h"
 #include "pipeline/evaluate/cases/evaluation_table.h"
 #include "pipeline/evaluate/fitting/fitting_row.h"
 #include "pipeline/frame/command_line.h"
@@ -21,9 +22,7 @@ struct Arguments {
 };
 
 void declare(CommandLine& command, Arguments& args) {
-  command.option("cases", args.cases, "folder with label_maps/*.nii.gz and mimbcd_*/mri")
-      .required()
-      .existing_folder();
+  declare_cases(command, args.cases);
   command
       .option("table", args.table,
               "fitting.json to write; each breast's files go to the folder fitting (the table's "
@@ -32,7 +31,7 @@ void declare(CommandLine& command, Arguments& args) {
   command.option("--synthetic", args.synthetic, "drawn breasts, fitted as they truly are")
       .between(0, 10000)
       .with_default();
-  command.option("--only", args.only, "breasts whose name-side contains one of these (texts)");
+  declare_only(command, args.only);
   command.flag("!--keep", args.fit.again, "do not fit again what is up to date (its times stay)");
   command.option("--fit", args.fit.options,
                  "options of mammotwin-fit (such as --fit=--accuracy-mm --fit=0.3)");

@@ -65,10 +65,7 @@ int run(const Arguments& args) {
     if (read.file.filename().string().rfind(args.only, 0) == 0) add_rows(read, cases);
   const json counts = counts_of(cases);
   Products products(args.table);
-  write_text_atomically(products.write_main(),
-                        json{{"counts", counts}, {"cases", cases}}.dump(1) + "\n");
-  products.commit();
-  std::cout << counts.dump(1) << std::endl;
+  commit_counted(counts, cases, products);
   return 0;
 }
 

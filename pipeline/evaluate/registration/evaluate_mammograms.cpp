@@ -76,11 +76,8 @@ int run(const Arguments& args) {
   }
   const json counts = mammogram_counts(cases);
   Products products(args.table);
-  write_text_atomically(products.write_main(),
-                        json{{"counts", counts}, {"cases", cases}}.dump(1) + "\n");
   write_png(products.write(args.table.stem().string() + ".png"), contact_sheet(tiles));
-  products.commit();
-  std::cout << counts.dump(1) << std::endl;
+  commit_counted(counts, cases, products);
   return 0;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iostream>
 
+#include "pipeline/evaluate/cases/case_arguments.h"
 #include "pipeline/evaluate/cases/evaluation_table.h"
 #include "pipeline/evaluate/cases/patient_chain.h"
 #include "pipeline/evaluate/registration/real_pair_rows.h"
@@ -23,11 +24,7 @@ void declare(CommandLine& command, Arguments& args) {
   command.option("cases", args.cases, "folder of patients' folders with patient.toml and marks.csv")
       .required()
       .existing_folder();
-  command
-      .option("table", args.table,
-              "real_pairs.json to write; each patient's results go to the folder real_pairs beside "
-              "it")
-      .required();
+  declare_table(command, args.table, "real_pairs", "each patient's");
   command.flag("--judge", args.judge, "judge what lies there, without running a stage");
 }
 

@@ -4,6 +4,7 @@
 #include <iostream>
 #include <sstream>
 
+#include "pipeline/evaluate/cases/case_arguments.h"
 #include "pipeline/evaluate/cases/evaluation_table.h"
 #include "pipeline/evaluate/registration/registration_case.h"
 #include "pipeline/evaluate/registration/registration_rows.h"
@@ -23,11 +24,7 @@ struct Arguments {
 };
 
 void declare(CommandLine& command, Arguments& args) {
-  command
-      .option("table", args.table,
-              "registration.json to write; each patient's files go to the folder registration "
-              "beside it")
-      .required();
+  declare_table(command, args.table, "registration", "each patient's");
   command.option("--synthetic", args.synthetic, "patients").between(1, 10000).with_default();
   command.option("--first", args.first, "the first of them").between(0, 10000).with_default();
   command.option("--jobs", args.jobs, "patients at a time, each on all cores [1 to 64]")

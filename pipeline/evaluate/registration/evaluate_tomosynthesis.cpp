@@ -2,6 +2,7 @@
 
 #include <iostream>
 
+#include "pipeline/evaluate/cases/case_arguments.h"
 #include "pipeline/evaluate/cases/evaluation_table.h"
 #include "pipeline/evaluate/registration/registration_case.h"
 #include "pipeline/evaluate/registration/tomosynthesis_rows.h"
@@ -16,11 +17,7 @@ struct Arguments {
 };
 
 void declare(CommandLine& command, Arguments& args) {
-  command
-      .option("table", args.table,
-              "tomosynthesis.json to write; the patient's files go to the folder tomosynthesis "
-              "beside it")
-      .required();
+  declare_table(command, args.table, "tomosynthesis", "the patient's");
   command.flag("--coarse", args.coarse,
                "few elements in the truth and in the model: to try it out");
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <iostream>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -166,6 +167,13 @@ json mammogram_counts(const json& rows) {
       {"pectoral", counted(rows, "pectoral_worst_mm", "pectoral", kPectoral_mm)},
       {"nipple_over_sd", calibration(rows, "nipple_mm", "nipple_sd_mm", "nipple")},
       {"pectoral_over_sd", calibration(rows, "pectoral_worst_mm", "pectoral_sd_mm", "pectoral")}};
+}
+
+void commit_counted(const json& counts, const json& cases, Products& products) {
+  write_text_atomically(products.write_main(),
+                        json{{"counts", counts}, {"cases", cases}}.dump(1) + "\n");
+  products.commit();
+  std::cout << counts.dump(1) << std::endl;
 }
 
 }  // namespace mammotwin

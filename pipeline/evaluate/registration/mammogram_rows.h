@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "pipeline/frame/products.h"
 #include "registration/mammogram/mammogram_findings.h"
 
 namespace mammotwin {
@@ -36,5 +37,8 @@ nlohmann::json mammogram_row(const ReadMammogram& read, const MammogramFindings&
 /// How many rows are right, unsure and wrong: skin within 3 mm, nipple and pectoral edge within 5;
 /// and what errors are over their standard deviations.
 nlohmann::json mammogram_counts(const nlohmann::json& rows);
+
+/// Writes {"counts", "cases"} as the main product, commits, and prints the counts.
+void commit_counted(const nlohmann::json& counts, const nlohmann::json& cases, Products& products);
 
 }  // namespace mammotwin

@@ -1,17 +1,15 @@
 #pragma once
 
-#include <filesystem>
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "pipeline/evaluate/cases/breasts_to_press.h"
+
 namespace mammotwin {
 
 /// A breast whose view is pressed again in other states.
-struct WhatIfCase {
-  std::string name;
-  std::filesystem::path patient_toml;
-  std::filesystem::path folder;  ///< gets the stages' files
+struct WhatIfCase : BreastToPress {
   std::string view = "cc";
   int states = 6;
 };

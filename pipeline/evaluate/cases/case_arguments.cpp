@@ -1,0 +1,29 @@
+#include "pipeline/evaluate/cases/case_arguments.h"
+
+namespace mammotwin {
+
+namespace fs = std::filesystem;
+
+void declare_patient(CommandLine& command, fs::path& patient) {
+  command.option("patient", patient, "patient.toml of a first breast").required().existing_file();
+}
+
+void declare_cases(CommandLine& command, fs::path& cases) {
+  command.option("cases", cases, "folder with label_maps/*.nii.gz and mimbcd_*/mri")
+      .required()
+      .existing_folder();
+}
+
+void declare_table(CommandLine& command, fs::path& table, const std::string& name,
+                   const std::string& whose) {
+  command
+      .option("table", table,
+              name + ".json to write; " + whose + " files go to the folder " + name + " beside it")
+      .required();
+}
+
+void declare_only(CommandLine& command, std::vector<std::string>& only) {
+  command.option("--only", only, "breasts whose name-side contains one of these (texts)");
+}
+
+}  // namespace mammotwin

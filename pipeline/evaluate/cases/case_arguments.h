@@ -1,0 +1,20 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "pipeline/frame/command_line.h"
+
+namespace mammotwin {
+
+// Arguments that evaluations share, in the order of their positionals.
+
+void declare_patient(CommandLine& command, std::filesystem::path& patient);
+void declare_cases(CommandLine& command, std::filesystem::path& cases);
+/// NAME.json; `whose` files go to the folder NAME beside it.
+void declare_table(CommandLine& command, std::filesystem::path& table, const std::string& name,
+                   const std::string& whose = "each breast's");
+void declare_only(CommandLine& command, std::vector<std::string>& only);
+
+}  // namespace mammotwin
