@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "pipeline/frame/command_line.h"
-#include "pipeline/report/palette.h"
+#include "pipeline/report/drawing/palette.h"
 #include "pipeline/validation/chart.h"
 
 namespace mammotwin {

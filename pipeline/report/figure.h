@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "pipeline/report/section.h"
+#include "pipeline/report/drawing/section.h"
 
 namespace mammotwin {
 

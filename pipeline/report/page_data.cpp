@@ -4,8 +4,6 @@
 #include <iterator>
 
 #include "pipeline/report/answer_data.h"
-#include "pipeline/report/base64.h"
-#include "pipeline/report/carry_data.h"
 #include "pipeline/report/figures/convergence_figure.h"
 #include "pipeline/report/figures/doubt_figure.h"
 #include "pipeline/report/figures/fit_course_figure.h"
@@ -15,15 +13,17 @@
 #include "pipeline/report/figures/mri_figure.h"
 #include "pipeline/report/figures/render_figure.h"
 #include "pipeline/report/lesion_data.h"
+#include "pipeline/report/live/base64.h"
+#include "pipeline/report/live/carry_data.h"
+#include "pipeline/report/live/scene_data.h"
+#include "pipeline/report/live/views_data.h"
+#include "pipeline/report/live/volume_data.h"
+#include "pipeline/report/live/what_if_data.h"
 #include "pipeline/report/quality_limit.h"
 #include "pipeline/report/quality_table.h"
 #include "pipeline/report/result_file.h"
-#include "pipeline/report/scene_data.h"
 #include "pipeline/report/verdict.h"
 #include "pipeline/report/view_figures.h"
-#include "pipeline/report/views_data.h"
-#include "pipeline/report/volume_data.h"
-#include "pipeline/report/what_if_data.h"
 #include "pipeline/report/word.h"
 
 namespace mammotwin {

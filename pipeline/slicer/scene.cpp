@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "pipeline/report/drawing/palette.h"
 #include "pipeline/report/figures/fit_error.h"
-#include "pipeline/report/palette.h"
 #include "pipeline/slicer/scene_nodes.h"
 #include "pipeline/slicer/surface_file.h"
 

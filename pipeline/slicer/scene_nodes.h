@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "pipeline/report/picture.h"
+#include "pipeline/report/drawing/picture.h"
 
 namespace mammotwin {
 

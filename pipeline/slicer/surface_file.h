@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "pipeline/report/mesh_surface.h"
+#include "pipeline/report/drawing/mesh_surface.h"
 
 namespace mammotwin {
 

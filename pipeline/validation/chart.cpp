@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "pipeline/report/palette.h"
+#include "pipeline/report/drawing/palette.h"
 
 namespace mammotwin {
 

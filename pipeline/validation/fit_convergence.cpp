@@ -10,7 +10,7 @@
 #include "fitting/surface/closest_point.h"
 #include "fitting/surface/face_mesh.h"
 #include "fitting/surface/skin_to_fit.h"
-#include "pipeline/report/palette.h"
+#include "pipeline/report/drawing/palette.h"
 #include "pipeline/validation/box_fit.h"
 #include "pipeline/validation/chart.h"
 #include "pipeline/validation/skin_distance.h"

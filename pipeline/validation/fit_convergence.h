@@ -5,7 +5,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <vector>
 
-#include "pipeline/report/picture.h"
+#include "pipeline/report/drawing/picture.h"
 
 namespace mammotwin {
 

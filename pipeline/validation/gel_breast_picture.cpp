@@ -3,7 +3,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "pipeline/report/palette.h"
+#include "pipeline/report/drawing/palette.h"
 
 namespace mammotwin {
 namespace {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "pipeline/report/picture.h"
+#include "pipeline/report/drawing/picture.h"
 #include "pipeline/validation/gel_result.h"
 
 namespace mammotwin {

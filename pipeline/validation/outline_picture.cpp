@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pipeline/report/palette.h"
+#include "pipeline/report/drawing/palette.h"
 #include "pipeline/validation/gel_cylinder/gel_cylinder_mesh.h"
 #include "pipeline/validation/gel_figures.h"
 

@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pipeline/report/mesh_surface.h"
-#include "pipeline/report/palette.h"
-#include "pipeline/report/panel.h"
+#include "pipeline/report/drawing/mesh_surface.h"
+#include "pipeline/report/drawing/palette.h"
+#include "pipeline/report/drawing/panel.h"
 #include "pipeline/report/view_figures.h"
 #include "pipeline/report/word.h"
 #include "registration/carry/position_grid.h"

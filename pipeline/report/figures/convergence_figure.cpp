@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "pipeline/report/palette.h"
+#include "pipeline/report/drawing/palette.h"
 #include "pipeline/report/word.h"
 
 namespace mammotwin {

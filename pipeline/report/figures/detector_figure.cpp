@@ -3,11 +3,11 @@
 #include <functional>
 #include <numbers>
 
-#include "pipeline/report/lesion_outline.h"
-#include "pipeline/report/mammogram_raster.h"
-#include "pipeline/report/mesh_surface.h"
-#include "pipeline/report/palette.h"
-#include "pipeline/report/panel.h"
+#include "pipeline/report/drawing/lesion_outline.h"
+#include "pipeline/report/drawing/mammogram_raster.h"
+#include "pipeline/report/drawing/mesh_surface.h"
+#include "pipeline/report/drawing/palette.h"
+#include "pipeline/report/drawing/panel.h"
 #include "pipeline/report/view_figures.h"
 #include "pipeline/report/word.h"
 #include "registration/view/simulated_mammogram.h"

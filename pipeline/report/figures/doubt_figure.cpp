@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pipeline/report/breast_window.h"
-#include "pipeline/report/palette.h"
-#include "pipeline/report/panel.h"
+#include "pipeline/report/drawing/breast_window.h"
+#include "pipeline/report/drawing/palette.h"
+#include "pipeline/report/drawing/panel.h"
 #include "pipeline/report/word.h"
 
 namespace mammotwin {

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pipeline/report/mesh_field.h"
-#include "pipeline/report/palette.h"
-#include "pipeline/report/surface_render.h"
+#include "pipeline/report/drawing/mesh_field.h"
+#include "pipeline/report/drawing/palette.h"
+#include "pipeline/report/drawing/surface_render.h"
 #include "pipeline/report/word.h"
 
 namespace mammotwin {

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "pipeline/report/drawing/mesh_surface.h"
 #include "pipeline/report/figure.h"
-#include "pipeline/report/mesh_surface.h"
 #include "pipeline/report/patient_results.h"
 
 namespace mammotwin {

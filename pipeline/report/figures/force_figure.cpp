@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pipeline/report/palette.h"
+#include "pipeline/report/drawing/palette.h"
 #include "pipeline/report/word.h"
 
 namespace mammotwin {

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "pipeline/report/palette.h"
+#include "pipeline/report/drawing/palette.h"
 #include "registration/view/detector.h"
 #include "registration/view/view_frame.h"
 

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pipeline/report/breast_window.h"
-#include "pipeline/report/mesh_surface.h"
-#include "pipeline/report/palette.h"
-#include "pipeline/report/panel.h"
+#include "pipeline/report/drawing/breast_window.h"
+#include "pipeline/report/drawing/mesh_surface.h"
+#include "pipeline/report/drawing/palette.h"
+#include "pipeline/report/drawing/panel.h"
 #include "pipeline/report/word.h"
 
 namespace mammotwin {

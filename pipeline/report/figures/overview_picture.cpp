@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <vector>
 
+#include "pipeline/report/drawing/palette.h"
 #include "pipeline/report/figures/mri_figure.h"
 #include "pipeline/report/figures/render_figure.h"
-#include "pipeline/report/palette.h"
 #include "pipeline/report/view_figures.h"
 
 namespace mammotwin {

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "pipeline/report/drawing/picture.h"
 #include "pipeline/report/patient_results.h"
-#include "pipeline/report/picture.h"
 
 namespace mammotwin {
 

@@ -2,10 +2,10 @@
 
 #include <Eigen/Geometry>
 
-#include "pipeline/report/depth_image.h"
-#include "pipeline/report/mesh_surface.h"
-#include "pipeline/report/palette.h"
-#include "pipeline/report/surface_render.h"
+#include "pipeline/report/drawing/depth_image.h"
+#include "pipeline/report/drawing/mesh_surface.h"
+#include "pipeline/report/drawing/palette.h"
+#include "pipeline/report/drawing/surface_render.h"
 #include "pipeline/report/word.h"
 #include "registration/carry/position_grid.h"
 

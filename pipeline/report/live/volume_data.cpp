@@ -1,10 +1,10 @@
-#include "pipeline/report/volume_data.h"
+#include "pipeline/report/live/volume_data.h"
 
 #include <cmath>
 
-#include "pipeline/report/breast_window.h"
-#include "pipeline/report/deflated.h"
-#include "pipeline/report/palette.h"
+#include "pipeline/report/drawing/breast_window.h"
+#include "pipeline/report/drawing/palette.h"
+#include "pipeline/report/live/deflated.h"
 
 namespace mammotwin {
 namespace {

@@ -4,8 +4,8 @@
 #include <utility>
 #include <vector>
 
-#include "pipeline/report/picture.h"
-#include "pipeline/report/section.h"
+#include "pipeline/report/drawing/picture.h"
+#include "pipeline/report/drawing/section.h"
 
 namespace mammotwin {
 

@@ -1,12 +1,12 @@
-#include "pipeline/report/scene_data.h"
+#include "pipeline/report/live/scene_data.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "pipeline/report/base64.h"
+#include "pipeline/report/drawing/mesh_surface.h"
+#include "pipeline/report/drawing/palette.h"
 #include "pipeline/report/figures/fit_error.h"
-#include "pipeline/report/mesh_surface.h"
-#include "pipeline/report/palette.h"
+#include "pipeline/report/live/base64.h"
 #include "registration/carry/position_grid.h"
 
 namespace mammotwin {

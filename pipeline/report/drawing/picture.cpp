@@ -1,4 +1,4 @@
-#include "pipeline/report/picture.h"
+#include "pipeline/report/drawing/picture.h"
 
 #include <cairo-svg.h>
 #include <cairo.h>

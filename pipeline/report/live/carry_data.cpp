@@ -1,9 +1,9 @@
-#include "pipeline/report/carry_data.h"
+#include "pipeline/report/live/carry_data.h"
 
 #include <cmath>
 #include <limits>
 
-#include "pipeline/report/deflated.h"
+#include "pipeline/report/live/deflated.h"
 #include "registration/carry/point_carrier.h"
 #include "registration/carry/position_grid.h"
 

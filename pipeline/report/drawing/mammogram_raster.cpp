@@ -1,11 +1,11 @@
-#include "pipeline/report/mammogram_raster.h"
+#include "pipeline/report/drawing/mammogram_raster.h"
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
-#include "pipeline/report/jpeg.h"
-#include "pipeline/report/palette.h"
+#include "pipeline/report/drawing/jpeg.h"
+#include "pipeline/report/drawing/palette.h"
 
 namespace mammotwin {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "pipeline/report/section.h"
+#include "pipeline/report/drawing/section.h"
 #include "registration/mammogram/mammogram_image.h"
 #include "registration/view/detector.h"
 

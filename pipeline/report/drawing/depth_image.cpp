@@ -1,4 +1,4 @@
-#include "pipeline/report/depth_image.h"
+#include "pipeline/report/drawing/depth_image.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "pipeline/report/breast_window.h"
+#include "pipeline/report/drawing/breast_window.h"
 
 #include <algorithm>
 

@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <string>
 
-#include "pipeline/report/picture.h"
+#include "pipeline/report/drawing/picture.h"
 #include "segmentation/files/label_colour.h"
 #include "segmentation/segmentation.h"
 

@@ -1,4 +1,4 @@
-#include "pipeline/report/jpeg.h"
+#include "pipeline/report/drawing/jpeg.h"
 
 #include <jpeglib.h>
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-#include "pipeline/report/picture.h"
+#include "pipeline/report/drawing/picture.h"
 
 namespace mammotwin {
 

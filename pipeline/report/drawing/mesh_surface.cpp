@@ -1,4 +1,4 @@
-#include "pipeline/report/mesh_surface.h"
+#include "pipeline/report/drawing/mesh_surface.h"
 
 #include <algorithm>
 #include <map>

@@ -1,4 +1,4 @@
-#include "pipeline/report/surface_render.h"
+#include "pipeline/report/drawing/surface_render.h"
 
 #include <Eigen/Geometry>
 #include <cmath>

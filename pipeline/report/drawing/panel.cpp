@@ -1,8 +1,8 @@
-#include "pipeline/report/panel.h"
+#include "pipeline/report/drawing/panel.h"
 
 #include <algorithm>
 
-#include "pipeline/report/palette.h"
+#include "pipeline/report/drawing/palette.h"
 
 namespace mammotwin {
 namespace {

@@ -1,4 +1,4 @@
-#include "pipeline/report/base64.h"
+#include "pipeline/report/live/base64.h"
 
 #include <openssl/evp.h>
 

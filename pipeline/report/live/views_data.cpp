@@ -1,9 +1,9 @@
-#include "pipeline/report/views_data.h"
+#include "pipeline/report/live/views_data.h"
 
 #include <cmath>
 
-#include "pipeline/report/palette.h"
-#include "pipeline/report/what_if_data.h"
+#include "pipeline/report/drawing/palette.h"
+#include "pipeline/report/live/what_if_data.h"
 #include "registration/carry/position_grid.h"
 
 namespace mammotwin {

@@ -1,10 +1,10 @@
-#include "pipeline/report/deflated.h"
+#include "pipeline/report/live/deflated.h"
 
 #include <zlib.h>
 
 #include <stdexcept>
 
-#include "pipeline/report/base64.h"
+#include "pipeline/report/live/base64.h"
 
 namespace mammotwin {
 

@@ -3,7 +3,7 @@
 #include <Eigen/Geometry>
 #include <functional>
 
-#include "pipeline/report/picture.h"
+#include "pipeline/report/drawing/picture.h"
 
 namespace mammotwin {
 

@@ -1,4 +1,4 @@
-#include "pipeline/report/section.h"
+#include "pipeline/report/drawing/section.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "pipeline/report/lesion_outline.h"
+#include "pipeline/report/drawing/lesion_outline.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>

@@ -2,8 +2,8 @@
 
 #include <functional>
 
-#include "pipeline/report/depth_image.h"
-#include "pipeline/report/mesh_surface.h"
+#include "pipeline/report/drawing/depth_image.h"
+#include "pipeline/report/drawing/mesh_surface.h"
 #include "segmentation/segmentation.h"
 
 namespace mammotwin {

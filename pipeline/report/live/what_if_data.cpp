@@ -1,9 +1,9 @@
-#include "pipeline/report/what_if_data.h"
+#include "pipeline/report/live/what_if_data.h"
 
 #include <map>
 
-#include "pipeline/report/base64.h"
-#include "pipeline/report/lesion_outline.h"
+#include "pipeline/report/drawing/lesion_outline.h"
+#include "pipeline/report/live/base64.h"
 #include "pipeline/report/word.h"
 #include "registration/carry/ray_curve.h"
 #include "registration/search/silhouette.h"

@@ -1,4 +1,4 @@
-#include "pipeline/report/mesh_field.h"
+#include "pipeline/report/drawing/mesh_field.h"
 
 #include <stdexcept>
 
