@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "tests/scratch_file.h"
 #include "tests/solver/dome_breast.h"
 
 namespace mammotwin {
@@ -86,7 +87,7 @@ TEST(PlateShapes, TheBreastBulgesPastANarrowPlate) {
 }
 
 TEST(PlateShapes, FacetsOfAFlatPlateDoAsTheFlatPlate) {
-  const auto path = std::filesystem::temp_directory_path() / "mammotwin-plate-shapes.stl";
+  const auto path = scratch_file("plate.stl");
   std::ofstream out(path);
   out << "solid plate\n";
   const auto strip = [&](double x0, double z0, double x1, double z1) {

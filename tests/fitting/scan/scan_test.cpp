@@ -6,6 +6,7 @@
 
 #include "fitting/scan/scan_cloud.h"
 #include "fitting/scan/scanned_breast.h"
+#include "tests/scratch_file.h"
 
 namespace mammotwin {
 namespace {
@@ -22,7 +23,7 @@ Points dome() {
 }
 
 std::filesystem::path file_of(const Points& points, const std::string& name) {
-  const std::filesystem::path path = std::filesystem::path(testing::TempDir()) / name;
+  const std::filesystem::path path = scratch_file(name);
   std::ofstream file(path);
   file.precision(12);
   for (const auto& x : points) file << x.x() << ' ' << x.y() << ' ' << x.z() << '\n';
@@ -53,7 +54,7 @@ TEST(ScanCloud, ReadsPointsInTheirUnit) {
 }
 
 TEST(ScanCloud, ReadsPlyStlAndObj) {
-  const std::string folder = testing::TempDir();
+  const std::string folder = scratch_file("").string();
   std::ofstream(folder + "/few.stl") << "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\n"
                                         "vertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid\n";
   std::ofstream(folder + "/few.obj") << "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";

@@ -12,17 +12,12 @@
 #include "pipeline/report/page_data.h"
 #include "pipeline/report/page_template.h"
 #include "tests/pipeline/report/report_fake_results.h"
+#include "tests/scratch_file.h"
 
 namespace mammotwin {
 namespace {
 
 namespace fs = std::filesystem;
-
-fs::path scratch(const std::string& name) {
-  const fs::path path = fs::path(testing::TempDir()) / name;
-  fs::remove_all(path);
-  return path;
-}
 
 void write_text(const fs::path& path, const std::string& text) { std::ofstream(path) << text; }
 
@@ -135,7 +130,7 @@ TEST(ReportPage, EscapesWhatComesFromOutside) {
 }
 
 TEST(ReportPage, IsWrittenWhenTheFirstStageRefused) {
-  const fs::path folder = scratch("refused");
+  const fs::path folder = scratch_file("refused");
   fs::create_directories(folder);
   const fs::path product = folder / "segmentation.seg.nrrd";
   const nlohmann::json none = nlohmann::json::object();
@@ -152,13 +147,13 @@ TEST(ReportPage, IsWrittenWhenTheFirstStageRefused) {
 }
 
 TEST(ReportPage, NotesAProductThatCannotBeRead) {
-  const fs::path folder = scratch("broken");
+  const fs::path folder = scratch_file("broken");
   fs::create_directories(folder);
   write_text(folder / "prone.vtu", "not a mesh");
   const PatientResults results = read_patient_results(folder);
   ASSERT_EQ(results.notes.size(), 1u);
   EXPECT_NE(results.notes[0].find("prone.vtu could not be read"), std::string::npos);
-  EXPECT_THROW(read_patient_results(scratch("absent")), std::runtime_error);
+  EXPECT_THROW(read_patient_results(scratch_file("absent")), std::runtime_error);
 }
 
 TEST(ReportPage, StopsAtTheViewThatDidNotConverge) {
@@ -175,7 +170,7 @@ TEST(ReportPage, StopsAtTheViewThatDidNotConverge) {
 }
 
 TEST(ReportPicture, IsAPngWithoutAnXServer) {
-  const fs::path png = scratch("overview.png");
+  const fs::path png = scratch_file("overview.png");
   overview_picture(fake_results(Side::left)).write_png(png, 1);
   EXPECT_EQ(text_of(png).substr(1, 3), "PNG");
   EXPECT_GT(fs::file_size(png), 50000u);  // a blank sheet of its size takes a few thousand bytes

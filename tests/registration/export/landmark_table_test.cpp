@@ -6,12 +6,13 @@
 #include <fstream>
 
 #include "tests/registration/squeezed_box.h"
+#include "tests/scratch_file.h"
 
 namespace mammotwin {
 namespace {
 
 std::filesystem::path write_pairs(const std::string& lines) {
-  const auto path = std::filesystem::path(testing::TempDir()) / "pairs.csv";
+  const auto path = scratch_file("pairs.csv");
   std::ofstream(path) << "name,mri_l_mm,mri_p_mm,mri_s_mm,cc_column,cc_row,mlo_column,mlo_row\n"
                       << lines;
   return path;

@@ -8,8 +8,8 @@
 
 #include "registration/export/predictions_text.h"
 #include "registration/view/breast_position.h"
-#include "tests/registration/export/scratch_file.h"
 #include "tests/registration/squeezed_box.h"
+#include "tests/scratch_file.h"
 
 namespace mammotwin {
 namespace {

@@ -8,7 +8,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "tests/registration/export/scratch_file.h"
+#include "tests/scratch_file.h"
 
 namespace mammotwin {
 namespace {

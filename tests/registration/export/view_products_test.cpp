@@ -6,6 +6,7 @@
 
 #include "registration/mammogram/mammogram_picture.h"
 #include "tests/registration/squeezed_box.h"
+#include "tests/scratch_file.h"
 
 namespace mammotwin {
 namespace {
@@ -31,7 +32,7 @@ TEST(ViewProducts, PngHangsAsMammogramsDo) {
   shown.columns = 3;
   shown.rows = 2;
   shown.values = {0.2, 0, 0, 0, 0, 1};  // at the wall medially 0.2, far laterally 1
-  const auto path = std::filesystem::path(testing::TempDir()) / "view.png";
+  const auto path = scratch_file("view.png");
   write_view_png(path, shown, Side::left);
   MammogramImage image = read_mammogram_picture(path);
   EXPECT_EQ(image.at(0, 1), std::lround(0.2 * 65535));

@@ -3,6 +3,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "tests/scratch_file.h"
 #include "tests/segmentation/message.h"
 
 namespace mammotwin {
@@ -76,7 +77,7 @@ TEST(SegmentationFile, TwoRunsWriteTheSameBytes) {
 TEST(SegmentationFile, NiftiHoldsTheSameVoxelsInTheSamePlace) {
   Volume<float> image({3, 4, 5}, {1.2, 0.9, 2}, {10, -20, 30.5});
   for (std::size_t v = 0; v < image.values.size(); ++v) image.values[v] = 0.5f * v;
-  const auto path = std::filesystem::path(testing::TempDir()) / "place.nii.gz";
+  const auto path = scratch_file("place.nii.gz");
   write_nifti_image(path, image);
   const Volume<float> read = read_image_file(path);
   EXPECT_EQ(read.values, image.values);
