@@ -16,6 +16,7 @@ constexpr double wanted_determinant = 0.03;  // of the mean
 // are of order 1: the first region holds every step that is wanted, the last one none that counts.
 constexpr double first_radius = 4, last_radius = 0.02;
 constexpr double regrown = 4;  // times the radius where a call of Ceres ended, for the next one
+constexpr double least_regrown = 0.32;  // so four halvings at least are tried before it ends
 // So many halvings of the trust region before one step: elements about to fold hold the mesh.
 // Emphasis helps then; on the worst breast twice brought the skin nearer, a third time farther off.
 constexpr int refusals_when_stuck = 3, stuck_emphasis = 2;
@@ -113,9 +114,12 @@ void StagedFit::run(const FitStage& stage) {
     options.callbacks = {&watch};
     const ceres::Solver::Summary summary = problem_.solve(options);
     report_.solver_reports.push_back(stage.name + "\n" + summary.FullReport());
-    radius_ = std::clamp(regrown * summary.iterations.back().trust_region_radius,
-                         regrown * last_radius, first_radius);
-    if (!watch.emphasised()) break;
+    radius_ = std::clamp(regrown * summary.iterations.back().trust_region_radius, least_regrown,
+                         first_radius);
+    const bool stuck = summary.iterations.back().trust_region_radius <= last_radius;
+    if (!watch.emphasised() &&
+        !(stuck && stage.demand == MeshDemand::proved && emphasise_poor(stuck_emphasis)))
+      break;
     rest.max_steps -= watch.steps();
   }
 }

@@ -214,8 +214,8 @@ TEST(SkinToFit, LeavesOutAnEdgeThatTheSkinGrazesAndSaysSo) {
 
 TEST(FitBreast, TakesAsManyColumnsAsTheSkinIsLarge) {
   EXPECT_EQ(elements_for(30000, false), Eigen::Vector3i(7, 7, 2));
-  // 71200 mm² / 1400 mm² = 50.9, the square of 7.1.
-  EXPECT_EQ(elements_for(71200, false), Eigen::Vector3i(8, 8, 2));
+  // 60000 mm² / 1100 mm² = 54.5, the square of 7.4.
+  EXPECT_EQ(elements_for(60000, false), Eigen::Vector3i(8, 8, 2));
   EXPECT_EQ(elements_for(30000, true), Eigen::Vector3i(9, 9, 2));
   EXPECT_EQ(elements_for(1e7, false), Eigen::Vector3i(12, 12, 2));
 }
