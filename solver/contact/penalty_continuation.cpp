@@ -31,7 +31,7 @@ NewtonReport then(const NewtonReport& first, NewtonReport second) {
 }
 
 NewtonReport resettle(Newton& newton, PlateContact& contact, NewtonOptions options, State& state) {
-  options.refresh = contact.follow;
+  options.following = contact.follow;
   return settle(newton, contact, std::move(options), state);
 }
 

@@ -1,14 +1,12 @@
 #pragma once
 
-#include <functional>
 #include <vector>
 
 #include "solver/contact/plate.h"
 #include "solver/element/surface_potential.h"
+#include "solver/newton/following.h"
 
 namespace mammotwin {
-
-struct State;
 
 /// Frictionless penalty contact with rigid plates (paper, eq. 8), per reference area:
 ///
@@ -24,8 +22,7 @@ class PlateContact : public SurfacePotential {
   double penalty = 1;          ///< ε [kPa/mm]
   int points1d = 5;            ///< Gauss points a side on the faces in contact
   bool with_curvature = true;  ///< t ∂²gap/∂x² in the tangent
-  /// Brings friction's pressures up to a state; empty: no friction, or frozen.
-  std::function<void(const State&)> follow;
+  Following follow;            ///< friction's; empty: no friction, or frozen
 
   double pressure(double gap) const { return gap < 0 ? -penalty * gap : 0; }  ///< t [kPa]
 

@@ -37,10 +37,28 @@ PlateFriction::PlateFriction(std::shared_ptr<const PlateContact> contact, double
 }
 
 PlateFriction::SlipEnergy PlateFriction::energy(double s) const {
-  if (reach_ > 0) return {s * s / (2 * reach_), 1 / reach_, 1 / reach_};
-  if (s >= slip_) return {s - slip_ / 3, 1 / s, 0};
+  if (reach_ > 0) return {s * s / (2 * reach_), 1 / reach_};
+  if (s >= slip_) return {s - slip_ / 3, 1 / s};
   const double share = s / slip_;
-  return {s * share * (1 - share / 3), (2 - share) / slip_, 2 * (1 - share) / slip_};
+  return {s * share * (1 - share / 3), (2 - share) / slip_};
+}
+
+/// D'(s) where D = s/h'(s).
+double PlateFriction::ratio_slope(double s) const {
+  if (reach_ > 0) return 0;
+  if (s >= slip_) return 1;
+  const double ratio = slip_ / (2 * slip_ - s);
+  return ratio * ratio;
+}
+
+/// w + δw of w D(|s|) = s, linearised at a slip `from`, kept to its length of at most 1.
+Vector3d PlateFriction::moved_share(const Vector3d& share, const Vector3d& from,
+                                    const Vector3d& to) const {
+  const double length = from.norm(), inverse_ratio = energy(length).slope_over_slip;
+  Vector3d moved = inverse_ratio * to;
+  if (length > 0)
+    moved -= inverse_ratio * ratio_slope(length) * from.dot(to - from) / length * share;
+  return moved / std::max(1.0, moved.norm());
 }
 
 const PlateFriction::Contact& PlateFriction::at(const SurfacePoint& point, int plate) const {
@@ -66,6 +84,29 @@ void PlateFriction::track(const Model& model, const State& state,
           contact.pressure = contact_->pressure(gap.gap);
         }
       });
+}
+
+void PlateFriction::step(const Model& model, const State& from, const State& to,
+                         const std::vector<std::pair<int, int>>& faces) {
+  if (reach_ > 0) return;
+  const std::size_t plates = contact_->plates.size();
+  const bool first = shares_.empty();
+  shares_.resize(model.num_surface_points() * plates);
+  std::vector<Vector3d> starts(model.num_surface_points());
+  for_points(model, from, contact_->points1d, faces,
+             [&](const SurfacePoint& point, const Vector3d& x) { starts[point.index] = x; });
+  for_points(model, to, contact_->points1d, faces,
+             [&](const SurfacePoint& point, const Vector3d& x) {
+               for (std::size_t p = 0; p < plates; ++p) {
+                 const Contact& contact = at(point, static_cast<int>(p));
+                 const Vector3d before = slip(starts[point.index], contact, contact_->plates[p]),
+                                now = slip(x, contact, contact_->plates[p]);
+                 Vector3d& share = shares_[point.index * plates + p];
+                 if (first) share = energy(before.norm()).slope_over_slip * before;
+                 share = contact.pressure > 0 ? moved_share(share, before, now)
+                                              : (energy(now.norm()).slope_over_slip * now).eval();
+               }
+             });
 }
 
 void PlateFriction::commit(const Model& model, const State& state,
@@ -166,8 +207,11 @@ bool PlateFriction::respond(const Eigen::Matrix<double, 9, 1>& y, const SurfaceP
     auto hessian = response.hessian.topLeftCorner<3, 3>();
     hessian += limit * h.slope_over_slip *
                (Eigen::Matrix3d::Identity() - contact.normal * contact.normal.transpose());
-    if (length > 0)
-      hessian += limit * (h.curvature - h.slope_over_slip) / (length * length) * s * s.transpose();
+    if (length == 0) continue;
+    const Vector3d share = shares_.empty() ? (h.slope_over_slip * s).eval()
+                                           : shares_[point.index * contact_->plates.size() + p];
+    hessian -= limit * h.slope_over_slip * ratio_slope(length) / (2 * length) *
+               (share * s.transpose() + s * share.transpose());
   }
   return touches;
 }
@@ -186,6 +230,13 @@ bool PlateFriction::circulation(const Eigen::Matrix<double, 9, 1>& y, const Surf
                   contact.normal.transpose();
   }
   return any;
+}
+
+Following following(PlateFriction& friction, const Model& model,
+                    const std::vector<std::pair<int, int>>& faces) {
+  return {[&](const State& s) { friction.track(model, s, faces); },
+          [&](const State& from, const State& to) { friction.step(model, from, to, faces); },
+          [&] { friction.align(); }};
 }
 
 }  // namespace mammotwin

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "solver/contact/plate_contact.h"
+#include "solver/newton/following.h"
 #include "solver/newton/model.h"
 
 namespace mammotwin {
@@ -21,6 +22,16 @@ namespace mammotwin {
 /// t, n: contact pressure and plate normal of a state (track), fixed while Newton makes a step, so
 /// that the potential is convex and its hessian symmetric and semidefinite. Newton tracks before
 /// each step, and takes in how t will move (circulation): friction has no potential of its own.
+///
+/// During a solve the share of μ t that acts, w = h' s/|s|, is an unknown of its own: w D(|s|) = s
+/// with D = |s|/h' is linearised and not w = s/D, so that the hessian is
+///
+///     μ t/D (I − n nᵀ − D' (w sᵀ + s wᵀ)/(2|s|))
+///
+/// and w moves by the linear step, kept to |w| <= 1 (Chan, Golub, Mulet, SIAM J. Sci. Comput. 20
+/// (1999), for total variation: where a point's slip turns, Newton on s alone overshoots its anchor
+/// again and again). In the end w is the state's own, and the hessian the exact one.
+///
 /// anchor: the place on the plate where the point sticks, carried by the plate.
 ///
 /// Approximations: a point that sticks creeps by up to δ (Wriggers, Computational Contact
@@ -49,6 +60,13 @@ class PlateFriction : public SurfacePotential {
 
   /// Takes pressures and normals from a state.
   void track(const Model& model, const State& state, const std::vector<std::pair<int, int>>& faces);
+
+  /// Moves each point's w along with a step of the shape.
+  void step(const Model& model, const State& from, const State& to,
+            const std::vector<std::pair<int, int>>& faces);
+
+  /// Ends a solve: each w is the state's own.
+  void align() { shares_.clear(); }
 
   /// Ends a load step: anchors of sliding points follow to within δ, those of free points all the
   /// way. The first call, with the plates at their start, sets them.
@@ -87,17 +105,25 @@ class PlateFriction : public SurfacePotential {
                    Eigen::Matrix3d& derivative) const override;
 
  private:
-  struct SlipEnergy {  ///< h with its slope over s and its curvature
-    double energy, slope_over_slip, curvature;
+  struct SlipEnergy {
+    double energy, slope_over_slip;  ///< h and h'/s
   };
   const Contact& at(const SurfacePoint& point, int plate) const;
   SlipEnergy energy(double slip) const;
+  double ratio_slope(double slip) const;
+  Eigen::Vector3d moved_share(const Eigen::Vector3d& share, const Eigen::Vector3d& from,
+                              const Eigen::Vector3d& to) const;
   Eigen::Vector3d slip(const Eigen::Vector3d& x, const Contact& contact, const Plate& plate) const;
 
   std::shared_ptr<const PlateContact> contact_;
   double coefficient_, slip_;
-  double reach_ = 0;  ///< of frozen friction's springs [mm]; 0: not frozen
-  History history_;   ///< by surface point, then plate
+  double reach_ = 0;                     ///< of frozen friction's springs [mm]; 0: not frozen
+  History history_;                      ///< by surface point, then plate
+  std::vector<Eigen::Vector3d> shares_;  ///< w, alike; empty: each is its state's own
 };
+
+/// What Newton calls to follow friction on these faces. All must outlive it.
+Following following(PlateFriction& friction, const Model& model,
+                    const std::vector<std::pair<int, int>>& faces);
 
 }  // namespace mammotwin

@@ -228,9 +228,9 @@ bool Newton::settles(const Trial& trial, const State& state, const Balance& befo
                      const NewtonOptions& options) const {
   constexpr double most_constraint = 1e-3, most_growth = 2;  // of the volume's error
   if (!following_ || !std::isfinite(trial.merit)) return false;
-  options.refresh(trial.state);
+  options.following.refresh(trial.state);
   const Balance now = assembler_.balance(trial.state);
-  options.refresh(state);
+  options.following.refresh(state);
   return now.residual.norm() / now.flow <= (1 - least) * before.residual.norm() / before.flow &&
          now.constraint <= std::max(most_growth * before.constraint, most_constraint);
 }
@@ -268,6 +268,13 @@ double Newton::search(State& state, const Step& step, Balance& balance,
 
 NewtonReport Newton::solve(State& state, const NewtonOptions& options,
                            std::vector<HermiteMesh::Node> pending) {
+  NewtonReport report = iterate(state, options, std::move(pending));
+  if (options.following.end) options.following.end();
+  return report;
+}
+
+NewtonReport Newton::iterate(State& state, const NewtonOptions& options,
+                             std::vector<HermiteMesh::Node> pending) {
   NewtonReport report;
   Balance balance = assembler_.balance(state);
   following_ = false;
@@ -280,9 +287,9 @@ NewtonReport Newton::solve(State& state, const NewtonOptions& options,
   if (is_zero(pending)) pending.clear();
   int falls = 0;
   for (;; ++report.iterations) {
-    if (options.refresh && (following_ || balance.residual.norm() <= kFollow * balance.flow)) {
+    if (options.following && (following_ || balance.residual.norm() <= kFollow * balance.flow)) {
       following_ = true;
-      options.refresh(state);
+      options.following.refresh(state);
       balance = assembler_.balance(state);
     }
     report.residual = balance.flow > 0 ? balance.residual.norm() / balance.flow : 0;
@@ -303,7 +310,9 @@ NewtonReport Newton::solve(State& state, const NewtonOptions& options,
     if (!factor_shifted(state, options, pending, report))
       return stop("the tangent stays indefinite under the largest shift");
     const Step step = solve_step(state, balance, pending);
+    const State before = state;
     const double fraction = search(state, step, balance, options);
+    if (following_ && options.following.step) options.following.step(before, state);
     cut_while_indefinite_ = indefinite_ && fraction < 1;
     if (fraction == 0 && shift_ >= options.max_shift / 4) return stop("no step lowers the energy");
     if (fraction == 0)

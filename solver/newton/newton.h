@@ -7,6 +7,7 @@
 #include "solver/newton/assembler.h"
 #include "solver/newton/cholesky.h"
 #include "solver/newton/condensed_energy.h"
+#include "solver/newton/following.h"
 
 namespace mammotwin {
 
@@ -20,10 +21,9 @@ struct NewtonOptions {
   /// Leaves destabilising parts out of the model's tangent (true) or takes them in again (false);
   /// may be empty. The residual stays exact, so only the speed of convergence changes.
   std::function<void(bool)> stabilise;
-  /// Brings what the energy holds fixed during a step, such as friction's pressures, up to a state;
-  /// may be empty. Each step's merit is the energy of its start; the step itself knows that those
-  /// will move (SurfacePotential::circulation).
-  std::function<void(const State&)> refresh;
+  /// Each step's merit is the energy of its start; the step itself knows that what is followed will
+  /// move (SurfacePotential::circulation).
+  Following following;
   double max_shift = 1000;  ///< Laplacian shifts tried on an indefinite matrix before giving up [-]
   /// Takes a balanced state whose tangent is indefinite for an answer: for paths that only symmetry
   /// holds, such as a closed form's.
@@ -68,6 +68,8 @@ class Newton {
   const Cholesky& cholesky() const { return cholesky_; }
 
  private:
+  NewtonReport iterate(State& state, const NewtonOptions& options,
+                       std::vector<HermiteMesh::Node> pending);
   struct Step {
     std::vector<HermiteMesh::Node> nodes;
     PressureStep pressures;
@@ -104,7 +106,7 @@ class Newton {
   double shift_ = 0;
   double damping_ = 0;                 ///< shift that short steps ask for
   bool indefinite_ = false;            ///< the last matrix was not the exact one
-  bool following_ = false;             ///< `refresh` is called before each step
+  bool following_ = false;             ///< what is followed is refreshed before each step
   bool cut_while_indefinite_ = false;  ///< and its step was cut: the next will be no better
 };
 

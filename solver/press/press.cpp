@@ -28,7 +28,8 @@ Press::Press(const CompressionProblem& problem, const CompressionOptions& option
       breast_(make_pressed_breast(problem, options.solid)),
       frame_(problem.mesh, problem.plates),
       newton_(*breast_.model, *breast_.dofs) {
-  if (breast_.friction) breast_.contact->follow = [this](const State& s) { track_friction(s); };
+  if (breast_.friction)
+    breast_.contact->follow = following(*breast_.friction, *breast_.model, breast_.contact_faces);
 }
 
 void Press::put(const PlacedPlates& placed) {

@@ -49,7 +49,7 @@ class PlateUnderBlock {
     settle();
     friction_->restore({});
     friction_->commit(model_, state_, faces_);
-    contact_->follow = [this](const State& s) { friction_->track(model_, s, faces_); };
+    contact_->follow = following(*friction_, model_, faces_);
   }
 
   /// Draws the plate along x, in equal steps.

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
+#include <random>
 
 #include "solver/contact/plate_friction.h"
 #include "solver/material/neo_hookean.h"
@@ -180,6 +181,63 @@ TEST(PlateFriction, CirculationIsWhatTrackedPressuresAddToTheHessian) {
     }
     EXPECT_GT((circulation - circulation.transpose()).norm(), 0.01 * derivative.norm());
   }
+}
+
+Eigen::Matrix3d hessian_at(const PressedBlock& block, const SurfacePoint& point) {
+  Eigen::Matrix<double, 9, 1> y = Eigen::Matrix<double, 9, 1>::Zero();
+  y.head<3>() = point.X + block.state.x[0].col(0) - block.mesh.node(0).col(0);
+  SurfaceResponse response;
+  EXPECT_TRUE(block.friction->respond(y, point, 2, response));
+  return response.hessian.topLeftCorner<3, 3>();
+}
+
+// A step of no length leaves the share the state's own.
+TEST(PlateFriction, InASolveTheHessianIsTheExactOneOnceTheShapeRests) {
+  for (const Eigen::Vector2d& slip : {Eigen::Vector2d(0.03, -0.05), Eigen::Vector2d(0.4, 0.3)}) {
+    PressedBlock block;
+    block.slide(slip.x(), slip.y());
+    const SurfacePoint point = block.model.faces(0)[0].point(7);
+    const Eigen::Matrix3d exact = hessian_at(block, point);
+    const State before = block.state;
+    block.slide(0.2, 0.1);
+    block.friction->step(block.model, before, block.state, block.faces);
+    EXPECT_GT((hessian_at(block, point) - exact).norm(), 1e-3 * exact.norm()) << "it moved";
+    block.slide(-0.2, -0.1);
+    for (int k = 0; k < 2; ++k)  // one step back, one of no length
+      block.friction->step(block.model, block.state, block.state, block.faces);
+    EXPECT_NEAR((hessian_at(block, point) - exact).norm(), 0, 1e-12 * exact.norm());
+    block.friction->align();
+    EXPECT_NEAR((hessian_at(block, point) - exact).norm(), 0, 1e-12 * exact.norm());
+  }
+}
+
+TEST(PlateFriction, InASolveTheHessianStaysSemidefiniteWhereverSlipTurns) {
+  PressedBlock block;
+  const SurfacePoint point = block.model.faces(0)[0].point(7);
+  std::mt19937 random(5);
+  std::normal_distribution<double> step(0, 2 * kSlip);
+  for (int k = 0; k < 50; ++k) {
+    const State before = block.state;
+    block.slide(step(random), step(random));
+    block.friction->step(block.model, before, block.state, block.faces);
+    const Eigen::Matrix3d H = hessian_at(block, point);
+    EXPECT_NEAR((H - H.transpose()).norm(), 0, 1e-12 * H.norm());
+    EXPECT_GE(H.selfadjointView<Eigen::Lower>().eigenvalues().minCoeff(), -1e-12 * H.norm());
+  }
+}
+
+// Sliding at 0.3 mm along x, then thrown to the other side of its anchor: w = (1, 0) by the linear
+// step, for w D = s along its own direction asks for nothing else. The hessian is then
+// μ t/s (I − n nᵀ + x xᵀ): 2 μ t/s along x where the exact one has none.
+TEST(PlateFriction, ThrownPastItsAnchorAPointIsHeldBackByTwiceItsForceOverItsWay) {
+  PressedBlock block;
+  block.slide(0.3, 0);
+  const State before = block.state;
+  block.slide(-0.5, 0);
+  block.friction->step(block.model, before, block.state, block.faces);
+  const Eigen::Matrix3d H = hessian_at(block, block.model.faces(0)[0].point(7));
+  EXPECT_NEAR(H(0, 0), 2 * kCoefficient / 0.2, 1e-9);
+  EXPECT_NEAR(H(1, 1), kCoefficient / 0.2, 1e-9);
 }
 
 // Newton's model of it is as good on one side of the limit as on the other.
