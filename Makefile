@@ -78,7 +78,8 @@ help:
 	@echo '                       RESULTS/evaluation/outlines.json; PRESS=1 presses each to what is usual for its volume first'
 	@echo 'make validate          the gel cylinder against other codes: RESULTS/gel_cylinder/validation.json;'
 	@echo '                       the gel breast against its true skin: RESULTS/gel_breast/validation.json;'
-	@echo '                       fits to known skins: RESULTS/evaluation/known_skins.json'
+	@echo '                       fits to known skins: RESULTS/evaluation/known_skins.json; fits by Ceres and otherwise:'
+	@echo '                       RESULTS/evaluation/skin_slab_fits.json, stiffness_fits.json'
 	@echo 'make evaluate-niftysim   a breast that NiftySim compressed, node by node: RESULTS/evaluation/niftysim.json'
 	@echo 'make evaluate-victre   a phantom that FEBio compressed, its outline and tissue: RESULTS/evaluation/victre.json'
 	@echo 'make measured          the pages of docs/measured, from what evaluations wrote into RESULTS'
@@ -99,7 +100,7 @@ paraview: chain mammotwin-paraview
 synthesize: mammotwin-synthesize
 cohort: chain mammotwin-cohort
 verify-results: mammotwin-verify
-validate: mammotwin-validate mammotwin-validate-gel-breast mammotwin-validate-known-skins
+validate: mammotwin-validate mammotwin-validate-gel-breast mammotwin-validate-known-skins mammotwin-validate-other-fits
 patient segment fit unload compress register report slicer paraview synthesize:
 	@pipeline/run_patient.sh $@
 
@@ -168,6 +169,7 @@ validate:
 	@"$$BIN/mammotwin-validate" sample_data/gel_cylinder "$$RESULTS/gel_cylinder/validation.json"
 	@"$$BIN/mammotwin-validate-gel-breast" sample_data/gel_breast/scan.ply "$$RESULTS/gel_breast/validation.json"
 	@"$$BIN/mammotwin-validate-known-skins" sample_data/gel_breast/scan.ply "$$RESULTS/evaluation/known_skins.json"
+	@"$$BIN/mammotwin-validate-other-fits" "$$RESULTS/evaluation"
 
 evaluate-niftysim: mammotwin-evaluate-niftysim
 	@"$$BIN/mammotwin-evaluate-niftysim" "$$CASES/breast_ct_compression" "$$RESULTS/evaluation/niftysim.json"
