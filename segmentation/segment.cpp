@@ -170,6 +170,7 @@ SegmentResult segment(const SegmentInput& input, const SegmentOptions& options,
   crop(result);
   const FoundRegion found = find_region(s.labels, s.region.side, LabelsHold::one_side);
   s.region = found.region;
+  if (result.judge_in_region) result.judge_in_region(s.region, q);
   place_nipple(input, result);
   judge_region(found, s, q);
   if (input.label_map) hand_on_mri(input, result);

@@ -63,6 +63,8 @@ struct SegmentResult {
   Volume<float> image;  ///< bias corrected, on the grid of the labels; empty without an MRI
   SegmentQuality quality;
   std::vector<std::filesystem::path> files;  ///< what was read, for the record of inputs
+  /// Doubts that wait for the region; empty without an MRI.
+  std::function<void(const BreastRegion&, SegmentQuality&)> judge_in_region;
 };
 
 /// Told how far the work is, fraction in [0, 1], and what is being done; may be empty.

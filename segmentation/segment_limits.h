@@ -16,6 +16,7 @@ inline constexpr double chest_wall_fat_behind = 0.08;
 /// 0.6 on the real wall that the prior mended; where the image had its way 0.11 to 0.17 on four
 /// whose walls look right.
 inline constexpr double chest_wall_disputed = 0.10, chest_wall_unlike_others = 0.30;
+inline constexpr double chest_wall_unsteady = 0.10;
 /// 0.3 on a phantom of 8 % noise that lay still; 0.8, 1.4 and 2.9 where it moved 0.6, 1.2 and 2.4
 /// mm.
 inline constexpr double pre_shift_mm = 1;

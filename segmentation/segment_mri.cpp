@@ -81,14 +81,14 @@ void judge_noise(SegmentQuality& quality) {
 }
 
 /// Tissue in front of the wall and of the skin between the breasts, smaller over larger side.
-void judge_symmetry(const BodyStage& body, const WallStage& wall, SegmentQuality& quality) {
+void judge_symmetry(const BodyStage& body, const PectoralWall& wall, SegmentQuality& quality) {
   double left = 0, right = 0;
   for (int k = 0; k < body.body.size.z(); ++k)
     for (int j = 0; j < body.body.size.y(); ++j)
       for (int i = 0; i < body.body.size.x(); ++i) {
         if (!body.body(i, j, k)) continue;
         const Eigen::Vector3d x = body.body.position(i, j, k);
-        if (x.y() > body.frame.sternal_y || wall.wall.is_behind(x)) continue;
+        if (x.y() > body.frame.sternal_y || wall.is_behind(x)) continue;
         (x.x() > body.frame.midline_x ? left : right) += 1;
       }
   quality.volume_ratio = std::min(left, right) / std::max({left, right, 1.0});
@@ -188,16 +188,19 @@ SegmentResult segment_image(const Mri& mri, const SegmentInput& input,
   progress(0.35, "finding the chest wall");
   const WallStage wall = find_wall(body, before, side, options.wall_stiffness);
   judge_movement(wall.pre_match, result.quality);
-  judge_wall(body, wall, side, result.quality);
+  result.judge_in_region = [found = wall.found, frame = body.frame](const BreastRegion& region,
+                                                                    SegmentQuality& quality) {
+    judge_wall(found, frame, region, quality);
+  };
   judge_end_slices(body, side, result.quality);
   judge_noise(result.quality);
-  judge_symmetry(body, wall, result.quality);
+  judge_symmetry(body, wall.found.wall, result.quality);
 
   progress(0.60, "correcting the coil's shading");
   const VoxelBox box = side_box(body.image, body.frame, side);
   const HalfImages coarse = cut_images(body, before, wall, box);
   const SkinStage skin = find_skin(coarse.noisy, cropped(body.body, box), body.frame);
-  const HalfBreast half = half_breast(skin.surface.body, wall.wall, side);
+  const HalfBreast half = half_breast(skin.surface.body, wall.found.wall, side);
   check_seeds(half, seeds);
   offer_candidates(half, coarse.enhancement, result.quality);
   const HalfImages images = correct_shading(coarse, half, body.frame);

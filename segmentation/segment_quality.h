@@ -34,6 +34,7 @@ struct SegmentQuality {
   std::optional<double> chest_wall_doubt;       ///< share of the wall without support, 0 to 1
   std::optional<double> chest_wall_fat_behind;  ///< share of the wall with fat behind it
   std::optional<double> chest_wall_disputed;    ///< share where it may as well lie elsewhere
+  std::optional<double> chest_wall_unsteady;    ///< share that moves when looked for otherwise
   std::optional<double> failed_suppression_ml;  ///< breast brighter than twice fat
   std::optional<double> pre_shift_mm;           ///< PreMatch, of an image before contrast agent
   std::optional<double> signal_to_noise;        ///< fat over the noise between neighbours

@@ -99,12 +99,10 @@ PectoralWall wall_grid(const Volume<float>& image, const BreastFrame& frame) {
 
 PectoralWall find_pectoral_wall(const Volume<float>& corrected, const Volume<std::uint8_t>& body,
                                 const BreastFrame& frame, const WallContrast& contrast,
-                                double stiffness, WallEvidence evidence) {
+                                double stiffness, const std::vector<UsualRadius>& usual) {
   PectoralWall wall = wall_grid(corrected, frame);
   const PolarRays rays = cast_rays(corrected, body, wall);
   std::vector<WallContrast> contrasts(rays.exit.size(), contrast);
-  const std::vector<UsualRadius> usual =
-      evidence == WallEvidence::image ? std::vector<UsualRadius>() : usual_radii(wall, frame);
   FoundDepths found = search(rays, contrasts, usual, stiffness);
   constexpr int rounds = 2;  // a wall that stood on gland is on muscle in the first
   for (int round = 0; round < rounds; ++round) {

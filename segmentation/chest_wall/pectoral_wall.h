@@ -52,19 +52,19 @@ struct PectoralWall {
                                        double from_degrees = 0) const;
 };
 
-/// What decides where the wall is: the image alone, or with it where it usually is.
-enum class WallEvidence { image, image_and_prior };
-
 /// The rays along which a wall is looked for in an image; no radius yet.
 PectoralWall wall_grid(const Volume<float>& image, const BreastFrame& frame);
+
+struct UsualRadius;
 
 /// Finds the front of the pectoral muscle in a bias-corrected image with fat at 1.
 ///
 /// The radius over angle and height is found by a semi-global search over the cost of wall_cost.h,
 /// twice again with the brightness that wall_contrast.h measures round the wall found before;
-/// wall_refinement.h then moves it to the middle of the step that the image shows there.
+/// wall_refinement.h then moves it to the middle of the step that the image shows there. `usual`:
+/// where the wall of each ray usually lies (wall_prior.h); empty, the image alone decides.
 PectoralWall find_pectoral_wall(const Volume<float>& corrected, const Volume<std::uint8_t>& body,
                                 const BreastFrame& frame, const WallContrast& contrast,
-                                double stiffness, WallEvidence evidence);
+                                double stiffness, const std::vector<UsualRadius>& usual);
 
 }  // namespace mammotwin

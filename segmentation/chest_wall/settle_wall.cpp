@@ -16,8 +16,22 @@ double unsupported(const PectoralWall& wall, Side side, double z_low, double z_h
   return wall.doubt(side, z_low, z_high) + wall.fat_behind(side, z_low, z_high);
 }
 
-WallDispute dispute(const PectoralWall& chosen, const PectoralWall& other, Side side, double z_low,
-                    double z_high) {
+/// Takes the rays of one side from another wall.
+void take_side(const PectoralWall& from, Side side, PectoralWall& wall) {
+  for (std::size_t n = 0; n < wall.radius.size(); ++n) {
+    const double angle = wall.first_angle + static_cast<double>(n % wall.angles) * wall.angle_step;
+    if (side == Side::left ? angle < 0 : angle >= 0) continue;
+    wall.radius[n] = from.radius[n];
+    wall.cost[n] = from.cost[n];
+    wall.behind[n] = from.behind[n];
+    wall.contrast[n] = from.contrast[n];
+  }
+}
+
+}  // namespace
+
+WallDispute wall_dispute(const PectoralWall& chosen, const PectoralWall& other, Side side,
+                         double z_low, double z_high) {
   WallDispute found;
   std::vector<double> off;
   std::vector<std::size_t> where;
@@ -35,32 +49,18 @@ WallDispute dispute(const PectoralWall& chosen, const PectoralWall& other, Side 
   return found;
 }
 
-/// Takes the rays of one side from another wall.
-void take_side(const PectoralWall& from, Side side, PectoralWall& wall) {
-  for (std::size_t n = 0; n < wall.radius.size(); ++n) {
-    const double angle = wall.first_angle + static_cast<double>(n % wall.angles) * wall.angle_step;
-    if (side == Side::left ? angle < 0 : angle >= 0) continue;
-    wall.radius[n] = from.radius[n];
-    wall.cost[n] = from.cost[n];
-    wall.behind[n] = from.behind[n];
-    wall.contrast[n] = from.contrast[n];
-  }
-}
-
-}  // namespace
-
 SettledWall settled_wall(const PectoralWall& by_image, const PectoralWall& with_prior, double z_low,
                          double z_high) {
-  SettledWall settled{with_prior, {}, {}};
+  SettledWall settled{with_prior, by_image};
   for (const Side side : {Side::left, Side::right}) {
-    WallDispute& found = side == Side::left ? settled.left : settled.right;
-    found = dispute(with_prior, by_image, side, z_low, z_high);
+    const WallDispute found = wall_dispute(with_prior, by_image, side, z_low, z_high);
     const double lost =
         unsupported(with_prior, side, z_low, z_high) - unsupported(by_image, side, z_low, z_high);
-    found.prior_chosen = found.share > 0 && lost <= most_lost * found.share;
-    if (found.prior_chosen) continue;
-    found = dispute(by_image, with_prior, side, z_low, z_high);
+    bool& by_prior = side == Side::left ? settled.left_by_prior : settled.right_by_prior;
+    by_prior = found.share > 0 && lost <= most_lost * found.share;
+    if (by_prior) continue;
     take_side(by_image, side, settled.wall);
+    take_side(with_prior, side, settled.other);
   }
   return settled;
 }

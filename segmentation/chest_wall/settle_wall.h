@@ -8,14 +8,18 @@ namespace mammotwin {
 struct WallDispute {
   double share = 0;  ///< of the wall in front of that side
   double median_mm =
-      0;  ///< the other wall's radius less the chosen one's; positive: further forward
-  bool prior_chosen = false;
+      0;            ///< the other wall's radius less the chosen one's; positive: further forward
   WallPatch patch;  ///< the largest piece of the chosen wall where they differ
 };
 
+WallDispute wall_dispute(const PectoralWall& chosen, const PectoralWall& other, Side side,
+                         double z_low, double z_high);
+
 struct SettledWall {
-  PectoralWall wall;
-  WallDispute left, right;
+  PectoralWall wall, other;  ///< of each side the chosen one, and the one that was not
+  bool left_by_prior = false, right_by_prior = false;  ///< the one with the prior was chosen
+
+  bool by_prior(Side side) const { return side == Side::left ? left_by_prior : right_by_prior; }
 };
 
 /// Of each side the wall found without the prior (wall_prior.h), unless the one with it differs

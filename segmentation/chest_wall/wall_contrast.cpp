@@ -15,6 +15,7 @@ constexpr int inside_from_mm = 2, inside_to_mm = 6, rough_to_mm = 7;
 constexpr int outside_from_mm = 2, outside_to_mm = 5;
 constexpr int half_window = 15;  // rays: 30 mm, 22.5 degrees
 constexpr int stride = 2;        // of the rays looked at
+constexpr int block = 3;         // rays a side that share what their middle one sees
 constexpr std::size_t least_rays = 25;
 // Gland: bright tissue in front of the wall, below the skin; partial volume draws most of it
 // towards fat.
@@ -94,22 +95,32 @@ std::vector<WallContrast> local_contrasts(const PolarRays& rays, const std::vect
                                           const WallContrast& usual) {
   const double fat_to_muscle = std::log(usual.muscle / usual.fat);
   std::vector<WallContrast> contrasts(depth.size(), usual);
-  tbb::parallel_for(0, rays.rows, [&](int row) {
-    for (int angle = 0; angle < rays.angles; ++angle) {
-      Sides sides;
-      for (int r = std::max(0, row - half_window); r <= std::min(rays.rows - 1, row + half_window);
-           r += stride)
-        for (int a = std::max(0, angle - half_window);
-             a <= std::min(rays.angles - 1, angle + half_window); a += stride) {
-          const std::size_t n = static_cast<std::size_t>(r) * rays.angles + a;
-          sides.add(rays.ray(n), rays.exit[n], static_cast<int>(std::lround(depth[n])),
-                    cost[n] <= supported, fat_to_muscle);
-        }
-      if (sides.fat.size() < least_rays) continue;
-      WallContrast& found = contrasts[static_cast<std::size_t>(row) * rays.angles + angle];
-      found =
-          within_reason({median(sides.fat), median(sides.muscle), median(sides.roughness)}, usual);
-      add_gland(sides, fat_to_muscle, found);
+  const auto at = [&](int row, int angle) {
+    return static_cast<std::size_t>(row) * rays.angles + angle;
+  };
+  const auto measured = [&](int row, int angle) {
+    Sides sides;
+    for (int r = std::max(0, row - half_window); r <= std::min(rays.rows - 1, row + half_window);
+         r += stride)
+      for (int a = std::max(0, angle - half_window);
+           a <= std::min(rays.angles - 1, angle + half_window); a += stride) {
+        const std::size_t n = at(r, a);
+        sides.add(rays.ray(n), rays.exit[n], static_cast<int>(std::lround(depth[n])),
+                  cost[n] <= supported, fat_to_muscle);
+      }
+    if (sides.fat.size() < least_rays) return usual;
+    WallContrast found =
+        within_reason({median(sides.fat), median(sides.muscle), median(sides.roughness)}, usual);
+    add_gland(sides, fat_to_muscle, found);
+    return found;
+  };
+  tbb::parallel_for(0, (rays.rows + block - 1) / block, [&](int b) {
+    const int first_row = b * block, end_row = std::min(rays.rows, first_row + block);
+    for (int first = 0; first < rays.angles; first += block) {
+      const int end = std::min(rays.angles, first + block);
+      const WallContrast here = measured((first_row + end_row) / 2, (first + end) / 2);
+      for (int row = first_row; row < end_row; ++row)
+        for (int angle = first; angle < end; ++angle) contrasts[at(row, angle)] = here;
     }
   });
   return contrasts;

@@ -98,6 +98,65 @@ SettledWall best_supported(const std::vector<double>& muscles, const BreastFrame
   return best;
 }
 
+/// What is known only roughly before a search, and how far off it may be.
+struct Beforehand {
+  double usual_off_mm = 0, muscle_times = 1;
+};
+
+std::vector<UsualRadius> moved(std::vector<UsualRadius> usual, double by_mm) {
+  for (UsualRadius& ray : usual) ray.mean += by_mm;
+  return usual;
+}
+
+/// The wall of one image.
+class WallSearch {
+ public:
+  WallSearch(const BodyStage& body, const WallStage& stage, double stiffness)
+      : frame_(body.frame),
+        closed_(with_closed_thorax(body)),
+        contrast_(stage.contrast),
+        muscles_(possible_muscles(stage, closed_, frame_)),
+        stiffness_(stiffness),
+        usual_(usual_radii(wall_grid(stage.corrected, frame_), frame_)) {}
+
+  SettledWall find(const Volume<float>& smooth, const Beforehand& told) const {
+    const std::vector<UsualRadius> usual = moved(usual_, told.usual_off_mm);
+    return best_supported(muscles_, frame_, [&](double muscle) {
+      WallContrast contrast = contrast_;
+      contrast.muscle = muscle * told.muscle_times;
+      const auto by = [&](const std::vector<UsualRadius>& where) {
+        return find_pectoral_wall(smooth, closed_, frame_, contrast, stiffness_, where);
+      };
+      return settled_wall(by({}), by(usual), frame_.z_low, frame_.z_high);
+    });
+  }
+
+ private:
+  BreastFrame frame_;
+  Volume<std::uint8_t> closed_;
+  WallContrast contrast_;
+  std::vector<double> muscles_;
+  double stiffness_;
+  std::vector<UsualRadius> usual_;
+};
+
+Volume<float> smoothed_for_rays(Volume<float> image) {
+  constexpr double ray_smoothing_mm = 0.8;  // about a voxel: noise falls, the edge stays
+  return gaussian_smoothed(std::move(image), ray_smoothing_mm);
+}
+
+/// The middle of three searches.
+FoundWall find_steady(const WallSearch& search, const Volume<float>& smooth) {
+  constexpr double usual_off_mm = 3;     // ten women's mean, of a spread of 6 to 10 mm
+  constexpr double muscle_times = 1.07;  // a class's mean, of a spread of 0.2
+  FoundWall found;
+  found.first = search.find(smooth, {});
+  found.searches = {found.first.wall, search.find(smooth, {usual_off_mm, muscle_times}).wall,
+                    search.find(smooth, {-usual_off_mm, 1 / muscle_times}).wall};
+  found.wall = middle_wall(found.searches);
+  return found;
+}
+
 /// Compares the images before and after contrast agent in front of the wall, on one side.
 PreMatch match_breast(const BodyStage& body, const Volume<float>& pre, const PectoralWall& wall,
                       Side side) {
@@ -129,32 +188,21 @@ WallStage find_wall(const BodyStage& body, const BeforeAgent& before, Side side,
   };
   const double fat = fat_of(stage.corrected);
   for (float& value : stage.corrected.values) value /= static_cast<float>(fat);
-  const Volume<std::uint8_t> closed = with_closed_thorax(body);
   stage.contrast.muscle = muscle_over_fat(bias, std::log(fat), body.contrast.fat_suppressed);
-  const std::vector<double> muscles = possible_muscles(stage, closed, body.frame);
-  const auto found_in = [&](Volume<float> image) {
-    constexpr double ray_smoothing_mm = 0.8;  // about a voxel: noise falls, the edge stays
-    const Volume<float> smooth = gaussian_smoothed(std::move(image), ray_smoothing_mm);
-    return best_supported(muscles, body.frame, [&](double muscle) {
-      WallContrast contrast = stage.contrast;
-      contrast.muscle = muscle;
-      const auto by = [&](WallEvidence evidence) {
-        return find_pectoral_wall(smooth, closed, body.frame, contrast, stiffness, evidence);
-      };
-      return settled_wall(by(WallEvidence::image), by(WallEvidence::image_and_prior),
-                          body.frame.z_low, body.frame.z_high);
-    });
-  };
-  const auto take = [&](SettledWall settled) {
-    stage.dispute = side == Side::left ? settled.left : settled.right;
-    stage.wall = std::move(settled.wall);
-  };
-  take(found_in(stage.corrected));
-  if (!before.is_given()) return stage;
-  stage.pre_match = match_breast(body, before.image, stage.wall, side);
-  if (stage.pre_match->moved()) return stage;
+  const WallSearch search(body, stage, stiffness);
+  if (!before.is_given()) {
+    stage.found = find_steady(search, smoothed_for_rays(stage.corrected));
+    return stage;
+  }
+  const PectoralWall alone = search.find(smoothed_for_rays(stage.corrected), {}).wall;
+  stage.pre_match = match_breast(body, before.image, alone, side);
+  if (stage.pre_match->moved()) {
+    stage.found = find_steady(search, smoothed_for_rays(stage.corrected));
+    return stage;
+  }
   const Volume<float> pre = corrected(before.image, bias);
-  take(found_in(mean_with_pre(stage.corrected, pre, 1 / fat_of(pre))));
+  stage.found =
+      find_steady(search, smoothed_for_rays(mean_with_pre(stage.corrected, pre, 1 / fat_of(pre))));
   return stage;
 }
 

@@ -22,9 +22,10 @@ PectoralWall wall_at(double radius) {
 TEST(SettledWall, IsThatWithThePriorWhereTheImageSupportsBoth) {
   const SettledWall settled = settled_wall(wall_at(85), wall_at(105), 0, 18);
   EXPECT_EQ(settled.wall.radius, wall_at(105).radius);
-  EXPECT_TRUE(settled.left.prior_chosen);
-  EXPECT_EQ(settled.left.share, 1);
-  EXPECT_EQ(settled.left.median_mm, -20) << "the image's edge lies deeper";
+  EXPECT_TRUE(settled.left_by_prior);
+  const WallDispute dispute = wall_dispute(settled.wall, settled.other, Side::left, 0, 18);
+  EXPECT_EQ(dispute.share, 1);
+  EXPECT_EQ(dispute.median_mm, -20) << "the image's edge lies deeper";
 }
 
 TEST(SettledWall, IsTheImagesOnASideWhereThePriorFindsNoEdge) {
@@ -32,15 +33,16 @@ TEST(SettledWall, IsTheImagesOnASideWhereThePriorFindsNoEdge) {
   for (int n = 0; n < 600; ++n)
     if (n % 60 < 30) unsupported.cost[n] = 0;  // the patient's right
   const SettledWall settled = settled_wall(wall_at(85), unsupported, 0, 18);
-  EXPECT_TRUE(settled.left.prior_chosen);
-  EXPECT_FALSE(settled.right.prior_chosen);
-  EXPECT_EQ(settled.right.median_mm, 20) << "the usual wall lies further forward";
+  EXPECT_TRUE(settled.left_by_prior);
+  EXPECT_FALSE(settled.right_by_prior);
+  EXPECT_EQ(wall_dispute(settled.wall, settled.other, Side::right, 0, 18).median_mm, 20)
+      << "the usual wall lies further forward";
   for (int n = 0; n < 600; ++n) EXPECT_EQ(settled.wall.radius[n], n % 60 < 30 ? 85 : 105);
 }
 
 TEST(SettledWall, IsNotDisputedByLessThanFiveMm) {
   const SettledWall settled = settled_wall(wall_at(100), wall_at(104), 0, 18);
-  EXPECT_EQ(settled.left.share, 0);
+  EXPECT_EQ(wall_dispute(settled.wall, settled.other, Side::left, 0, 18).share, 0);
   EXPECT_EQ(settled.wall.radius, wall_at(100).radius) << "the image's";
 }
 

@@ -56,7 +56,7 @@ TEST(WallStage, IsFoundInBothImagesIfThePatientLayStill) {
   EXPECT_FALSE(alone.pre_match);
   const WallStage both = find_wall(body, {image_before(body, 0), {}}, Side::left, stiffness);
   ASSERT_TRUE(both.pre_match && !both.pre_match->moved());
-  EXPECT_LT(wall_error(body, both.wall), 0.75 * wall_error(body, alone.wall));
+  EXPECT_LT(wall_error(body, both.found.wall), 0.75 * wall_error(body, alone.found.wall));
 }
 
 TEST(WallStage, IsThatOfTheLaterImageIfThePatientMoved) {
@@ -64,7 +64,7 @@ TEST(WallStage, IsThatOfTheLaterImageIfThePatientMoved) {
   const WallStage alone = find_wall(body, {}, Side::left, stiffness);
   const WallStage moved = find_wall(body, {image_before(body, 1), {}}, Side::left, stiffness);
   ASSERT_TRUE(moved.pre_match && moved.pre_match->moved());
-  EXPECT_EQ(moved.wall.radius, alone.wall.radius);
+  EXPECT_EQ(moved.found.wall.radius, alone.found.wall.radius);
 }
 
 }  // namespace
