@@ -175,6 +175,7 @@ SegmentResult segment_image(const Mri& mri, const SegmentInput& input,
   SegmentResult result;
   result.files = mri.files;
   result.quality.notes = mri.notes;
+  result.quality.series = mri.series;
   judge_position(mri.patient_position, result.quality);
 
   progress(0.10, "finding the outline");

@@ -101,6 +101,7 @@ json to_json(const SegmentQuality& q) {
       {"doubts", doubts_json(q.doubts)},
       {"lesion_candidates", candidates_json(q.candidates)},
       {"lesion_agreement", q.lesion_agreement},
+      {"series", to_json(q.series)},
       {"notes", q.notes}};
 }
 

@@ -8,6 +8,7 @@
 
 #include "segmentation/contrast_agent/enhancement.h"
 #include "segmentation/doubt.h"
+#include "segmentation/files/series_choice.h"
 #include "segmentation/segmentation.h"
 
 namespace mammotwin {
@@ -20,6 +21,7 @@ struct SegmentQuality {
   std::vector<std::string> reasons;  ///< why the status is not ok, in sentences
   std::vector<Doubt> doubts;         ///< the same, one a reason: what and where
   std::vector<std::string> notes;    ///< what was chosen or assumed, in sentences
+  std::vector<SeriesRow> series;     ///< of which one was chosen; empty without a choice
 
   Side side = Side::left;
   std::string patient_position;  ///< DICOM's code ("HFP": head first, prone); empty: not known

@@ -102,27 +102,24 @@ bool is_derived(const Series& series) {
   return false;
 }
 
-/// Area of a pixel times the distance between slices [mm^3]; large where it cannot be told.
-double voxel_volume(const Series& series) {
+double seconds_of(const std::string& time) {
+  constexpr std::size_t whole = 6;  // HHMMSS
+  if (time.size() < whole || time.find_first_not_of("0123456789.") != std::string::npos) return 0;
+  return 3600 * std::stod(time.substr(0, 2)) + 60 * std::stod(time.substr(2, 2)) +
+         std::stod(time.substr(4));
+}
+
+/// Sorted places of the slices along their normal, each once.
+std::vector<double> places_along(const Series& series) {
   std::vector<double> along;
-  const SlicePlacement& first = series.slices.front().placement;
+  const Eigen::Vector3d normal = series.slices.front().placement.normal();
   for (const DicomSlice& slice : series.slices)
-    along.push_back(slice.placement.position.dot(first.normal()));
+    along.push_back(slice.placement.position.dot(normal));
   std::sort(along.begin(), along.end());
   along.erase(std::unique(along.begin(), along.end(),
                           [](double a, double b) { return b - a < same_place_mm; }),
               along.end());
-  if (along.size() < 2) return 1e9;
-  const double step = (along.back() - along.front()) / static_cast<double>(along.size() - 1);
-  return first.row_spacing * first.column_spacing * step;
-}
-
-/// Those whose voxels are no more than a tenth larger than the finest.
-std::vector<Series> finest(std::vector<Series> all) {
-  double least = 1e9;
-  for (const Series& series : all) least = std::min(least, voxel_volume(series));
-  std::erase_if(all, [&](const Series& series) { return voxel_volume(series) > 1.1 * least; });
-  return all;
+  return along;
 }
 
 /// The same place imaged in the same way.
@@ -146,37 +143,104 @@ std::vector<Series> dynamic_study(const std::vector<Series>& all) {
   return longest;
 }
 
-/// The stated rule where several series could serve: derived ones (subtractions, projections) are
-/// left aside; where the rest holds a dynamic study, all others: a later, finer series is noisier
-/// and its lesions have washed out. Then those with coarser voxels and with fewer slices; of what
-/// is left the second in order of time is taken, the first after the contrast agent.
-Series choose_by_rule(std::vector<Series> all, std::vector<std::string>& notes) {
-  const std::size_t serving = all.size();
-  if (!std::all_of(all.begin(), all.end(), is_derived)) std::erase_if(all, is_derived);
-  const std::vector<Series> dynamic = dynamic_study(all);
-  const std::size_t set_aside = dynamic.empty() ? 0 : all.size() - dynamic.size();
-  if (!dynamic.empty()) all = dynamic;
-  all = finest(std::move(all));
-  std::size_t most = 0;
-  for (const Series& series : all) most = std::max(most, series.slices.size());
-  std::erase_if(all, [&](const Series& series) { return series.slices.size() < most; });
-  std::stable_sort(all.begin(), all.end(), [](const Series& a, const Series& b) {
+GridImage load(const Series& series) {
+  std::vector<SlicePlacement> placements;
+  for (const DicomSlice& slice : series.slices) placements.push_back(slice.placement);
+  const SliceStack stack = stack_slices(placements);
+  const SlicePlacement& first = placements[stack.order.front()];
+  if (!(first.row_spacing > 0 && first.column_spacing > 0))
+    throw std::runtime_error("PixelSpacing is missing or not positive; expected two numbers in mm");
+
+  GridImage image;
+  image.size = {first.columns, first.rows, static_cast<int>(stack.order.size())};
+  image.spacing = {first.column_spacing, first.row_spacing, stack.spacing};
+  image.origin = first.position;
+  image.direction << first.along_row, first.along_column, first.normal();
+  const std::size_t slice_size = static_cast<std::size_t>(first.columns) * first.rows;
+  image.values.resize(slice_size * stack.order.size());
+  fs::path loaded;
+  std::vector<float> pixels;
+  for (std::size_t n = 0; n < stack.order.size(); ++n) {
+    const DicomSlice& slice = series.slices[stack.order[n]];
+    if (slice.file != loaded) pixels = read_dicom_pixels(loaded = slice.file);
+    if (pixels.size() < slice_size * (slice.frame + 1))
+      throw std::runtime_error(slice.placement.name + ": has fewer pixels than its header says");
+    std::copy_n(pixels.begin() + slice_size * slice.frame, slice_size,
+                image.values.begin() + slice_size * n);
+  }
+  return image;
+}
+
+/// The middle of a series, as much as tells how it looks; empty where it makes no stack.
+std::optional<SeriesLook> look_at(Series series) {
+  constexpr std::size_t enough = 40;  // slices
+  const Eigen::Vector3d normal = series.slices.front().placement.normal();
+  std::stable_sort(series.slices.begin(), series.slices.end(),
+                   [&](const DicomSlice& a, const DicomSlice& b) {
+                     return a.placement.position.dot(normal) < b.placement.position.dot(normal);
+                   });
+  if (series.slices.size() > enough) {
+    const auto first = static_cast<std::ptrdiff_t>((series.slices.size() - enough) / 2);
+    series.slices = {series.slices.begin() + first,
+                     series.slices.begin() + first + static_cast<std::ptrdiff_t>(enough)};
+  }
+  try {
+    std::vector<std::string> notes;
+    return look_at_series(to_lps_grid(load(series), Between::linear, notes));
+  } catch (const std::exception&) {
+    return std::nullopt;  // whoever names it is told why
+  }
+}
+
+SeriesRow row_of(const Series& series, double first_seconds) {
+  const std::vector<double> along = places_along(series);
+  const SlicePlacement& place = series.slices.front().placement;
+  SeriesRow row;
+  row.number = is_short_number(series.number) ? series.number : "";
+  row.slices = series.slices.size();
+  row.covers_mm = along.back() - along.front();
+  const double step =
+      along.size() > 1 ? row.covers_mm / static_cast<double>(along.size() - 1) : 1e3;
+  row.voxel_mm = {place.column_spacing, place.row_spacing, step};
+  row.is_computed = is_derived(series);
+  row.seconds = seconds_of(series.slices.front().acquisition_time) - first_seconds;
+  return row;
+}
+
+/// Numbers the phases of the dynamic study in order of time.
+void number_phases(const std::vector<Series>& all, std::vector<SeriesRow>& rows) {
+  std::vector<Series> originals = all;
+  std::erase_if(originals, is_derived);
+  std::vector<Series> dynamic = dynamic_study(originals);
+  std::stable_sort(dynamic.begin(), dynamic.end(), [](const Series& a, const Series& b) {
     return a.slices.front().acquisition_time < b.slices.front().acquisition_time;
   });
-  const Series& chosen = all[all.size() > 1 ? 1 : 0];
-  notes.push_back(
-      "of " + std::to_string(serving) + " series was read: " + chosen.name() +
-      (all.size() > 1
-           ? ", the second in time of " + std::to_string(all.size()) +
-                 " that are not derived and have the finest voxels and most slices (in a dynamic "
-                 "study the first after the contrast agent)"
-           : ", the one that is not derived and has the finest voxels and most slices") +
-      (set_aside > 0
-           ? "; " + std::to_string(set_aside) +
-                 " of another geometry than the dynamic study's were left aside, finer or not"
-           : "") +
-      "; mri.series names another");
-  return chosen;
+  for (std::size_t p = 0; p < dynamic.size(); ++p)
+    for (std::size_t n = 0; n < all.size(); ++n)
+      if (all[n].uid == dynamic[p].uid) rows[n].phase = static_cast<int>(p) + 1;
+}
+
+std::vector<SeriesRow> table_of(const std::vector<Series>& all) {
+  constexpr int looked_at_phases = 2;  // the others look alike
+  double first = seconds_of(all.front().slices.front().acquisition_time);
+  for (const Series& series : all)
+    first = std::min(first, seconds_of(series.slices.front().acquisition_time));
+  std::vector<SeriesRow> rows;
+  for (const Series& series : all) rows.push_back(row_of(series, first));
+  number_phases(all, rows);
+  for (std::size_t n = 0; n < all.size(); ++n)
+    if (!rows[n].is_computed && rows[n].phase <= looked_at_phases) rows[n].look = look_at(all[n]);
+  return rows;
+}
+
+/// Where several series could serve: choose_series_row.
+Series choose_by_rule(const std::vector<Series>& all, DicomVolume& out) {
+  out.series = table_of(all);
+  const std::size_t chosen = choose_series_row(out.series);
+  out.notes.push_back("of " + std::to_string(all.size()) +
+                      " series was read: " + all[chosen].name() + ", " + out.series[chosen].reason +
+                      "; mri.series names another");
+  return all[chosen];
 }
 
 void check_one_patient(const std::vector<Series>& all) {
@@ -188,15 +252,14 @@ void check_one_patient(const std::vector<Series>& all) {
                              list(all) + "; expected one patient's, or name one with mri.series");
 }
 
-Series choose_series(std::vector<Series> all, const std::string& wanted,
-                     std::vector<std::string>& notes) {
+Series choose_series(const std::vector<Series>& all, const std::string& wanted, DicomVolume& out) {
   std::vector<Series> matching;
   for (const Series& series : all)
     if (wanted.empty() ? series.slices.size() >= least_slices
                        : series.number == wanted || series.uid == wanted)
       matching.push_back(series);
   if (wanted.empty()) check_one_patient(matching);
-  if (matching.size() > 1 && wanted.empty()) return choose_by_rule(std::move(matching), notes);
+  if (matching.size() > 1 && wanted.empty()) return choose_by_rule(matching, out);
   if (matching.size() > 1)
     throw std::runtime_error("mri.series names " + std::to_string(matching.size()) + " series: " +
                              list(matching) + "; expected one (give its SeriesInstanceUID)");
@@ -206,7 +269,7 @@ Series choose_series(std::vector<Series> all, const std::string& wanted,
   if (matching.empty())
     throw std::runtime_error("holds no MR series of at least " + std::to_string(least_slices) +
                              " slices; found " + list(all));
-  if (all.size() > 1) notes.push_back("of several series was read: " + matching.front().name());
+  if (all.size() > 1) out.notes.push_back("of several series was read: " + matching.front().name());
   return matching.front();
 }
 
@@ -244,34 +307,6 @@ void choose_phase(Series& series, const std::string& wanted, std::vector<std::st
                                   : ""));
 }
 
-GridImage load(const Series& series) {
-  std::vector<SlicePlacement> placements;
-  for (const DicomSlice& slice : series.slices) placements.push_back(slice.placement);
-  const SliceStack stack = stack_slices(placements);
-  const SlicePlacement& first = placements[stack.order.front()];
-  if (!(first.row_spacing > 0 && first.column_spacing > 0))
-    throw std::runtime_error("PixelSpacing is missing or not positive; expected two numbers in mm");
-
-  GridImage image;
-  image.size = {first.columns, first.rows, static_cast<int>(stack.order.size())};
-  image.spacing = {first.column_spacing, first.row_spacing, stack.spacing};
-  image.origin = first.position;
-  image.direction << first.along_row, first.along_column, first.normal();
-  const std::size_t slice_size = static_cast<std::size_t>(first.columns) * first.rows;
-  image.values.resize(slice_size * stack.order.size());
-  fs::path loaded;
-  std::vector<float> pixels;
-  for (std::size_t n = 0; n < stack.order.size(); ++n) {
-    const DicomSlice& slice = series.slices[stack.order[n]];
-    if (slice.file != loaded) pixels = read_dicom_pixels(loaded = slice.file);
-    if (pixels.size() < slice_size * (slice.frame + 1))
-      throw std::runtime_error(slice.placement.name + ": has fewer pixels than its header says");
-    std::copy_n(pixels.begin() + slice_size * slice.frame, slice_size,
-                image.values.begin() + slice_size * n);
-  }
-  return image;
-}
-
 }  // namespace
 
 DicomVolume read_dicom_series(const fs::path& path, const std::optional<std::string>& series) {
@@ -285,14 +320,14 @@ DicomVolume read_dicom_series(const fs::path& path, const std::optional<std::str
     const std::vector<fs::path> files = files_of(path);
     check_survivable(files);
     std::size_t set_aside = 0;
-    std::vector<Series> all = group_series(files, set_aside);
+    const std::vector<Series> all = group_series(files, set_aside);
     if (all.empty())
       throw std::runtime_error("holds no MR image among " + std::to_string(files.size()) +
                                " file(s); expected DICOM (MR), or a NIfTI, NRRD or MHA file");
     if (set_aside > 0)
       out.notes.push_back(std::to_string(set_aside) +
                           " file(s) that are not MR images were left aside");
-    Series chosen = choose_series(std::move(all), wanted, out.notes);
+    Series chosen = choose_series(all, wanted, out);
     check_slices_of_one_patient(chosen);
     choose_phase(chosen, wanted_phase, out.notes);
     out.geometry_known = chosen.slices.front().geometry_known;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "segmentation/files/grid_image.h"
+#include "segmentation/files/series_choice.h"
 
 namespace mammotwin {
 
@@ -13,6 +14,7 @@ struct DicomVolume {
   GridImage image;
   std::vector<std::filesystem::path> files;  ///< those that the volume was made from
   std::vector<std::string> notes;            ///< what was left aside and chosen, in sentences
+  std::vector<SeriesRow> series;             ///< what was weighed; empty without a choice
   std::string patient_position;              ///< "HFP"; empty where the header does not say
   bool geometry_known = true;                ///< false: sizes and places were assumed
 };
@@ -21,11 +23,11 @@ struct DicomVolume {
 ///
 /// `series` names it by series number or SeriesInstanceUID, `NUMBER:PHASE` also the phase where
 /// the series holds several. Without it the only MR series of at least 16 slices is taken; of
-/// several, those that are not derived; of these a dynamic study (one geometry three times or more)
-/// where there is one; of these the finest voxels (within a tenth) and the most slices, and of what
-/// is left the second in time; a note says which and why. Of several phases the second is
-/// taken (in a dynamic series the first after the contrast agent), and a note says so. Throws
-/// std::runtime_error with the path in front; patient identifiers and UIDs are never shown.
+/// several the one that choose_series_row says, by their headers and what is seen in the middle of
+/// each (a dynamic study is one geometry three times or more); a note and `series` say why. Of
+/// several phases the second is taken (in a dynamic series the first after the contrast agent), and
+/// a note says so. Throws std::runtime_error with the path in front; patient identifiers and UIDs
+/// are never shown.
 DicomVolume read_dicom_series(const std::filesystem::path& path,
                               const std::optional<std::string>& series);
 

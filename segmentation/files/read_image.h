@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "segmentation/files/grid_image.h"
+#include "segmentation/files/series_choice.h"
 #include "segmentation/image/volume.h"
 
 namespace mammotwin {
@@ -16,6 +17,7 @@ struct Mri {
   Volume<float> image;                       ///< [scanner units]
   std::vector<std::filesystem::path> files;  ///< what was read
   std::vector<std::string> notes;            ///< what the reader chose or changed, in sentences
+  std::vector<SeriesRow> series;             ///< of which one was chosen; empty without a choice
   std::string patient_position;              ///< DICOM's code, "HFP"; empty where not known
   bool geometry_known = true;  ///< false: the header gives no places; axial, 1 mm was assumed
 };

@@ -36,7 +36,7 @@ TEST(DicomSeries, OfADynamicStudyTheSecondInTimeIsReadAndSaid) {
   EXPECT_EQ(mri.image(0, 0, 0), 40);
   ASSERT_FALSE(mri.notes.empty());
   expect_mentions(mri.notes.front(),
-                  {"of 5 series", "series 4", "second in time of 3", "not derived"});
+                  {"of 5 series", "series 4", "second in time of 3", "contrast agent"});
 }
 
 TEST(DicomSeries, ALateFinerSeriesIsNotTheDynamicStudy) {
@@ -51,9 +51,17 @@ TEST(DicomSeries, ALateFinerSeriesIsNotTheDynamicStudy) {
   write_dicom_series(folder.path, "7", h, stack(70));
   const Mri mri = read_mri(folder.path);
   EXPECT_EQ(mri.image(0, 0, 0), 40);
-  // The coarse one and the late one; the two derived ones do not count.
-  expect_mentions(mri.notes.front(),
-                  {"of 7 series", "series 4", "second in time of 3", "2 of another geometry"});
+  expect_mentions(mri.notes.front(), {"of 7 series", "series 4", "second in time of 3"});
+  const auto why = [&](const std::string& number) {
+    for (const SeriesRow& row : mri.series)
+      if (row.number == number) return row.reason;
+    return std::string();
+  };
+  EXPECT_NE(why("24").find("not of the dynamic study"), std::string::npos);
+  EXPECT_NE(why("2").find("2.4 mm"), std::string::npos);
+  EXPECT_NE(why("7").find("computed"), std::string::npos);
+  EXPECT_NE(why("9").find("before the contrast agent"), std::string::npos);
+  EXPECT_NE(why("5").find("later"), std::string::npos);
 }
 
 TEST(DicomSeries, TheTomlNamesAnother) {
