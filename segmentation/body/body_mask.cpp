@@ -41,6 +41,19 @@ void fill_slice(Volume<std::uint8_t>& body, int k) {
 
 double mean_spacing(const Eigen::Vector3d& spacing) { return std::cbrt(spacing.prod()); }
 
+/// Where the body begins in a slice. Where noise is low (interpolated images, strong coils) what
+/// passes 6 times it is in good part haze in the air, which pulls tissue's median down; it stays
+/// below a share of what is brightest.
+double body_threshold(const float* first, std::size_t voxels, double noise) {
+  constexpr double noise_factor = 6, tissue_share = 0.25;
+  constexpr double bright_quantile = 0.95, haze_share = 0.05;
+  std::vector<float> tissue;
+  for (std::size_t v = 0; v < voxels; ++v)
+    if (first[v] > noise_factor * noise) tissue.push_back(first[v]);
+  return std::max({noise_factor * noise, tissue_share * quantile_or_zero(tissue, 0.5),
+                   haze_share * quantile_or_zero(tissue, bright_quantile)});
+}
+
 }  // namespace
 
 double estimate_noise(const Volume<float>& image) {
@@ -64,16 +77,12 @@ double estimate_noise(const Volume<float>& image) {
 }
 
 Volume<std::uint8_t> coarse_body(const Volume<float>& image, double noise) {
-  constexpr double noise_factor = 6, tissue_share = 0.25, opening_voxels = 2;
+  constexpr double opening_voxels = 2;
   auto body = image.like<std::uint8_t>(0);
   const std::size_t slice = static_cast<std::size_t>(image.size.x()) * image.size.y();
   tbb::parallel_for(0, image.size.z(), [&](int k) {
     const float* first = image.values.data() + k * slice;
-    std::vector<float> tissue;
-    for (std::size_t v = 0; v < slice; ++v)
-      if (first[v] > noise_factor * noise) tissue.push_back(first[v]);
-    const double threshold =
-        std::max(noise_factor * noise, tissue_share * quantile_or_zero(tissue, 0.5));
+    const double threshold = body_threshold(first, slice, noise);
     for (std::size_t v = 0; v < slice; ++v) body.values[k * slice + v] = first[v] > threshold;
   });
   // Filled first, so that dark tissue inside does not open.

@@ -10,8 +10,9 @@ namespace mammotwin {
 /// most a tenth of the median of tissue (air may have been set to zero).
 double estimate_noise(const Volume<float>& image);
 
-/// Body against air: per slice above max(6 noise, 0.25 of the slice's median tissue), opened by
-/// two voxels, the largest part, with the air that the front and the sides do not reach filled in.
+/// Body against air: per slice above max(6 noise, 0.25 of the slice's median tissue, 0.05 of its
+/// brightest), opened by two voxels, the largest part, with the air that the front and the sides do
+/// not reach filled in.
 Volume<std::uint8_t> coarse_body(const Volume<float>& image, double noise);
 
 /// Takes off what hangs on the outside and is dim: ghosts of the breathing or beating body in the

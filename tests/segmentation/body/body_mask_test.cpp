@@ -41,6 +41,19 @@ TEST(BodyMask, AGhostThatHangsOnTheBodyIsCutOffToTheSkin) {
   for (int k = 0; k < 50; ++k) EXPECT_EQ(cut(20, 20, k), k >= skin_begins) << k;
 }
 
+/// A body of fat 1 in haze of 0.03 beside it, in slices of hardly any noise, as resampling leaves:
+/// half of the slice is haze, which passes 6 times the noise.
+TEST(BodyMask, HazeInTheAirIsNoBodyWhereNoiseIsLow) {
+  Volume<float> image({60, 60, 12}, Eigen::Vector3d::Constant(2), Eigen::Vector3d::Zero(), 0.001F);
+  for (int k = 0; k < 12; ++k)
+    for (int j = 0; j < 60; ++j)
+      for (int i = 0; i < 60; ++i)
+        image(i, j, k) = j >= 40 ? (j >= 45 ? 0.3F : 1.0F) : i >= 10 ? 0.03F : 0.001F;
+  const Volume<std::uint8_t> body = coarse_body(image, 0.001);
+  EXPECT_EQ(body(40, 20, 6), 0);
+  EXPECT_EQ(body(40, 50, 6), 1);
+}
+
 TEST(BodyMask, DarkFatBehindSkinIsNoGhost) {
   // Fat a tenth as bright as skin, as where suppression works well: skin keeps it.
   const Scene scene = body_with_ghost(0.2F, 0.02F);
