@@ -18,7 +18,8 @@ constexpr double first_radius = 4, last_radius = 0.02;
 constexpr double regrown = 4;  // times the radius where a call of Ceres ended, for the next one
 constexpr double least_regrown = 0.32;  // so four halvings at least are tried before it ends
 // So many halvings of the trust region before one step: elements about to fold hold the mesh.
-// Emphasis helps then; on the worst breast twice brought the skin nearer, a third time farther off.
+// Emphasis helps then; a third time costs the worst breast as many iterations again (44, then 88)
+// for 0.08 mm of its 95 %.
 constexpr int refusals_when_stuck = 3, stuck_emphasis = 2;
 
 }  // namespace

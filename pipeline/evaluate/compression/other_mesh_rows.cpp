@@ -1,5 +1,7 @@
 #include "pipeline/evaluate/compression/other_mesh_rows.h"
 
+#include <stdexcept>
+
 #include "pipeline/evaluate/cases/stage_command.h"
 #include "pipeline/evaluate/compression/pressed_places.h"
 
@@ -46,11 +48,16 @@ class OtherMeshRun {
 
  private:
   double press(const std::string& view, const fs::path& mesh, const fs::path& pressed) const {
-    return run_to_product(
-        {"compress",
-         {view, segmentation_.string(), fractions_beside(segmentation_).string(), mesh.string()},
-         pressed,
-         breast_.patient_toml});
+    try {
+      return run_to_product(
+          {"compress",
+           {view, segmentation_.string(), fractions_beside(segmentation_).string(), mesh.string()},
+           pressed,
+           breast_.patient_toml});
+    } catch (const std::exception& error) {
+      throw std::runtime_error((mesh == other_ ? "other mesh, " : "our mesh, ") +
+                               std::string(error.what()));
+    }
   }
 
   void compare(const fs::path& ours, const fs::path& theirs, json& row) const {
