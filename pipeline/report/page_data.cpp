@@ -68,6 +68,29 @@ void add_doubts(const PatientResults& results, json& page) {
       page["doubts"].push_back(figure_data(*figure));
 }
 
+/// The series that the MRI was chosen of, and why.
+void add_series(const PatientResults& results, json& page) {
+  page["series"] = json::array();
+  page["has_series"] = false;
+  const json* sidecar = results.sidecar("segmentation.seg.nrrd");
+  if (!sidecar) return;
+  const auto shown = [](const json& value, int decimals) {
+    return value.is_number() ? word::number(value.get<double>(), decimals) : std::string();
+  };
+  for (const json& row : sidecar->value(json::json_pointer("/quality/series"), json::array()))
+    page["series"].push_back(
+        {{"number", row["series"]},
+         {"slices", row["slices"].dump()},
+         {"voxel", shown(row["voxel_mm"][0], 2) + " × " + shown(row["voxel_mm"][1], 2) + " × " +
+                       shown(row["voxel_mm"][2], 2)},
+         {"covers", shown(row["covers_mm"], 0)},
+         {"seconds", shown(row["seconds_after_first"], 0)},
+         {"signal", shown(row["signal_to_noise"], 0)},
+         {"skin", shown(row["skin_over_fat"], 2)},
+         {"reason", (row["read"].get<bool>() ? "read: " : "") + row["reason"].get<std::string>()}});
+  page["has_series"] = !page["series"].empty();
+}
+
 void add_mri(const PatientResults& results, json& page) {
   page["mri"] = json::array();
   if (results.segmentation)
@@ -248,6 +271,7 @@ json page_data(const PatientResults& results, const std::string& version) {
   add_lesions(results, page);
   add_views(results, page);
   add_doubts(results, page);
+  add_series(results, page);
   add_mri(results, page);
   add_fit(results, page);
   add_quality(results, page);

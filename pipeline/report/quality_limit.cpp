@@ -25,6 +25,7 @@ constexpr Limit kLimits[] = {
      " ml"},
     {"segmentation.seg.nrrd", "chest_wall_doubt", -kNone, limits::chest_wall_doubt, ""},
     {"segmentation.seg.nrrd", "chest_wall_fat_behind", -kNone, limits::chest_wall_fat_behind, ""},
+    {"segmentation.seg.nrrd", "chest_wall_unsteady", -kNone, limits::chest_wall_unsteady, ""},
     {"segmentation.seg.nrrd", "pre_shift_mm", -kNone, limits::pre_shift_mm, " mm"},
     {"segmentation.seg.nrrd", "signal_to_noise", limits::signal_to_noise, kNone, ""},
     {"segmentation.seg.nrrd", "volume_ratio", limits::volume_ratio, kNone, ""},

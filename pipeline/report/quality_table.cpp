@@ -16,8 +16,8 @@ constexpr std::pair<const char*, const char*> kUnits[] = {
     {"_mb", "MB"}, {"_seconds", "s"}, {"_fraction", "fraction"}};
 
 /// Shown elsewhere on the page, or not figures of quality.
-constexpr const char* kElsewhere[] = {"history", "detectors", "course", "doubts",
-                                      "skin_rms_by_iteration_mm"};
+constexpr const char* kElsewhere[] = {"history", "detectors", "course",
+                                      "doubts",  "series",    "skin_rms_by_iteration_mm"};
 
 std::pair<std::string, std::string> name_and_unit(std::string key) {
   std::string unit;

@@ -60,6 +60,25 @@ TEST(ReportPage, TellsInTheOrderInWhichItIsRead) {
   EXPECT_EQ(whole_page().find("href=\"cc.vtu.json\""), std::string::npos);
 }
 
+TEST(ReportPage, ListsTheSeriesAndWhyOneWasRead) {
+  EXPECT_EQ(whole_page().find("Series of the MRI"), std::string::npos) << "none was chosen";
+  PatientResults chosen = fake_results(Side::left);
+  chosen.stages.front().sidecar["quality"]["series"] = {{{"series", "9"},
+                                                         {"slices", 160},
+                                                         {"voxel_mm", {1.02, 1.02, 1.2}},
+                                                         {"covers_mm", 190.8},
+                                                         {"seconds_after_first", 95},
+                                                         {"phase", nullptr},
+                                                         {"signal_to_noise", 15.2},
+                                                         {"skin_over_fat", nullptr},
+                                                         {"read", true},
+                                                         {"reason", "the one that serves"}}};
+  const std::string page = render_page(page_data(chosen, "0.1.0"));
+  EXPECT_NE(page.find("Series of the MRI"), std::string::npos);
+  EXPECT_NE(page.find("1.02 × 1.02 × 1.20"), std::string::npos);
+  EXPECT_NE(page.find("read: the one that serves"), std::string::npos);
+}
+
 // 11 to 16 iterations in six steps, 81 in all, and 20 at the end of each view.
 TEST(ReportPage, DrawsConvergence) {
   EXPECT_NE(whole_page().find("CC: 101 in all. MLO: 101 in all."), std::string::npos);
