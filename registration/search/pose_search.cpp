@@ -186,7 +186,9 @@ class Search {
     estimate.evidence_variance = std::max(
         1.0, (kOwnObservations + r.tail(r.size() - z.size()).squaredNorm()) /
                  (kOwnObservations + std::max(0.0, residuals_.observations(with_pattern) - found)));
-    const Eigen::MatrixXd left = (evidence / estimate.evidence_variance + prior).inverse();
+    const Eigen::MatrixXd left = (evidence / estimate.evidence_variance + prior)
+                                     .ldlt()
+                                     .solve(Eigen::MatrixXd::Identity(z.size(), z.size()));
     for (std::size_t v = 0; v < views_; ++v) {
       estimate.states.push_back(joint_.state(v, z));
       estimate.covariances.push_back(joint_.covariance(v, left));

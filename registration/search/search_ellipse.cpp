@@ -56,7 +56,8 @@ ViewUncertainty without_placement(ViewUncertainty uncertainty) {
 }
 
 SearchEllipse search_ellipse(const Eigen::Matrix2d& covariance, double probability) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(covariance);
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes;
+  axes.computeDirect(covariance);
   const double scale = std::sqrt(-2 * std::log(1 - probability));
   const Eigen::Vector2d major = axes.eigenvectors().col(1);
   double angle = std::atan2(major.y(), major.x()) * 180 / std::numbers::pi;
