@@ -1,0 +1,8 @@
+#include "registration/mammogram/mammogram_image.h"
+#include "tests/fuzz/readers/reader.h"
+
+namespace mammotwin::fuzz {
+
+void mammogram_png(const std::string& bytes) { read_mammogram_png(fuzzed_file("a.png", bytes)); }
+
+}  // namespace mammotwin::fuzz

@@ -1,0 +1,8 @@
+#include "segmentation/files/read_image.h"
+#include "tests/fuzz/readers/reader.h"
+
+namespace mammotwin::fuzz {
+
+void meta_image(const std::string& bytes) { read_mri(fuzzed_file("a.mha", bytes)); }
+
+}  // namespace mammotwin::fuzz
