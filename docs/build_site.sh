@@ -16,15 +16,16 @@ reference() {
   echo '# Reference: every program'
   printf '\nMade from what the programs say of themselves.\n'
   for program in "$bin"/mammotwin-*; do
+    case $program in *-try-read) continue ;; esac  # other programs start it, no person does
     printf '\n## %s\n\n```text\n' "${program##*/}"
-    "$program" --help
+    "$program" --help || { echo "$program --help failed" >&2; exit 1; }
     echo '```'
   done
 }
 
 # The tree's pages and pictures stay where they are, so that links lead to the same places.
 (cd "$top" && find README.md CONTRIBUTING.md docs segmentation fitting solver registration pipeline sample_data \
-  tests/benchmarks \( -name '*.md' -o -name '*.png' -o -name '*.css' -o -name 'conf.py' -o -path 'docs/measured/data/*.json' \) \
+  tests/benchmarks tests/fuzz \( -name '*.md' -o -name '*.png' -o -name '*.css' -o -name 'conf.py' -o -path 'docs/measured/data/*.json' \) \
   -type f | while read -r file; do
   mkdir -p "$pages/$(dirname "$file")"
   cp "$file" "$pages/$file"
@@ -46,7 +47,7 @@ contents() {
     ../pipeline/cohort/README ../pipeline/synthesize/README ../pipeline/install/README ../CONTRIBUTING
   contents 'What was measured' measured/README 'measured/[a-z]*' ../pipeline/evaluate/README \
     ../pipeline/evaluate/niftysim/README ../pipeline/evaluate/victre/README ../pipeline/validation/README \
-    ../tests/benchmarks/README 'measured/notes/*' ../sample_data/README '../sample_data/*/README'
+    ../tests/benchmarks/README ../tests/fuzz/README 'measured/notes/*' ../sample_data/README '../sample_data/*/README'
 } >> "$pages/docs/index.md"
 
 sphinx-build -q -b html "$pages" "$out"
