@@ -9,10 +9,9 @@
 #include <vtkXMLUnstructuredGridReader.h>
 #include <vtkXMLUnstructuredGridWriter.h>
 
-#include <fstream>
-#include <iterator>
-#include <set>
 #include <stdexcept>
+
+#include "fitting/mesh/check_vtu.h"
 
 namespace mammotwin {
 
@@ -27,32 +26,6 @@ vtkSmartPointer<vtkCallbackCommand> remember_errors(std::string& message) {
     if (first.empty()) first = text ? static_cast<const char*>(text) : "unknown error";
   });
   return command;
-}
-
-/// The value of `name="..."` in a tag; empty where it has none.
-std::string attribute(const std::string& tag, const std::string& name) {
-  const std::size_t at = tag.find(" " + name + "=\"");
-  if (at == std::string::npos) return {};
-  const std::size_t begin = at + name.size() + 3;
-  return tag.substr(begin, tag.find('"', begin) - begin);
-}
-
-/// VTK 9.1 ends the program over two arrays of one name in one section.
-void refuse_doubled_arrays(const std::filesystem::path& path) {
-  const std::set<std::string> sections{"<PointData", "<CellData", "<FieldData", "<Points",
-                                       "<Cells"};
-  std::ifstream in(path, std::ios::binary);
-  const std::string text(std::istreambuf_iterator<char>(in), {});
-  std::set<std::string> known;
-  for (std::size_t at = text.find('<'); at != std::string::npos; at = text.find('<', at + 1)) {
-    const std::string tag = text.substr(at, text.find('>', at) - at);
-    const std::string kind = tag.substr(0, tag.find_first_of(" \t\r\n"));
-    if (sections.contains(kind)) known.clear();
-    if (kind != "<DataArray" && kind != "<Array") continue;
-    if (const std::string name = attribute(tag, "Name"); !known.insert(name).second)
-      throw std::runtime_error(path.string() + ": array " + name +
-                               " is there twice; expected it once: make the file again");
-  }
 }
 
 template <class Array, class T>
@@ -84,7 +57,7 @@ void write_grid(const std::filesystem::path& path, vtkUnstructuredGrid* grid) {
 vtkSmartPointer<vtkUnstructuredGrid> read_grid(const std::filesystem::path& path) {
   if (!std::filesystem::is_regular_file(path))
     throw std::runtime_error(path.string() + ": no such file; run the stage that makes it");
-  refuse_doubled_arrays(path);
+  check_vtu(path);
   vtkNew<vtkXMLUnstructuredGridReader> reader;
   std::string error;
   const auto command = remember_errors(error);

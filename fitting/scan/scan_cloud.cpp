@@ -15,6 +15,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "fitting/surface/check_surface_file.h"
+
 namespace mammotwin {
 
 namespace {
@@ -54,6 +56,7 @@ int line_with_no_number(const std::filesystem::path& path) {
 }
 
 Points read_file(const std::filesystem::path& path) {
+  check_surface_file(path);
   Points points;
   const std::string extension = extension_of(path);
   bool read = false;

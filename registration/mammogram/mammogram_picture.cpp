@@ -4,6 +4,7 @@
 #include <itkJPEGImageIO.h>
 #include <itkPNGImageIO.h>
 #include <itkVectorImage.h>
+#include <png.h>
 
 #include <algorithm>
 #include <array>
@@ -45,14 +46,34 @@ float grey_of(const float* pixel, unsigned channels, const std::filesystem::path
   return pixel[0];
 }
 
-itk::ImageIOBase::Pointer io_for(const std::filesystem::path& path) {
-  if (is_png(path)) return itk::PNGImageIO::New().GetPointer();
-  return itk::JPEGImageIO::New().GetPointer();
+constexpr double kMostPixels = 1 << 28;  // six times the largest detector's
+
+/// ITK's PNG reader ends the program over a header that libpng refuses: libpng is asked first.
+void check_png_header(const std::filesystem::path& path) {
+  png_image header{};
+  header.version = PNG_IMAGE_VERSION;
+  const bool whole = png_image_begin_read_from_file(&header, path.c_str()) != 0;
+  const double pixels = static_cast<double>(header.width) * header.height;
+  png_image_free(&header);
+  if (!whole)
+    throw std::runtime_error(path.string() + ": is no whole PNG image (" + header.message +
+                             "); export or copy it again");
+  if (pixels > kMostPixels)
+    throw std::runtime_error(path.string() + ": its header asks for " +
+                             std::to_string(header.width) + " x " + std::to_string(header.height) +
+                             " pixels; expected at most 2^28 of them (is it damaged?)");
 }
 
-[[noreturn]] void cannot_be_read(const std::filesystem::path& path,
-                                 const itk::ExceptionObject& error) {
-  throw std::runtime_error(path.string() + ": cannot be read: " + error.GetDescription());
+itk::ImageIOBase::Pointer io_for(const std::filesystem::path& path) {
+  if (!is_png(path)) return itk::JPEGImageIO::New().GetPointer();
+  check_png_header(path);
+  return itk::PNGImageIO::New().GetPointer();
+}
+
+[[noreturn]] void cannot_be_read(const std::filesystem::path& path) {
+  throw std::runtime_error(path.string() +
+                           ": its pixels cannot be read, the file is truncated or damaged; "
+                           "export or copy it again");
 }
 
 Channels::Pointer read_channels(const std::filesystem::path& path) {
@@ -61,8 +82,8 @@ Channels::Pointer read_channels(const std::filesystem::path& path) {
   reader->SetImageIO(io_for(path));
   try {
     reader->Update();
-  } catch (const itk::ExceptionObject& error) {
-    cannot_be_read(path, error);
+  } catch (const itk::ExceptionObject&) {
+    cannot_be_read(path);
   }
   return reader->GetOutput();
 }
@@ -94,8 +115,8 @@ PictureSize mammogram_picture_size(const std::filesystem::path& path) {
   io->SetFileName(path.string());
   try {
     io->ReadImageInformation();
-  } catch (const itk::ExceptionObject& error) {
-    cannot_be_read(path, error);
+  } catch (const itk::ExceptionObject&) {
+    cannot_be_read(path);
   }
   return {static_cast<int>(io->GetDimensions(0)), static_cast<int>(io->GetDimensions(1))};
 }

@@ -36,6 +36,15 @@ struct Layout {
   std::uintmax_t voxels_at = 0;  ///< byte where they begin
 };
 
+/// A place in a file; not before its begin, and where a file may still reach.
+std::uintmax_t place_in_file(double byte) {
+  constexpr double farthest = 1e15;  // a petabyte
+  if (byte > farthest)
+    throw std::runtime_error("its header says that voxels begin at byte " + std::to_string(byte) +
+                             "; expected a place in the file (is the header damaged?)");
+  return byte > 0 ? static_cast<std::uintmax_t>(byte) : 0;
+}
+
 Layout read_layout(gzFile_s* file, NiftiHeader& header) {
   const int got = gzread(file, header.data(), header.size());
   const auto is = [&](std::int32_t bytes, bool swapped) {
@@ -44,13 +53,11 @@ Layout read_layout(gzFile_s* file, NiftiHeader& header) {
   for (const bool swapped : {false, true}) {
     // vox_offset: a float at byte 108 of version 1, 64 bits at byte 168 of version 2
     if (is(nifti1_header, swapped))
-      return {swapped, false,
-              static_cast<std::uintmax_t>(
-                  std::max(0.0F, value_at<float>(header.data() + 108, swapped)))};
+      return {swapped, false, place_in_file(value_at<float>(header.data() + 108, swapped))};
     if (is(nifti2_header, swapped))
-      return {swapped, true,
-              static_cast<std::uintmax_t>(
-                  std::max<std::int64_t>(0, value_at<std::int64_t>(header.data() + 168, swapped)))};
+      return {
+          swapped, true,
+          place_in_file(static_cast<double>(value_at<std::int64_t>(header.data() + 168, swapped)))};
   }
   throw std::runtime_error("its header cannot be read; expected a NIfTI file");
 }

@@ -45,7 +45,11 @@ itk::ImageIOBase::Pointer io_for(const std::string& name) {
   return itk::MetaImageIO::New().GetPointer();
 }
 
+constexpr const char* kUnknownNumbers = "has an unknown kind of number; expected grey values";
+
 void check_dimensions(const itk::ImageIOBase& io, unsigned components) {
+  if (io.GetComponentType() == itk::IOComponentEnum::UNKNOWNCOMPONENTTYPE)
+    throw std::runtime_error(kUnknownNumbers);
   const unsigned dimensions = io.GetNumberOfDimensions();
   bool spatial = dimensions >= 3;
   for (unsigned d = 0; d < std::min(3u, dimensions); ++d) spatial &= io.GetDimensions(d) > 1;
@@ -158,7 +162,7 @@ std::vector<float> as_floats(const std::vector<char>& bytes, itk::IOComponentEnu
     case C::DOUBLE:
       return as_floats<double>(bytes);
     default:
-      throw std::runtime_error("has an unknown kind of number; expected grey values");
+      throw std::runtime_error(kUnknownNumbers);
   }
 }
 

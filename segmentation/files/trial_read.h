@@ -17,10 +17,11 @@ struct FailedTrial {
 };
 
 /// Reads files in a program of its own (mammotwin-try-read, which lies beside this program or, once
-/// installed, in ../libexec/mammotwin) and returns the first that ends it or that it does not
-/// finish within `limit`. Exceptions count as survived. For libraries that stop the program over a
-/// damaged file (GDCM asserts, in Debian's build, too) or read it for ever. Empty if all survive,
-/// or where that program is not there or cannot be started.
+/// installed, in ../libexec/mammotwin) and returns the first that ends it, for which it asks for
+/// more memory or time than a file of that size can take, or that it does not finish within
+/// `limit`. Exceptions count as survived. For libraries that stop the program over a damaged file
+/// (GDCM asserts, in Debian's build, too) or read it for ever. Empty if all survive, or where that
+/// program is not there or cannot be started.
 std::optional<FailedTrial> first_fatal(Trial trial, const std::vector<std::filesystem::path>& files,
                                        std::chrono::milliseconds limit = std::chrono::seconds(60));
 

@@ -119,6 +119,8 @@ CompressionCheckpoint decode_checkpoint(const std::vector<std::uint8_t>& bytes,
             from.at("penalty"),
             history_from(from.at("sticking")),
             report_from(from.at("report"))};
+  } catch (const json::exception&) {
+    throw std::runtime_error("checkpoint cannot be used: it is damaged");
   } catch (const std::exception& error) {
     throw std::runtime_error(std::string("checkpoint cannot be used: ") + error.what());
   }

@@ -58,7 +58,7 @@ TEST_P(Corpus, IsReadOrRefusedInWords) {
   }
   for (const fs::path& file : files_in(folder / "failed" / reader.name)) {
     const std::string said = refusal(reader, file);
-    EXPECT_TRUE(said.empty() || is_said_to_a_user(said)) << file << ": " << said;
+    EXPECT_TRUE(said.empty() || is_said_to_a_user(said, bytes_of(file))) << file << ": " << said;
   }
 }
 

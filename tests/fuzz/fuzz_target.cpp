@@ -11,13 +11,14 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace mammotwin;
+  const std::string bytes(reinterpret_cast<const char*>(data), size);
   try {
-    fuzz::MAMMOTWIN_READER({reinterpret_cast<const char*>(data), size});
+    fuzz::MAMMOTWIN_READER(bytes);
   } catch (const std::bad_alloc&) {
     std::fputs("memory was asked for that is not there\n", stderr);
     std::abort();
   } catch (const std::exception& refused) {
-    if (is_said_to_a_user(refused.what())) return 0;
+    if (is_said_to_a_user(refused.what(), bytes)) return 0;
     std::fprintf(stderr, "a user would be told: %s\n", refused.what());
     std::abort();
   }

@@ -9,7 +9,7 @@ out=$1
 shift
 [ $# -gt 0 ] || set -- $(ls "$here/seeds")
 mkdir -p "$out/logs"
-cp "$here/../../build/release/bin/mammotwin-try-read" "$bin/"
+cp "$here/../../build/release/bin/mammotwin-try-read" "$bin/try" && mv "$bin/try" "$bin/mammotwin-try-read"
 export ASAN_OPTIONS=allocator_may_return_null=0:detect_leaks=0 UBSAN_OPTIONS=print_stacktrace=1
 for reader; do
   log=$out/logs/$reader.txt

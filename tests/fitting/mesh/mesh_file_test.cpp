@@ -24,6 +24,8 @@ using Eigen::Vector3d;
 const std::vector<Vector3d> places_in_element = {{0, 0, 0},       {1, 1, 1},       {0.5, 0.5, 0.5},
                                                  {0.1, 0.7, 0.3}, {0.9, 0.2, 0.6}, {1, 0, 0.4}};
 
+MeshFile full_example();
+
 class MeshFileTest : public testing::Test {
  protected:
   void SetUp() override {
@@ -34,6 +36,13 @@ class MeshFileTest : public testing::Test {
   }
   void TearDown() override { std::filesystem::remove_all(folder_); }
   std::filesystem::path path(const std::string& name) const { return folder_ / name; }
+
+  std::string written_example() const {
+    write_mesh_file(path("a.vtu"), full_example());
+    std::stringstream text;
+    text << std::ifstream(path("a.vtu")).rdbuf();
+    return text.str();
+  }
 
   std::string error_of_reading(const std::filesystem::path& file) const {
     try {
@@ -61,11 +70,45 @@ MeshFile full_example() {
   return file;
 }
 
+TEST_F(MeshFileTest, AFileCutAnywhereIsRefused) {
+  const std::string whole = written_example();
+  for (double share : {0.1, 0.4, 0.7, 0.95}) {
+    std::ofstream(path("b.vtu")) << whole.substr(0, static_cast<std::size_t>(share * whole.size()));
+    const std::string error = error_of_reading(path("b.vtu"));
+    EXPECT_NE(error.find("b.vtu: is not a whole .vtu file"), std::string::npos) << error;
+  }
+}
+
+TEST_F(MeshFileTest, CountsThatTheFileCannotHoldAreRefused) {
+  const std::string whole = written_example();
+  for (const std::string count : {"99999999999999", "-1", "many"}) {
+    const std::size_t begin = whole.find("NumberOfTuples=\"") + 16, end = whole.find('"', begin);
+    std::ofstream(path("b.vtu")) << whole.substr(0, begin) << count << whole.substr(end);
+    const std::string error = error_of_reading(path("b.vtu"));
+    EXPECT_NE(error.find("NumberOfTuples is \"" + count + "\"; expected 0 to "), std::string::npos)
+        << error;
+  }
+}
+
+/// An array begins with 32-bit counts in base64: blocks, their length, the last one's, the packed
+/// length of each.
+TEST_F(MeshFileTest, AnArrayThatSaysToBeLongerThanTheFileIsRefused) {
+  const std::string whole = written_example();
+  const std::size_t tag = whole.find("format=\"binary\"");
+  const std::size_t begin = whole.find_first_not_of(" \n", whole.find('>', tag) + 1);
+  ASSERT_EQ(whole.substr(begin, 6), "AQAAAA");                                    // one block
+  for (const auto& [at, digits] : {std::pair<int, std::string>{0, "/////w"},      // 2^32 - 1 blocks
+                                   std::pair<int, std::string>{16, "/////w"}}) {  // packed
+    std::string damaged = whole;
+    damaged.replace(begin + at, digits.size(), digits);
+    std::ofstream(path("b.vtu")) << damaged;
+    const std::string error = error_of_reading(path("b.vtu"));
+    EXPECT_NE(error.find("says to be longer than the file"), std::string::npos) << error;
+  }
+}
+
 TEST_F(MeshFileTest, AnArrayThatIsThereTwiceIsRefused) {
-  write_mesh_file(path("a.vtu"), full_example());
-  std::stringstream text;
-  text << std::ifstream(path("a.vtu")).rdbuf();
-  const std::string whole = text.str();
+  const std::string whole = written_example();
   for (const std::string name : {"face_labels", "metadata:view_angle_deg", "distance_mm"}) {
     const std::size_t begin = whole.rfind("<DataArray", whole.find("Name=\"" + name + "\""));
     const std::size_t end = whole.find("</DataArray>", begin) + std::string("</DataArray>").size();

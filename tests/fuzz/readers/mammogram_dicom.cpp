@@ -1,4 +1,5 @@
 #include "registration/mammogram/mammogram_header.h"
+#include "registration/mammogram/mammogram_pixels.h"
 #include "tests/fuzz/readers/reader.h"
 
 namespace mammotwin::fuzz {

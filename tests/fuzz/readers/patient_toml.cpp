@@ -1,3 +1,5 @@
+#include <nlohmann/json.hpp>
+
 #include "pipeline/patient/patient.h"
 #include "tests/fuzz/readers/reader.h"
 

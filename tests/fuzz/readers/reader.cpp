@@ -28,10 +28,11 @@ fs::path fuzzed_file(const std::string& name, const std::string& bytes) {
   return folder.path / name;
 }
 
-bool is_said_to_a_user(const std::string& message) {
+bool is_said_to_a_user(const std::string& message, const std::string& bytes) {
   if (message.find(' ') == std::string::npos) return false;
   for (const char* word : {"::_M_", "json.exception", "std::", "itk::", "vtk"})
-    if (message.find(word) != std::string::npos) return false;
+    if (message.find(word) != std::string::npos && bytes.find(word) == std::string::npos)
+      return false;
   return true;
 }
 

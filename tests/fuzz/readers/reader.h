@@ -28,7 +28,8 @@ void lesion_table(const std::string& bytes);
 /// Writes the bytes under a name in a folder of this process's own and returns the path.
 std::filesystem::path fuzzed_file(const std::string& name, const std::string& bytes);
 
-/// What a user may be told: a sentence, and no library's words for programmers.
-bool is_said_to_a_user(const std::string& message);
+/// What a user may be told of a file of these bytes: a sentence, and no library's words for
+/// programmers, but where the file has them and is quoted.
+bool is_said_to_a_user(const std::string& message, const std::string& bytes);
 
 }  // namespace mammotwin
