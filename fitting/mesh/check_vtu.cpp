@@ -5,6 +5,7 @@
 #include <vtkNew.h>
 #include <vtkXMLDataElement.h>
 #include <vtkXMLDataParser.h>
+#include <vtkZLibDataCompressor.h>
 
 #include <algorithm>
 #include <cstdint>
@@ -24,14 +25,20 @@ namespace {
 /// deflate packs at most 1032 bytes in one (zlib.net/zlib_tech.html); one byte a value at least.
 constexpr double kMostPacked = 1032;
 
+/// Base64 text up to white space or a tag, at most `digits` of it.
+std::vector<unsigned char> decoded(std::string_view text, std::size_t digits) {
+  text = text.substr(0, std::min(text.find_first_of(" \t\r\n<"), digits));
+  std::vector<unsigned char> bytes(text.size() / 4 * 3 + 3);
+  bytes.resize(vtkBase64Utilities::DecodeSafely(reinterpret_cast<const unsigned char*>(text.data()),
+                                                text.size(), bytes.data(), bytes.size()));
+  return bytes;
+}
+
 /// The first `count` numbers of `size` bytes of base64 text; fewer where it ends.
 std::vector<std::uint64_t> first_numbers(std::string_view text, std::size_t count,
                                          std::size_t size) {
-  text = text.substr(0, std::min(text.find_first_of(" \t\r\n<"), (count * size + 2) / 3 * 4));
-  std::vector<unsigned char> bytes(text.size() / 4 * 3 + 3);
-  const std::size_t decoded = vtkBase64Utilities::DecodeSafely(
-      reinterpret_cast<const unsigned char*>(text.data()), text.size(), bytes.data(), bytes.size());
-  std::vector<std::uint64_t> numbers(std::min(count, decoded / size));
+  const std::vector<unsigned char> bytes = decoded(text, (count * size + 2) / 3 * 4);
+  std::vector<std::uint64_t> numbers(std::min(count, bytes.size() / size));
   for (std::size_t n = 0; n < numbers.size(); ++n)
     std::memcpy(&numbers[n], bytes.data() + n * size, size);  // little endian, as it is written
   return numbers;
@@ -61,6 +68,8 @@ class VtuTree {
       if (values * count_of(element, "NumberOfComponents") > most())
         refuse(element, "asks for more values than the file can hold");
       check_lengths(element, format);
+      const char* name = element->GetAttribute("Name");
+      if (name && std::string(name) == "offsets") check_offsets(element);
     }
     std::set<std::string> known;
     for (int n = 0; n < element->GetNumberOfNestedElements(); ++n) {
@@ -118,6 +127,41 @@ class VtuTree {
     if (all.size() < 3 + begin[0] || packed > bytes_ || static_cast<double>(all[1]) > longest ||
         static_cast<double>(all[2]) > longest)
       refuse_lengths(element);
+  }
+
+  /// VTK makes room for as many points of cells as the last offset says.
+  void check_offsets(vtkXMLDataElement* element) const {
+    const std::string type = element->GetAttribute("type");
+    const std::size_t size = type.ends_with("64") ? 8 : 4;
+    const std::vector<unsigned char> bytes = values_of(element);
+    for (std::size_t at = 0; at + size <= bytes.size(); at += size) {
+      std::int64_t offset = 0;
+      std::memcpy(&offset, bytes.data() + at, size);
+      if (offset < 0 || static_cast<double>(offset) > most())
+        refuse(element, "holds " + std::to_string(offset) + ", beyond what the file can hold");
+    }
+  }
+
+  /// The bytes of an array that `check_lengths` has accepted; fewer where it is damaged.
+  std::vector<unsigned char> values_of(vtkXMLDataElement* element) const {
+    const std::string_view text = text_of(element);
+    const auto begin = first_numbers(text, packed_ ? 3 : 1, word_);
+    const std::size_t header = packed_ ? 3 + begin[0] : 1;
+    const auto lengths = first_numbers(text, header, word_);
+    const std::vector<unsigned char> packed =
+        decoded(text.substr(std::min(text.size(), (header * word_ + 2) / 3 * 4)), text.size());
+    if (!packed_) return packed;
+    std::vector<unsigned char> values;
+    vtkNew<vtkZLibDataCompressor> zlib;
+    std::size_t at = 0;
+    for (std::size_t n = 3; n < lengths.size() && at + lengths[n] <= packed.size(); ++n) {
+      const bool last = n + 1 == lengths.size() && lengths[2] > 0;
+      std::vector<unsigned char> block(lengths[last ? 2 : 1]);
+      block.resize(zlib->Uncompress(packed.data() + at, lengths[n], block.data(), block.size()));
+      values.insert(values.end(), block.begin(), block.end());
+      at += lengths[n];
+    }
+    return values;
   }
 
   /// What stands behind its tag, white space left out.

@@ -2,9 +2,11 @@
 
 #include <cstdlib>
 #include <fstream>
+#include <iterator>
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace mammotwin {
 namespace {
@@ -41,20 +43,36 @@ class SurfaceHeader {
     refuse("its header has no end");
   }
 
-  /// Vertices, faces and edges are the next three numbers that are no comment.
+  /// Vertices, faces and edges are counted behind OFF or in the next line; then each vertex and
+  /// each face has a line of its own, a face with the number of its vertices before them.
   void check_off() {
     if (line_.find("BINARY") != std::string::npos) refuse("is a binary OFF file");
-    std::string counts = line_.substr(line_.find("OFF") + 3);
-    for (std::string line; std::getline(in_, line);) {
-      counts += ' ' + line.substr(0, line.find('#'));
-      std::istringstream words(counts);
-      std::string vertices, faces;
-      if (!(words >> vertices >> faces)) continue;
-      check_count("vertex", vertices);
-      check_count("face", faces);
-      return;
+    std::vector<std::string> counts = words_of(line_.substr(line_.find("OFF") + 3));
+    if (counts.empty()) counts = next_line();
+    if (counts.size() < 2) refuse("its header has no counts");
+    check_count("vertex", counts[0]);
+    check_count("face", counts[1]);
+    for (double n = 0; n < std::stod(counts[0]); ++n)
+      if (next_line().size() < 3) refuse("a vertex has no line of three numbers");
+    for (double n = 0; n < std::stod(counts[1]); ++n) {
+      const std::vector<std::string> face = next_line();
+      if (face.empty()) refuse("has fewer faces than its header says");
+      check_count("vertices of a face and fewer", face[0]);
+      if (std::stod(face[0]) > static_cast<double>(face.size()) - 1)
+        refuse("a face has no line that holds its vertices");
     }
-    refuse("its header has no counts");
+  }
+
+  /// The words of the next line that has any, comments left out; none at the file's end.
+  std::vector<std::string> next_line() {
+    while (std::getline(in_, line_))
+      if (auto words = words_of(line_); !words.empty()) return words;
+    return {};
+  }
+
+  static std::vector<std::string> words_of(const std::string& line) {
+    std::istringstream in(line.substr(0, line.find('#')));
+    return {std::istream_iterator<std::string>(in), {}};
   }
 
   void check_count(const std::string& name, const std::string& text) const {
