@@ -8,8 +8,8 @@
 
 namespace mammotwin {
 
-/// Where a test may write a file of that name: in a folder of this process, so that tests may run at
-/// once, removed at its end.
+/// Where a test may write a file of that name: in a folder of this process, so that tests may run
+/// at once, removed at its end.
 inline std::filesystem::path scratch_file(const std::string& name) {
   struct Folder {
     std::filesystem::path path = std::filesystem::path(testing::TempDir()) /

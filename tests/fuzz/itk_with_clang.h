@@ -1,6 +1,7 @@
 #pragma once
 
-// Debian's ITK knows the compiler that it was built with, GCC, and refuses others: it sees GCC here.
+// Debian's ITK knows the compiler that it was built with, GCC, and refuses others: it sees GCC
+// here.
 #pragma push_macro("__clang__")
 #pragma push_macro("__GNUC__")
 #undef __clang__

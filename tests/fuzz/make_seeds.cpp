@@ -73,11 +73,11 @@ std::string nifti() {
   return h + bytes_of(voxels());
 }
 
-std::string nrrd(const std::string& kind) {
+std::string nrrd(const std::string& kind, const std::string& step_mm) {
   return "NRRD0004\n# made by hand\ntype: " + kind +
-         "\ndimension: 3\nspace: left-posterior-superior\nsizes: 6 5 4\nspace directions: (2,0,0) "
-         "(0,2,0) (0,0,2)\nkinds: domain domain domain\nendian: little\nencoding: raw\nspace "
-         "origin: (0,0,0)\n\n";
+         "\ndimension: 3\nspace: left-posterior-superior\nsizes: 6 5 4\nspace directions: (" +
+         step_mm + ",0,0) (0," + step_mm + ",0) (0,0," + step_mm +
+         ")\nkinds: domain domain domain\nendian: little\nencoding: raw\nspace origin: (0,0,0)\n\n";
 }
 
 std::string meta_image() {
@@ -90,7 +90,7 @@ std::string meta_image() {
 
 void write_images(const Seeds& seeds) {
   seeds.text("nifti", "whole.nii", nifti());
-  seeds.text("nrrd", "whole.nrrd", nrrd("int16") + bytes_of(voxels()));
+  seeds.text("nrrd", "whole.nrrd", nrrd("int16", "2") + bytes_of(voxels()));
   seeds.text("meta_image", "whole.mha", meta_image());
   std::vector<std::uint16_t> slice(64, 100);
   slice[9] = 700;
@@ -101,18 +101,19 @@ void write_images(const Seeds& seeds) {
   seeds.text("dicom_mri", "phase.dcm", dicom_slice_bytes(dynamic, 3, 8, 8, {0, 0, 6}, 2, slice));
 }
 
+/// Voxels of 8 mm: a breast is at least 15 mm deep.
 void write_segmentations(const Seeds& seeds) {
   Segmentation s;
-  s.labels = Volume<std::uint8_t>({6, 5, 4}, {2, 2, 2}, {0, 0, 0}, label::fat);
+  s.labels = Volume<std::uint8_t>({6, 5, 4}, {8, 8, 8}, {0, 0, 0}, label::fat);
   for (int j = 3; j < 5; ++j)
     for (int k = 0; k < 4; ++k)
       for (int i = 0; i < 6; ++i) s.labels(i, j, k) = j == 3 ? label::muscle : label::skin;
   s.labels(2, 2, 2) = label::lesion;
-  s.region = {Side::left, 0, 10, 0, 6};
-  s.lesions = {{"L1", {4, 4, 4}, 0.008}};
+  s.region = {Side::left, 0, 40, 0, 24};
+  s.lesions = {{"L1", {16, 16, 16}, 0.512}};
   write_segmentation(seeds.at("segmentation", "whole.seg.nrrd"), s);
   std::string labels(s.labels.values.begin(), s.labels.values.end());
-  seeds.text("segmentation", "edited.seg.nrrd", nrrd("uint8") + labels);
+  seeds.text("segmentation", "edited.seg.nrrd", nrrd("uint8", "8") + labels);
 }
 
 void write_meshes(const Seeds& seeds) {

@@ -7,7 +7,7 @@ namespace mammotwin::fuzz {
 void segmentation(const std::string& bytes) {
   static const std::filesystem::path fractions = [] {
     const auto path = fuzzed_file("fractions.nrrd", "");
-    write_fractions(path, Volume<Fractions>({6, 5, 4}, {2, 2, 2}, {0, 0, 0}, Fractions{1, 0, 0}));
+    write_fractions(path, Volume<Fractions>({6, 5, 4}, {8, 8, 8}, {0, 0, 0}, Fractions{1, 0, 0}));
     return path;
   }();
   read_segmentation(fuzzed_file("a.seg.nrrd", bytes), fractions);
