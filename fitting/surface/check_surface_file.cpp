@@ -35,7 +35,7 @@ class SurfaceHeader {
       if (first == "end_header") return;
       if (first == "element") {
         element = true;
-        check_count(name, count);
+        count_of(name, count);
       } else if (first.starts_with("prop") && !element) {
         refuse("its header has a property of no element");
       }
@@ -50,15 +50,13 @@ class SurfaceHeader {
     std::vector<std::string> counts = words_of(line_.substr(line_.find("OFF") + 3));
     if (counts.empty()) counts = next_line();
     if (counts.size() < 2) refuse("its header has no counts");
-    check_count("vertex", counts[0]);
-    check_count("face", counts[1]);
-    for (double n = 0; n < std::stod(counts[0]); ++n)
+    const double vertices = count_of("vertex", counts[0]), faces = count_of("face", counts[1]);
+    for (double n = 0; n < vertices; ++n)
       if (next_line().size() < 3) refuse("a vertex has no line of three numbers");
-    for (double n = 0; n < std::stod(counts[1]); ++n) {
+    for (double n = 0; n < faces; ++n) {
       const std::vector<std::string> face = next_line();
       if (face.empty()) refuse("has fewer faces than its header says");
-      check_count("vertices of a face and fewer", face[0]);
-      if (std::stod(face[0]) > static_cast<double>(face.size()) - 1)
+      if (count_of("vertices of a face and fewer", face[0]) > static_cast<double>(face.size()) - 1)
         refuse("a face has no line that holds its vertices");
     }
   }
@@ -75,12 +73,13 @@ class SurfaceHeader {
     return {std::istream_iterator<std::string>(in), {}};
   }
 
-  void check_count(const std::string& name, const std::string& text) const {
+  double count_of(const std::string& name, const std::string& text) const {
     char* end = nullptr;
     const double count = std::strtod(text.c_str(), &end);
     if (text.empty() || *end != '\0' || !(count >= 0) || count > bytes_)
       refuse("its header says \"" + text + "\" " + name + " entries, in " +
              std::to_string(static_cast<long long>(bytes_)) + " bytes");
+    return count;
   }
 
   [[noreturn]] void refuse(const std::string& what) const {

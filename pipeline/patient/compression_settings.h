@@ -32,7 +32,7 @@ struct CompressionSettings {
   double stiffness_factor = 1;    ///< on tissue, skin and springs
   bool standing_gravity = false;  ///< the breast sags before the plates close
   SkinOptions skin;
-  BoundaryOptions boundary;
+  BoundaryOptions boundary{.wall_smoothing = 5};
   FrictionOptions friction{.coefficient = 0.3};
   CompressionOptions options;
   double plate_rounding_mm = PlateOptions{}.rounding;
