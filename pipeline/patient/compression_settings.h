@@ -25,6 +25,13 @@ struct LawSettings {
   std::shared_ptr<const Material> material(double factor) const;
 };
 
+/// A traced wall has hollows of a voxel or two, at which tissue that slides on it would jump.
+inline BoundaryOptions on_a_traced_wall() {
+  BoundaryOptions boundary;
+  boundary.wall_smoothing = 5;
+  return boundary;
+}
+
 /// What patient.toml says of tissue and of what holds it.
 struct CompressionSettings {
   LawSettings fat{.c1_kpa = 0.75}, fibroglandular{.c1_kpa = 2.5}, lesion{.c1_kpa = 3.3};
@@ -32,7 +39,7 @@ struct CompressionSettings {
   double stiffness_factor = 1;    ///< on tissue, skin and springs
   bool standing_gravity = false;  ///< the breast sags before the plates close
   SkinOptions skin;
-  BoundaryOptions boundary{.wall_smoothing = 5};
+  BoundaryOptions boundary = on_a_traced_wall();
   FrictionOptions friction{.coefficient = 0.3};
   CompressionOptions options;
   double plate_rounding_mm = PlateOptions{}.rounding;

@@ -13,6 +13,7 @@ namespace {
 
 BreastProblem hanging_problem(MeshFile mesh, TissueSampler tissue) {
   BreastProblem problem = breast_problem(std::move(mesh), std::move(tissue), {}, 1);
+  problem.boundary.wall_smoothing = 0;  // the wall is drawn, not traced: it has no voxels' hollows
   problem.gravity = gravity_in_lps(Pose::prone);
   problem.density = GravitySettings().density();
   return problem;

@@ -33,6 +33,7 @@ CompressionSettings true_settings(double stiffness_ratio) {
     law->stiffening = kStiffening;
   }
   s.boundary.chest_wall_spring *= kSpringFactor;
+  s.boundary.wall_smoothing = 0;  // as it was drawn
   s.skin.c1 *= kSkinFactor;
   s.paddle_tilt_deg = kPaddleTilt;
   s.friction.coefficient = kTrueFriction;
