@@ -25,7 +25,8 @@ struct LawSettings {
   std::shared_ptr<const Material> material(double factor) const;
 };
 
-/// A traced wall has hollows of a voxel or two, at which tissue that slides on it would jump.
+/// A traced wall has hollows of a voxel or two: left as it was, two real breasts found no stable
+/// balance between the plates.
 inline BoundaryOptions on_a_traced_wall() {
   BoundaryOptions boundary;
   boundary.wall_smoothing = 5;
