@@ -12,15 +12,10 @@ constexpr int surface_steps = 8;  // to either side of the mask's surface
 constexpr int thinnest_steps = static_cast<int>(thinnest_measured_skin_mm / step_mm + 0.5);
 constexpr int thickest_steps = static_cast<int>(thickest_measured_skin_mm / step_mm + 0.5);
 constexpr double sharpest_voxels = 0.4, softest_voxels = 0.9, blur_step_voxels = 0.05;
-// Errors of a profile hang together over about 1 mm, so that its 8 mm are worth this many values.
-constexpr double independent_values = 8;
 // A profile over a real or voxel surface is never nearer to a slab than this, over fat: its skin,
 // texture and fat vary.
 constexpr double least_misfit = 0.01;
 constexpr double least_contrast = 0.25;  // of skin against fat at 1: less is no skin at all
-// Of fat over a millimetre (standard deviation); else a slope could stand for half the skin.
-constexpr double usual_slope = 0.05;
-constexpr double usual_mm = 1.5, usual_factor = 1.65;
 // Depths of 3 mm come out this much short below skin with a radius of 40 mm.
 constexpr double curvature_mm = 0.1;
 constexpr double range_drop = 2;  // of the log likelihood: 95 % of a normal distribution
@@ -55,8 +50,8 @@ Candidate solve_levels(const SkinProfile& profile, const std::vector<double>& ou
     squares += profile.value[r] * profile.value[r];
   }
   // A normal distribution of slopes, against that of the misfits.
-  normal(2, 2) += std::pow(least_misfit / usual_slope, 2) * static_cast<double>(outer.size()) /
-                  independent_values;
+  normal(2, 2) += std::pow(least_misfit / usual_fat_slope, 2) * static_cast<double>(outer.size()) /
+                  independent_profile_values;
   const Eigen::Vector3d level = normal.ldlt().solve(right);
   if (!(level.x() > 0 && level.y() > 0)) return {};
   if (std::abs(level.x() - 1) < least_contrast) return {};
@@ -98,8 +93,8 @@ SkinSlab fit_skin_slab(const SkinProfile& profile, double voxel_mm) {
   double sum = 0;
   for (const Candidate& c : candidates) {
     const double drop =
-        independent_values / 2 * (c.squared_misfit - best.squared_misfit) / variance;
-    const double usual = std::log(c.thickness / usual_mm) / std::log(usual_factor);
+        independent_profile_values / 2 * (c.squared_misfit - best.squared_misfit) / variance;
+    const double usual = std::log(c.thickness / usual_skin_mm) / std::log(usual_skin_factor);
     const double weight = std::exp(-drop - usual * usual / 2);
     sum += weight;
     fit.thickness += weight * c.thickness;

@@ -17,10 +17,7 @@ constexpr int kSkins = 200;  // of each kind
 // Thickness [mm] and level over fat: thin, usual and thick, bright and dark.
 constexpr std::pair<double, double> kStarts[] = {{0.8, 2},   {1.5, 2},   {3, 2},
                                                  {0.8, 0.5}, {1.5, 0.5}, {3, 0.5}};
-// As fit_skin_slab has them: usual skin, usual slope of fat, and how many values of a profile count
-// as independent, as noise hangs together over a millimetre.
-constexpr double kUsual_mm = 1.5, kUsualFactor = 1.65, kUsualSlope = 0.05;
-constexpr double kIndependentValues = 8, kNoiseLength_mm = 1;
+constexpr double kNoiseLength_mm = 1;  // over which a profile's noise hangs together
 constexpr double kDepthStep_mm = 0.25;
 enum Number { thickness, surface, blur, level, fat, slope, numbers };
 
@@ -48,11 +45,13 @@ struct Left {
 
   bool operator()(const double* z, double* residuals) const {
     const std::size_t values = profile.depth.size();
-    const double weight = std::sqrt(kIndependentValues / static_cast<double>(values)) / noise;
+    const double weight =
+        std::sqrt(independent_profile_values / static_cast<double>(values)) / noise;
     for (std::size_t i = 0; i < values; ++i)
       residuals[i] = weight * (value_at(profile.depth[i], skin_of(z), voxel_mm) - profile.value[i]);
-    residuals[values] = z[slope] / kUsualSlope;
-    residuals[values + 1] = usual ? std::log(z[thickness] / kUsual_mm) / std::log(kUsualFactor) : 0;
+    residuals[values] = z[slope] / usual_fat_slope;
+    residuals[values + 1] =
+        usual ? std::log(z[thickness] / usual_skin_mm) / std::log(usual_skin_factor) : 0;
     return true;
   }
 };
@@ -87,11 +86,12 @@ DrawnSkin drawn(double level, std::mt19937& random) {
   std::normal_distribution<double> normal;
   std::uniform_real_distribution<double> uniform;
   DrawnSkin skin;
-  skin.thickness = std::clamp(kUsual_mm * std::pow(kUsualFactor, normal(random)), 0.5, 4.5);
+  skin.thickness =
+      std::clamp(usual_skin_mm * std::pow(usual_skin_factor, normal(random)), 0.5, 4.5);
   skin.surface = 0.6 * uniform(random) - 0.3;
   skin.blur = 0.45 + 0.4 * uniform(random);
   skin.level = level;
-  skin.slope = kUsualSlope * normal(random);
+  skin.slope = usual_fat_slope * normal(random);
   return skin;
 }
 
