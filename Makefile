@@ -32,7 +32,7 @@ endif
 export P DATA RESULTS FORCE BIN SEED PATIENTS JOBS ONLY ENGINE CONFIG PREFIX CASES SYNTHETIC CHANGES VIEWS SPOIL OTHERS TABLE UNLOAD
 unexport MAKEFLAGS MAKEOVERRIDES
 
-.PHONY: help patient segment fit unload compress register report slicer paraview synthesize cohort verify-results \
+.PHONY: help patient segment fit unload compress register report slicer paraview synthesize exam cohort verify-results \
         evaluate-segmentation evaluate-fitting evaluate-compression evaluate-unload evaluate-gravity evaluate-registration \
         evaluate-stability evaluate-stabilisation evaluate-other-meshes evaluate-what-if evaluate-outlines evaluate-mammograms evaluate-mammogram-changes evaluate-tomosynthesis evaluate-real-pairs evaluate-niftysim evaluate-victre measured validate bench chain programs configured \
         configured_to_test install docs test clean
@@ -46,6 +46,7 @@ help:
 	@echo 'make slicer P=042      the chain, and a scene for 3D Slicer: RESULTS/042/scene.mrml'
 	@echo 'make paraview P=042    the chain, and each load step for ParaView: RESULTS/042/cc_course.pvd, mlo_course.pvd'
 	@echo 'make synthesize P=name SEED=1   a synthetic patient in DATA/name'
+	@echo 'make exam P=name SEED=42   a synthetic MRI series and mammograms, in DICOM, in DATA/name'
 	@echo 'make cohort            every patient of DATA (or PATIENTS="042 043"): cohort.tsv, lesions.tsv, failed.tsv,'
 	@echo '                       cohort.html; JOBS=4 at a time, ONLY=failed, ENGINE=slurm, CONFIG=file'
 	@echo 'make verify-results P=042   are all files still those that were written?'
@@ -98,10 +99,11 @@ patient segment fit unload compress register report: chain
 slicer: chain mammotwin-slicer
 paraview: chain mammotwin-paraview
 synthesize: mammotwin-synthesize
+exam: mammotwin-synthesize-exam
 cohort: chain mammotwin-cohort
 verify-results: mammotwin-verify
 validate: mammotwin-validate mammotwin-validate-gel-breast mammotwin-validate-known-skins mammotwin-validate-other-fits
-patient segment fit unload compress register report slicer paraview synthesize:
+patient segment fit unload compress register report slicer paraview synthesize exam:
 	@pipeline/run_patient.sh $@
 
 cohort:

@@ -1,6 +1,6 @@
 #!/bin/sh
 # run_patient.sh STAGE: takes patient $P through the stages up to STAGE (all of them for "patient"),
-# and on to a scene for 3D Slicer ("slicer") or series for ParaView ("paraview"), or makes a synthetic one ("synthesize", environment: SEED).
+# and on to a scene for 3D Slicer ("slicer") or series for ParaView ("paraview"), or makes a synthetic one ("synthesize", in DICOM: "exam"; environment: SEED).
 # Environment: P (name of the patient's folder), DATA, RESULTS (folders), FORCE (1: run anyway),
 # BIN (folder of the programs).
 set -u
@@ -16,6 +16,7 @@ is_plain_name "$P" ||
   fail "P is not a plain name: use letters, digits, '.', '_' and '-', beginning with a letter or digit"
 ! is_kept_name "$P" || fail "P=$P: that name is kept for the program's own results"
 [ "$last" != synthesize ] || exec "$BIN/mammotwin-synthesize" "$DATA/$P" --seed "${SEED:-42}"
+[ "$last" != exam ] || exec "$BIN/mammotwin-synthesize-exam" "$DATA/$P" --seed "${SEED:-42}"
 toml=$DATA/$P/patient.toml
 [ -f "$toml" ] || fail "$toml: no such file (DATA=$DATA is the folder of patients, P=$P one of them)"
 

@@ -18,6 +18,7 @@ Targets:
   slicer           the whole chain, and a scene for 3D Slicer
   paraview         the whole chain, and each load step as a series for ParaView
   synthesize       a synthetic patient in DATA/P
+  exam             a synthetic MRI series and mammograms, in DICOM, in DATA/P
   cohort           every patient of DATA: tables and a page
   verify-results   are all files of a patient still those that were written?
 
@@ -26,7 +27,7 @@ Settings:
   DATA=folder      of patient folders; default: the sample patients that come with the program
   RESULTS=folder   where results go; default: results
   FORCE=1          runs stages that are up to date, too
-  SEED=number      synthesize: another number, another patient
+  SEED=number      synthesize, exam: another number, another patient
   PATIENTS=names   cohort: only these, separated by blanks
   JOBS=number      cohort: patients at a time; default: what cores and memory allow
   ONLY=failed      cohort: those of RESULTS/failed.tsv
@@ -61,7 +62,7 @@ for word in "$@"; do
 done
 
 case "$target" in
-  patient | segment | fit | unload | compress | register | report | slicer | paraview | synthesize) exec "$scripts/run_patient.sh" "$target" ;;
+  patient | segment | fit | unload | compress | register | report | slicer | paraview | synthesize | exam) exec "$scripts/run_patient.sh" "$target" ;;
   cohort) exec "$scripts/cohort/run_cohort.sh" ;;
   verify-results) exec "$scripts/cohort/verify_patient.sh" ;;
   help | -h | --help) usage ;;

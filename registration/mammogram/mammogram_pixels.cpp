@@ -107,9 +107,16 @@ CountsEncoding counts_encoding(DcmDataset& dataset) {
   return encoding;
 }
 
+/// What the library would print of a header stands in our own messages.
+void keep_library_silent() {
+  static const bool done = (OFLog::configure(OFLogger::OFF_LOG_LEVEL), true);
+  (void)done;
+}
+
 /// Values of one frame as they are stored.
 MammogramImage decoded_frame(DcmDataset& dataset, int frame, const std::string& file) {
   constexpr unsigned long kOne = 1;
+  keep_library_silent();
   DicomImage decoded(&dataset, dataset.getOriginalXfer(),
                      CIF_IgnoreModalityTransformation | CIF_UsePartialAccessToPixelData,
                      static_cast<unsigned long>(frame), kOne);
