@@ -40,8 +40,7 @@ TEST_F(Exam, IsReadAsAPatientsWhoseTruthIsKnown) {
   }
 
   for (const char* view : {"cc", "mlo"}) {
-    const CommandResult read =
-        run("mammotwin-read-mammogram", {file(std::string(view) + ".dcm")});
+    const CommandResult read = run("mammotwin-read-mammogram", {file(std::string(view) + ".dcm")});
     ASSERT_EQ(read.exit_code, 0) << read.text;
     const json said = json::parse(read.text.substr(read.text.find('{')));
     EXPECT_EQ(said["geometry"]["angle_deg"], view == std::string("cc") ? 0 : 45) << said;
