@@ -16,7 +16,7 @@ namespace {
 constexpr double kBlur_mm = 1;
 constexpr double kMarkerSd_mm = 3;  // of a marker stuck on the nipple
 constexpr double kSaidSd_mm = 3, kSaidPectoralSd_mm = 3;
-constexpr double kUnsureNipple_mm = 5, kUnsurePectoral_mm = 8;
+constexpr double kUnsureNipple_mm = 5, kUnsurePectoral_mm = 5.6;
 /// A muscle's evidence in a view called CC that makes it doubtful; the least in 16 real MLO is 5.
 constexpr double kObliqueEvidence = 10;
 /// A nipple beyond the skin line, fainter than skin, stands out so far at least.

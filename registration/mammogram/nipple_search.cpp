@@ -157,6 +157,18 @@ std::size_t tip_index(const NippleProfile& profile, std::size_t i) {
   return b[tip] > kProfile_mm ? tip : i;
 }
 
+/// Root mean square distance of what is likely beyond the nipple that a place belongs to: within it
+/// the tip is found better than likelihood, which is as wide as a nipple, says.
+double spread(const NippleProfile& profile, const std::vector<double>& p,
+              const Eigen::Vector2d& place) {
+  double squares = 0;
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    const double distance = (profile.points[i] - place).norm();
+    if (distance > kNear_mm) squares += p[i] * distance * distance;
+  }
+  return std::sqrt(squares);
+}
+
 NippleCandidate candidate(const NippleProfile& profile, std::size_t i, double probability) {
   const std::size_t tip = tip_index(profile, i);
   return {profile.points[tip], probability, profile.bulge_mm[tip]};
@@ -207,10 +219,8 @@ NippleFinding find_nipple(const NippleProfile& profile, bool oblique) {
                    [](const auto& a, const auto& b) { return a.probability > b.probability; });
   const NippleCandidate& best = found.candidates.front();
   found.in_profile = best.bulge_mm > kProfile_mm;
-  double squares = 0;
-  for (std::size_t i = 0; i < p.size(); ++i)
-    squares += p[i] * (profile.points[i] - best.place).squaredNorm();
-  found.sd_mm = std::hypot(found.in_profile ? kTipSd_mm : kFlatSd_mm, std::sqrt(squares));
+  const double reading = found.in_profile ? kTipSd_mm : kFlatSd_mm;
+  found.sd_mm = std::hypot(reading, spread(profile, p, best.place));
   return found;
 }
 

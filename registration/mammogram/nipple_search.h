@@ -26,8 +26,8 @@ struct NippleCandidate {
 
 struct NippleFinding {
   std::vector<NippleCandidate> candidates;  ///< most probable first
-  double sd_mm = 0;                         ///< about the first one, of all that is possible
-  bool in_profile = false;                  ///< it stands out of the skin
+  double sd_mm = 0;  ///< about the first one: of reading it, and of all that is likely beyond it
+  bool in_profile = false;  ///< it stands out of the skin
 };
 
 /// The nipple by bulge, brightness and where nipples are, each point of the skin weighed by its

@@ -21,8 +21,8 @@ struct PectoralEdge {
 /// to 45 degrees to the chest wall (of 1,463 radiologists' lines: 22 with a standard deviation of
 /// 6), every piece of 6 mm of which is one observation that counts no more than it would if it
 /// were clear; then curved, by at most 8 mm. The standard deviation is that of all lines weighed by
-/// their likelihood. `smooth`: blurred by about a millimetre; `mask`: the breast. Empty where no
-/// line is better than none.
+/// their likelihood, times what errors were of it. `smooth`: blurred by about a millimetre; `mask`:
+/// the breast. Empty where no line is better than none.
 std::optional<PectoralEdge> pectoral_edge(const UprightImage& smooth, const MammogramImage& mask);
 
 }  // namespace mammotwin
