@@ -1,8 +1,10 @@
 #include "fitting/surface/check_surface_file.h"
 
+#include <cctype>
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
+#include <set>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -20,13 +22,17 @@ class SurfaceHeader {
     std::getline(in_, line_);
   }
 
+  /// As CGAL does, by the name's ending.
   void check() {
-    if (line_.starts_with("ply")) check_ply();
-    if (line_.find("OFF") != std::string::npos && line_.find("OFF") < 6) check_off();
+    std::string ending = path_.extension().string();
+    for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    if (ending == ".off") check_off();
+    if (ending == ".ply") check_ply();
   }
 
  private:
   void check_ply() {
+    if (!line_.starts_with("ply")) refuse("does not begin with ply");
     bool element = false;
     while (std::getline(in_, line_)) {
       std::istringstream words(line_);
@@ -46,9 +52,16 @@ class SurfaceHeader {
   /// Vertices, faces and edges are counted behind OFF or in the next line; then each vertex and
   /// each face has a line of its own, a face with the number of its vertices before them.
   void check_off() {
-    if (line_.find("BINARY") != std::string::npos) refuse("is a binary OFF file");
-    std::vector<std::string> counts = words_of(line_.substr(line_.find("OFF") + 3));
+    static const std::set<std::string> of_points_in_space{"OFF",   "COFF",   "NOFF",   "CNOFF",
+                                                          "STOFF", "STCOFF", "STNOFF", "STCNOFF"};
+    std::vector<std::string> counts = words_of(line_);
+    if (counts.empty()) counts = next_line();  // comments may come before
+    if (counts.empty() || !of_points_in_space.contains(counts[0]))
+      refuse("does not begin with OFF", "an OFF file of points in space, or PLY, STL or OBJ");
+    counts.erase(counts.begin());
     if (counts.empty()) counts = next_line();
+    if (!counts.empty() && counts[0] == "BINARY")
+      refuse("is a binary OFF file", "one in text, or PLY, STL or OBJ");
     if (counts.size() < 2) refuse("its header has no counts");
     const double vertices = count_of("vertex", counts[0]), faces = count_of("face", counts[1]);
     for (double n = 0; n < vertices; ++n)
@@ -82,9 +95,10 @@ class SurfaceHeader {
     return count;
   }
 
-  [[noreturn]] void refuse(const std::string& what) const {
-    throw std::runtime_error(path_.string() + ": " + what +
-                             "; expected a whole PLY, STL, OBJ or OFF file (export it again)");
+  [[noreturn]] void refuse(const std::string& what, const std::string& expected =
+                                                        "a whole PLY, STL, OBJ or OFF file") const {
+    throw std::runtime_error(path_.string() + ": " + what + "; expected " + expected +
+                             " (export it again)");
   }
 
   const std::filesystem::path& path_;

@@ -151,6 +151,7 @@ void write_surfaces(const Seeds& seeds) {
     seeds.text(reader, "whole.ply", ply);
     seeds.text(reader, "whole.obj", obj);
     seeds.text(reader, "whole.off", off_block());
+    seeds.text(reader, "commented.off", "# a block\n" + off_block());
   }
   seeds.text("surface", "binary.stl", binary_stl());
   seeds.text("scan", "whole.xyz", "0 0 0\n40 0 0\n0 30 0\n20 15 60\n");

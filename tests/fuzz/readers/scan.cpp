@@ -4,11 +4,11 @@
 namespace mammotwin::fuzz {
 
 void scan(const std::string& bytes) {
-  const char* name = bytes.starts_with("ply")     ? "b.ply"
-                     : bytes.starts_with("OFF")   ? "b.off"
-                     : bytes.starts_with("v ")    ? "b.obj"
-                     : bytes.starts_with("solid") ? "b.stl"
-                                                  : "b.xyz";
+  const char* name = bytes.starts_with("ply")                             ? "b.ply"
+                     : bytes.starts_with("OFF") || bytes.starts_with("#") ? "b.off"
+                     : bytes.starts_with("v ")                            ? "b.obj"
+                     : bytes.starts_with("solid")                         ? "b.stl"
+                                                                          : "b.xyz";
   read_scan_points(fuzzed_file(name, bytes), 1);
 }
 
