@@ -1,7 +1,8 @@
 #!/bin/sh
 # run_fuzz.sh FOLDER [READER...]: gives every reader (or those named) RUNS inputs (default 10000) that begin from the
 # seeds, one after the other, and writes FOLDER.json, a line a reader. What fails goes to FOLDER/failed/READER.
-# Targets: build/fuzz/bin (preset fuzz); mammotwin-try-read, which readers start, is the one that users have.
+# Targets: build/fuzz/bin (preset fuzz); what readers start as mammotwin-try-read asks a server (try_read_server.cpp) that
+# forks what users have, for its libraries take 20 ms to load.
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 bin=$here/../../build/fuzz/bin
@@ -9,7 +10,14 @@ out=$1
 shift
 [ $# -gt 0 ] || set -- $(ls "$here/seeds")
 mkdir -p "$out/logs"
-cp "$here/../../build/release/bin/mammotwin-try-read" "$bin/try" && mv "$bin/try" "$bin/mammotwin-try-read"
+release=$here/../../build/release/bin
+cp "$release/fuzz_try_read_client" "$bin/try" && mv "$bin/try" "$bin/mammotwin-try-read"
+socket_folder=$(mktemp -d)
+export MAMMOTWIN_TRY_READ="$socket_folder/socket"
+"$release/fuzz_try_read_server" "$MAMMOTWIN_TRY_READ" &
+server=$!
+trap 'kill "$server"; rm -r "$socket_folder"' EXIT
+while [ ! -S "$MAMMOTWIN_TRY_READ" ]; do kill -0 "$server"; sleep 0.1; done
 export ASAN_OPTIONS=allocator_may_return_null=0:detect_leaks=0 UBSAN_OPTIONS=print_stacktrace=1
 for reader; do
   log=$out/logs/$reader.txt
