@@ -12,6 +12,7 @@
 #include "pipeline/steps/view_problem.h"
 #include "registration/view/view_frame.h"
 #include "segmentation/files/segmentation_file.h"
+#include "solver/newton/blas_kernels.h"
 #include "solver/press/checkpoint.h"
 
 namespace mammotwin {
@@ -99,6 +100,7 @@ CompressionResult compress_with_checkpoints(const CompressionProblem& problem,
 }
 
 Outcome run(const Arguments& args, const Patient& patient, StageRun& stage) {
+  reserve_blas_memory();
   const Segmentation segmentation = read_segmentation(args.segmentation, args.fractions);
   const Side side = segmentation.region.side;
   std::vector<std::string> remarks;

@@ -7,6 +7,7 @@
 #include "pipeline/patient/patient.h"
 #include "pipeline/steps/fit_quality.h"
 #include "segmentation/files/segmentation_file.h"
+#include "solver/newton/blas_kernels.h"
 
 namespace mammotwin {
 namespace {
@@ -39,6 +40,7 @@ std::optional<ScannedSkin> scanned_skin(const Patient& patient) {
 }
 
 Outcome run(const Arguments& args, const Patient& patient, StageRun& stage) {
+  reserve_blas_memory();
   const Segmentation segmentation = read_segmentation(args.segmentation, args.fractions);
   const std::optional<ScannedSkin> scan = scanned_skin(patient);
   const auto [mesh, report] =

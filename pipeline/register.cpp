@@ -13,6 +13,7 @@
 #include "registration/export/detector_record.h"
 #include "registration/export/predictions_text.h"
 #include "segmentation/files/segmentation_file.h"
+#include "solver/newton/blas_kernels.h"
 
 namespace mammotwin {
 namespace {
@@ -120,6 +121,7 @@ Outcome outcome_of(const Inputs& inputs, const RegisteredViews& registered,
 }
 
 Outcome run(const Arguments& args, const Patient& patient, StageRun& stage) {
+  reserve_blas_memory();
   stage.progress(0, "reading");
   const Inputs inputs = read_inputs(args, patient);
   const Findings findings = findings_of(inputs.segmentation);

@@ -21,6 +21,7 @@ toml=$DATA/$P/patient.toml
 [ -f "$toml" ] || fail "$toml: no such file (DATA=$DATA is the folder of patients, P=$P one of them)"
 
 out=$RESULTS/$P
+export OPENBLAS_NUM_THREADS=1  # more are not used, and where memory is limited they end what loads them
 export MAMMOTWIN_ENDS_WITH_ITS_PARENT=1  # make, told to stop, ends this script and not what it runs
 set -- --patient "$toml"
 [ -z "${FORCE:-}" ] || set -- "$@" --force

@@ -12,6 +12,7 @@
 #include "pipeline/steps/unload_quality.h"
 #include "segmentation/files/detached_data.h"
 #include "segmentation/files/segmentation_file.h"
+#include "solver/newton/blas_kernels.h"
 
 namespace mammotwin {
 namespace {
@@ -86,6 +87,7 @@ MeshFile unloaded_file(const MeshFile& prone, const UnloadResult& result,
 }
 
 Outcome run(const Arguments& args, const Patient& patient, StageRun& stage) {
+  reserve_blas_memory();
   const Segmentation segmentation = read_segmentation(args.segmentation, args.fractions);
   const MeshFile prone = read_mesh_file(args.mesh);
   const TissueSampler tissue = tissue_of(prone, segmentation.fractions);

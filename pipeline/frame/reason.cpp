@@ -1,6 +1,9 @@
 #include "pipeline/frame/reason.h"
 
+#include <cerrno>
+#include <cstring>
 #include <filesystem>
+#include <new>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <typeinfo>
@@ -19,7 +22,16 @@ bool speaks_to_programmers(const std::exception& error) {
 
 }  // namespace
 
+bool lacks_memory(const std::exception& error) {
+  const std::string no_thread = std::strerror(EAGAIN);  // of std::thread, ITK and TBB
+  return dynamic_cast<const std::bad_alloc*>(&error) ||
+         std::string(error.what()).find(no_thread) != std::string::npos;
+}
+
 std::string reason_of(const std::exception& error) {
+  if (lacks_memory(error))
+    return "there is not enough memory for this input (is it limited, by ulimit -v or the batch "
+           "system?)";
   if (const auto* file = dynamic_cast<const std::filesystem::filesystem_error*>(&error))
     return file->path1().string() + ": " + file->code().message();
   if (!speaks_to_programmers(error)) return error.what();

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <chrono>
 #include <iostream>
+#include <new>
 
+#include "pipeline/frame/memory_watch.h"
 #include "pipeline/frame/partial_path.h"
 #include "pipeline/frame/private_names.h"
 #include "pipeline/frame/process.h"
@@ -122,12 +124,9 @@ Attempt attempt(const Stage& stage, Products& products, const Checkpoint& checkp
     StageRun run{products, checkpoint, progress.callback()};
     a.outcome = stage.run(run);
     require_reasons(a.outcome);
-  } catch (const std::bad_alloc&) {
-    a.outcome = {Status::refused, {"there is not enough memory for this input"}, {}};
-    a.usage.starved = true;
   } catch (const std::exception& e) {
     a.outcome = {Status::refused, {reason_of(e)}, nlohmann::json::object()};
-    a.usage.starved = lacks_room(products.folder());
+    a.usage.starved = lacks_memory(e) || lacks_room(products.folder());
   }
   progress.finish();
   a.usage.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -141,10 +140,25 @@ std::string said_command(int argc, char** argv, const fs::path& folder, const Na
   return naming.names.without(command_text(argc, argv, folder, &naming.names));
 }
 
+/// Says and writes that there is no product.
+void refuse(const Stage& stage, const fs::path& product, const Provenance& provenance,
+            const Naming& naming, const std::string& reason, const Usage& usage) {
+  const Outcome outcome{Status::refused, {reason}, nlohmann::json::object()};
+  say_outcome(stage, product, outcome, 0);
+  remove_stale_outputs(product, {});
+  write_sidecar(product, make_sidecar(product, provenance, naming.said(outcome), {}, usage));
+}
+
 int run_parsed(const Stage& stage, const fs::path& product, const Provenance& provenance,
                const Naming& naming, const std::string& command) {
   Products products(product);
   const Checkpoint checkpoint(product, provenance);
+  const EndsWithoutMemory without_memory([&] {
+    Usage usage{.command = command, .starved = true};
+    usage.peak_memory_mb = peak_memory_mb();
+    refuse(stage, product, provenance, naming, reason_of(std::bad_alloc()), usage);
+    remove_leftovers();
+  });
   Attempt a = attempt(stage, products, checkpoint);
   a.usage.command = command;
   std::vector<std::string> written;
@@ -233,7 +247,12 @@ void say_edited(const Stage& stage, const fs::path& product) {
 
 int run_stage(int argc, char** argv, SettingsFile& file, const Stage& stage) {
   prepare_process(argv);
-  stop_without_leftovers();
+  try {
+    stop_without_leftovers();
+  } catch (const std::exception& e) {
+    std::cerr << stage.name << ": refused: " << reason_of(e) << "\n";
+    return kBadData;
+  }
   Settings settings;
   file.declare(settings);
 

@@ -34,11 +34,15 @@ sigset_t stopping_signals() {
   return signals;
 }
 
+void remove_all(const Leftovers& left) {
+  std::error_code ignored;
+  for (const fs::path& path : left.paths) fs::remove_all(path, ignored);
+}
+
 /// Ends the process as the signal would have.
 [[noreturn]] void end_by(int number, const sigset_t& signals) {
   const std::lock_guard<std::mutex> held(leftovers().mutex);
-  std::error_code ignored;
-  for (const fs::path& path : leftovers().paths) fs::remove_all(path, ignored);
+  remove_all(leftovers());
   std::signal(number, SIG_DFL);
   pthread_sigmask(SIG_UNBLOCK, &signals, nullptr);
   std::raise(number);
@@ -46,6 +50,11 @@ sigset_t stopping_signals() {
 }
 
 }  // namespace
+
+void remove_leftovers() {
+  if (const std::unique_lock<std::mutex> held(leftovers().mutex, std::try_to_lock); held)
+    remove_all(leftovers());
+}
 
 void stop_without_leftovers() {
   const sigset_t signals = stopping_signals();

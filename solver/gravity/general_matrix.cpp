@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <new>
 #include <stdexcept>
 
 #include "solver/element/tensor_basis.h"
@@ -61,9 +62,10 @@ GeneralMatrix::GeneralMatrix(const SparsePattern& pattern) : pattern_(pattern), 
   std::vector<int> as_numbered(n);
   for (int i = 0; i < n; ++i) as_numbered[i] = i;
   const auto settings = control();
-  if (umfpack_di_qsymbolic(n, n, starts_.data(), rows_.data(), nullptr, as_numbered.data(),
-                           &symbolic_, settings.data(), nullptr) != UMFPACK_OK)
-    throw std::runtime_error("UMFPACK cannot analyse the matrix: is memory short?");
+  const int status = umfpack_di_qsymbolic(n, n, starts_.data(), rows_.data(), nullptr,
+                                          as_numbered.data(), &symbolic_, settings.data(), nullptr);
+  if (status == UMFPACK_ERROR_out_of_memory) throw std::bad_alloc();
+  if (status != UMFPACK_OK) throw std::runtime_error("UMFPACK cannot analyse the matrix");
 }
 
 GeneralMatrix::~GeneralMatrix() {

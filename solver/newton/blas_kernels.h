@@ -21,4 +21,9 @@ std::string blas_core_in_use();
 /// tree in a fixed order, so that results do not depend on the number of threads.
 void use_one_blas_thread();
 
+/// Takes the address space that OpenBLAS works in (128 MiB for each thread that calls it), which it
+/// keeps: where there is none, it would ask again without end.
+/// @throws std::bad_alloc
+void reserve_blas_memory();
+
 }  // namespace mammotwin

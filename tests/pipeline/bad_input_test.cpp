@@ -201,5 +201,41 @@ TEST_F(BadInput, AFullDiskLeavesNothingHalfWritten) {
   EXPECT_FALSE(product) << "a product came of a disk that was full";
 }
 
+// At every limit a stage ends in time, done or with words that say what it lacks.
+TEST_F(BadInput, TooLittleMemoryIsSaidAndLeavesNothingHalfWritten) {
+  dome("a", "[fit]\nelements = [4, 4, 1]\n[views.cc]\nthickness_mm = 60\n");
+  ASSERT_EQ(run("fit", "a").exit_code, 0);
+  const std::string from = (results() / "a").string() + "/",
+                    to = (folder_ / "short").string() + "/";
+  const std::string labels = from + "segmentation.seg.nrrd", tissue = from + "fractions.nrrd";
+  const std::vector<std::vector<std::string>> stages{
+      {"segment", to + "segmentation.seg.nrrd"},
+      {"fit", labels, tissue, to + "prone.vtu"},
+      {"unload", labels, tissue, from + "prone.vtu", to + "unloaded.vtu"},
+      {"compress", "cc", labels, tissue, from + "prone.vtu", to + "cc.vtu"},
+      {"report", from, to + "report.html"}};
+  int refused = 0;
+  for (const auto& stage : stages)
+    for (const int megabytes : {200, 250, 300, 400, 500}) {
+      SCOPED_TRACE(stage[0] + " with " + std::to_string(megabytes) + " MB");
+      fs::remove_all(to);
+      std::vector<std::string> words{"timeout", "60", "prlimit", "--core=0",
+                                     "--as=" + std::to_string(megabytes) + "000000"};
+      words.push_back(MAMMOTWIN_BIN "/mammotwin-" + stage[0]);
+      words.insert(words.end(), stage.begin() + 1, stage.end());
+      words.insert(words.end(), {"--patient", (data() / "a" / "patient.toml").string()});
+      const CommandResult result = run_command(words, {"OPENBLAS_NUM_THREADS=1"});
+      if (result.text.find("error while loading shared libraries") != std::string::npos) continue;
+      if (result.exit_code == 0) continue;
+      ++refused;
+      EXPECT_EQ(result.exit_code, 1) << result.text;
+      EXPECT_NE(result.text.find("not enough memory"), std::string::npos) << result.text;
+      std::error_code none;
+      for (const auto& entry : fs::directory_iterator(to, none))
+        EXPECT_EQ(entry.path().extension(), ".json") << entry.path();
+    }
+  EXPECT_GE(refused, 10);
+}
+
 }  // namespace
 }  // namespace mammotwin
