@@ -2,6 +2,8 @@
 
 #include <string>
 
+#include "segmentation/lesion/lesion_id.h"
+
 namespace mammotwin {
 void declare_lesion(Settings& settings, const std::string& prefix, LesionEntry& entry) {
   settings.text(prefix + "id", entry.id, "name in every table; default L1, L2, ...");
@@ -16,19 +18,8 @@ void declare_lesion(Settings& settings, const std::string& prefix, LesionEntry& 
 }
 
 void require_plain_id(const std::string& where, const std::string& id) {
-  const auto refuse = [&](const std::string& found) {
-    throw BadSetting(where + ".id " + found + "; expected a plain name such as \"L1\"");
-  };
-  constexpr std::size_t most_bytes = 64;  // more has no place in a table or a file's label
-  if (id.size() > most_bytes) refuse("is longer than 64 bytes");
-  for (const unsigned char c : id)
-    if (c < ' ' || c == 127) refuse("holds a control character (a newline, a tab)");
-  // UTF-8 of U+200E to U+200F, U+202A to U+202E and U+2066 to U+2069
-  for (const char* mark : {"\u200e", "\u200f", "\u202a", "\u202b", "\u202c", "\u202d", "\u202e",
-                           "\u2066", "\u2067", "\u2068", "\u2069"})
-    if (id.find(mark) != std::string::npos) refuse("holds a mark that turns the text's direction");
-  if (std::string("=+-@").find(id.front()) != std::string::npos)
-    refuse("begins with a character that makes it a formula in a spreadsheet");
+  if (const std::string fault = fault_of_lesion_id(id); !fault.empty())
+    throw BadSetting(where + ".id " + fault + "; expected a plain name such as \"L1\"");
 }
 
 void require_one_place(const std::string& where, const LesionEntry& entry) {

@@ -14,6 +14,8 @@ std::string escaped(const std::string& text) {
       out += "&lt;";
     else if (c == '"')
       out += "&quot;";
+    else if (c == '\n')
+      out += "&#10;";
     else
       out += c;
   }

@@ -13,6 +13,7 @@
 #include "segmentation/files/read_image.h"
 #include "segmentation/files/read_raw_image.h"
 #include "segmentation/files/write_image_file.h"
+#include "segmentation/lesion/lesion_id.h"
 #include "segmentation/lesion/measure_lesions.h"
 
 namespace mammotwin {
@@ -140,6 +141,9 @@ std::vector<Lesion> own_lesions(const Keys& keys) {
     for (int skipped = 0; skipped < 4; ++skipped) text >> lesion.volume_ml;
     text >> std::ws;
     std::getline(text, lesion.id);
+    if (const std::string fault = fault_of_lesion_id(lesion.id); !fault.empty())
+      throw std::runtime_error(key + ": the lesion's name " + fault +
+                               "; expected a plain name such as \"L1\"");
     lesion.centroid_in_lps = {v[0], v[1], v[2]};
     lesions.push_back(lesion);
   }

@@ -77,6 +77,15 @@ std::string number(double value) {
   return text;
 }
 
+std::string in_ascii(const std::string& utf8) {
+  std::string said;
+  for (const unsigned char c : utf8) {
+    const bool goes_on = (c & 0xc0) == 0x80;  // later bytes of a character
+    if (!goes_on) said += c < ' ' || c > '~' || c == '\\' ? '?' : static_cast<char>(c);
+  }
+  return said;
+}
+
 Moment moment_of_making() {
   const char* given = std::getenv("SOURCE_DATE_EPOCH");
   const std::time_t now = given ? std::strtoll(given, nullptr, 10) : std::time(nullptr);

@@ -18,6 +18,8 @@ void save(DcmFileFormat& file, const std::filesystem::path& path);
 
 std::string text_of(DcmItem& item, const DcmTagKey& tag, const char* otherwise = "");
 void put(DcmItem& item, const DcmTagKey& tag, const std::string& value);
+/// A lesion's name as every character set of DICOM can say it: what is not ASCII becomes "?".
+std::string in_ascii(const std::string& utf8);
 DcmItem& new_item(DcmItem& parent, const DcmTagKey& sequence);
 
 /// "2.25." and a number of 126 bits (PS3.5 B.2) that `text` gives.

@@ -80,7 +80,7 @@ void add_dimensions(DcmSegmentation& seg, const std::string& uid) {
 Uint16 add_segment(const Lesion& lesion, DcmSegmentation& seg) {
   DcmSegment* segment = nullptr;
   check(DcmSegment::create(
-            segment, lesion.id.c_str(),
+            segment, in_ascii(lesion.id).c_str(),
             CodeSequenceMacro("49755003", "SCT", "Morphologically Abnormal Structure"),
             CodeSequenceMacro("4147007", "SCT", "Mass"), DcmSegTypes::SAT_SEMIAUTOMATIC, kMaker),
         "segment");

@@ -41,8 +41,8 @@ void measure(Group& group, const DSRCodedEntryValue& concept_name, double mm,
 void report_mark(const AnnotatedMark& mark, const Detector& detector, Side side,
                  const DSRImageReferenceValue& image, const std::string& uid, Group& group) {
   const Eigen::Vector3d& x = mark.prone_in_lps;
-  const std::string where = mark.id + ", prone MRI LPS " + number(x.x()) + " " + number(x.y()) +
-                            " " + number(x.z()) + " mm";
+  const std::string where = in_ascii(mark.id) + ", prone MRI LPS " + number(x.x()) + " " +
+                            number(x.y()) + " " + number(x.z()) + " mm";
   check(group.setTrackingIdentifier(where.c_str()), "tracking identifier");
   check(group.setTrackingUniqueIdentifier(uid.c_str()), "tracking UID");
   check(group.setFinding(DSRCodedEntryValue("4147007", "SCT", "Mass")), "finding");

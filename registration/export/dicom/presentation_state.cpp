@@ -26,7 +26,7 @@ void annotate(const Detector& detector, const AnnotatedMark& mark, DcmItem& anno
   put(graphic, DCM_GraphicFilled, "N");
   DcmItem& text = new_item(annotation, DCM_TextObjectSequence);
   put(text, DCM_AnchorPointAnnotationUnits, "PIXEL");
-  put(text, DCM_UnformattedTextValue, mark.id + " (MRI), 90 %");
+  put(text, DCM_UnformattedTextValue, in_ascii(mark.id) + " (MRI), 90 %");
   const std::vector<Float32> anchor = on_image(detector, {mark.on_detector});
   text.putAndInsertFloat32Array(DCM_AnchorPoint, anchor.data(), anchor.size());
   put(text, DCM_AnchorPointVisibility, "N");

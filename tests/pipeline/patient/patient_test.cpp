@@ -53,7 +53,8 @@ TEST_F(PatientTest, ALesionsNameIsTextThatCanStandAnywhere) {
   const auto toml = [](const std::string& id) {
     return "[[lesions]]\npoint_lps_mm = [1, 2, 3]\nid = \"" + id + "\"\n";
   };
-  for (const char* id : {"a\\nb", "a\\tb", "=cmd()", "@x", "-1+1", "a\\u202eb", "\\u0007"})
+  for (const char* id :
+       {"a\\nb", "a\\tb", "=cmd()", "@x", "-1+1", "a\\u202eb", "\\u0007", "a\\u2028b", "a\\\\b"})
     expect_message_of_another(toml(id), "lesions[0].id");
   expect_message_of_another(toml(std::string(65, 'a')), "longer than 64");
   Patient patient;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "pipeline/slicer/scene.h"
+#include "pipeline/slicer/scene_nodes.h"
 #include "registration/carry/displacement_field.h"
 #include "registration/carry/point_carrier.h"
 #include "registration/export/markups.h"
@@ -87,6 +88,25 @@ TEST_F(SlicerScene, SortsItsItemsIntoFoldersWithReadableNames) {
   EXPECT_EQ(folder("Lesions, prone"), "Lesions and nipple");
   EXPECT_EQ(folder("Lesion 1 in CC"), "Search ellipses, in the prone MRI");
   EXPECT_EQ(folder("Prone to CC"), "Transforms of the MRI");
+}
+
+// Names of lesions stand in the files that the scene names, not in the scene; names of files do,
+// and whatever they hold stays an attribute's value.
+TEST_F(SlicerScene, HostileNamesStayText) {
+  const std::string hostile = "</MRML><script>&'=cmd \u202egnp";
+  for (LesionRow& row : results_.rows) row.lesion = hostile;
+  for (Lesion& lesion : results_.segmentation->lesions) lesion.id = hostile;
+  const auto write_beside = [&](const std::string& name) { return folder_ / name; };
+  const std::string text = slicer_scene(results_, write_beside);
+  EXPECT_EQ(text.find("script"), std::string::npos);
+  EXPECT_EQ(read_scene(write("hostile.mrml", text)).size(), nodes_.size());
+  SceneNodes scene;
+  const std::string name = hostile + "\"\n";
+  scene.add_model(name, name + ".vtp", {0, 0, 0}, true);
+  int found = 0;
+  for (const SceneNode& node : read_scene(write("names.mrml", scene.text())))
+    found += node.attribute("name") == name || node.attribute("fileName") == name + ".vtp";
+  EXPECT_GE(found, 2);
 }
 
 TEST_F(SlicerScene, LaysSurfacesWhereTheMeshIs) {

@@ -201,6 +201,40 @@ TEST_F(DicomExport, LesionsAreASegmentationOfTheMri) {
   EXPECT_EQ(bits[1], 1 << (1 + 2 * 4 - 8));  // pixel 9 of 12, a bit each, the first lowest
 }
 
+// Text that means something to pages, tables, XML or DICOM; marks that DICOM's default characters
+// do not have. Names with controls are refused before (patient_test, segmentation_file_test), and
+// would not do harm here.
+const std::vector<std::string> kHostileIds{"</script><b>&\"'", "=cmd|' /C calc'!A0", "a\\b\\c",
+                                           "a\nb\x1b[31m\tc",  "\u202egnp.1L\u202c", "L\u00e4sion"};
+
+TEST_F(DicomExport, HostileNamesOfLesionsStayOneValueOfPlainText) {
+  for (const std::string& id : kHostileIds) {
+    SCOPED_TRACE(id);
+    mark_.id = id;
+    write_presentation_state(out("pr.dcm"), mammogram(), detector_, {mark_}, "mlo");
+    write_measurement_report(out("sr.dcm"), mammogram(), detector_, Side::left, {mark_}, "mlo");
+    Segmentation s;
+    s.labels = Volume<std::uint8_t>({4, 3, 2}, {2, 2, 1}, {10, -20, 31});
+    s.labels(1, 2, 1) = label::lesion;
+    s.lesions = {{id, {0, 0, 0}, 0.004}};
+    write_lesion_segmentation(out("seg.dcm"), write_slices(folder_), s);
+    for (const char* name : {"pr.dcm", "sr.dcm", "seg.dcm"}) {
+      const std::string said = said_by("dciodvfy " + out(name).string());
+      EXPECT_EQ(said.find("Error"), std::string::npos) << name << "\n" << said;
+      const std::string bytes = bytes_of(out(name));
+      for (const char* mark : {"\x1b[31m", "\xe2\x80\xae", "a\nb", "a\\b", "\xc3\xa4"})
+        EXPECT_EQ(bytes.find(mark), std::string::npos) << name << " holds " << mark;
+    }
+    DcmFileFormat file;
+    ASSERT_TRUE(file.loadFile(out("seg.dcm").c_str()).good());
+    DcmItem* segment = nullptr;
+    ASSERT_TRUE(file.getDataset()->findAndGetSequenceItem(DCM_SegmentSequence, segment).good());
+    DcmElement* label = nullptr;
+    ASSERT_TRUE(segment->findAndGetElement(DCM_SegmentLabel, label).good());
+    EXPECT_EQ(label->getVM(), 1u);
+  }
+}
+
 // dciodvfy (dicom3tools) knows what each kind of object must hold.
 TEST_F(DicomExport, ObjectsAreWholeForAnArchive) {
   write_presentation_state(out("pr.dcm"), mammogram(), detector_, {mark_}, "mlo");

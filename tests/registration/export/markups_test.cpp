@@ -49,6 +49,23 @@ TEST(Markups, ACurveIsClosedAndNamed) {
   EXPECT_EQ(read_markups(path).at(2).x_in_lps, Eigen::Vector3d(7, 8, 10));
 }
 
+// Whatever a name holds, the file is JSON in which it comes back as it was.
+TEST(Markups, KeepHostileNamesAsText) {
+  for (const std::string id : {"</script><b>&\"'", "=cmd|' /C calc'!A0", "a\nb\t\x1b[31m",
+                               "\",\"position\":[0,0,0],\"x\":\"", "\u202egnp.1L", "a\\u0022b"}) {
+    SCOPED_TRACE(id);
+    const auto points = scratch_file("hostile.mrk.json"), curve = scratch_file("curve.mrk.json");
+    write_markups(points, {{id, {1, 2, 3}, id}});
+    const auto read = read_markups(points);
+    ASSERT_EQ(read.size(), 1u);
+    EXPECT_EQ(read[0].label, id);
+    EXPECT_EQ(read[0].description, id);
+    EXPECT_EQ(read[0].x_in_lps, Eigen::Vector3d(1, 2, 3));
+    write_closed_curve(curve, id, {{1, 2, 3}, {4, 5, 6}, {7, 8, 10}});
+    EXPECT_EQ(nlohmann::json::parse(std::ifstream(curve)).at("markups").at(0)["name"], id);
+  }
+}
+
 /// Types of 3D Slicer's schema of markups (version 1.0.3), of what may stand in each object.
 using Types = std::map<std::string, std::string>;
 const Types kMarkup = {{"type", "Fiducial|Line|Angle|Curve|ClosedCurve|Plane|ROI"},

@@ -97,6 +97,20 @@ TEST(SegmentationFile, GridsMustAgree) {
       {"f.nrrd", "grid"});
 }
 
+// patient.toml refuses such names; here they come from a file that somebody edited.
+TEST(SegmentationFile, HostileNamesOfLesionsAreRefused) {
+  const ScratchFolder folder("names");
+  Segmentation s = small_segmentation();
+  write_fractions(folder.path / "f.nrrd", s.fractions);
+  for (const std::string id : {"=cmd|' /C calc'!A0", "\u202egnp.1L", "a\x1b[31m"}) {
+    s.lesions = {{id, {1, 2, 3}, 0.5}};
+    write_segmentation(folder.path / "a.seg.nrrd", s);
+    expect_mentions(
+        message_of([&] { read_segmentation(folder.path / "a.seg.nrrd", folder.path / "f.nrrd"); }),
+        {"a.seg.nrrd", "mammotwin_lesion0", "expected a plain name"});
+  }
+}
+
 TEST(SegmentationFile, AFolderThatIsNotThereIsNamed) {
   expect_mentions(
       message_of([] {
