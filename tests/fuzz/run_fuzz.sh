@@ -23,7 +23,7 @@ for reader; do
   log=$out/logs/$reader.txt
   new=$out/new/$reader
   mkdir -p "$new" "$out/failed/$reader"
-  "$bin/fuzz_$reader" -runs="${RUNS:-10000}" -seed=1 -timeout=20 -rss_limit_mb=2048 -max_len=65536 -print_final_stats=1 \
+  "$bin/fuzz_$reader" -runs="${RUNS:-10000}" -seed=1 -timeout=20 -report_slow_units=20 -rss_limit_mb=2048 -max_len=65536 -print_final_stats=1 \
     -artifact_prefix="$out/failed/$reader/" "$new" "$here/seeds/$reader" >"$log" 2>&1 || echo "$reader: failed, see $log" >&2
 done
 {
