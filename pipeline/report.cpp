@@ -101,7 +101,9 @@ void add_mammograms(const Patient& patient, PatientResults& results) {
 /// What `register` left beside a view's shape; of another file there is none.
 void add_uncertainties(PatientResults& results) {
   for (ViewResult& view : results.views) try {
-      view.uncertainty = read_registered(view.file, view.view.name + "_registered.vtu").uncertainty;
+      RegisteredRecord record = read_registered(view.file, view.view.name + "_registered.vtu");
+      view.uncertainty = std::move(record.uncertainty);
+      view.what_if = std::move(record.what_if);
     } catch (const std::exception& error) {
       results.notes.push_back("no sliders for " + view.view.name + ": " + error.what());
     }

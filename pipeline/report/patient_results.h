@@ -11,6 +11,7 @@
 #include "registration/export/lesion_table.h"
 #include "registration/mammogram/mammogram_findings.h"
 #include "registration/search/search_ellipse.h"
+#include "registration/search/what_if.h"
 #include "segmentation/segmentation.h"
 
 namespace mammotwin {
@@ -26,6 +27,7 @@ struct ViewResult {
   CompressedView view;
   Detector detector;
   std::optional<ViewUncertainty> uncertainty = {};  ///< where `register` left it
+  WhatIfShapes what_if = {};                        ///< likewise
 };
 
 /// A view's real mammogram, on the detector that the view was registered with.

@@ -13,6 +13,7 @@ constexpr const char* kCovariance = "state_covariance";
 constexpr const char* kDiscrepancy = "discrepancy_mm";
 constexpr const char* kEnd = "search_end";
 constexpr const char* kVaried = "varied_";
+constexpr const char *kUp = "what_if_up_", *kDown = "what_if_down_";
 
 // The field `baseline`, number by number.
 enum BaselineNumber {
@@ -46,6 +47,11 @@ RegisteredRecord::Baseline baseline_from(const std::vector<double>& n) {
   return baseline;
 }
 
+Nodes configuration(const MeshFile& file, const std::string& name) {
+  const auto found = file.configurations.find(name);
+  return found == file.configurations.end() ? Nodes{} : found->second;
+}
+
 std::optional<ViewUncertainty> read_uncertainty(const MeshFile& file, const std::string& name) {
   const std::vector<double>* sd = find_field(file.metadata, name, kSd, kStates);
   const std::vector<double>* covariance =
@@ -57,10 +63,28 @@ std::optional<ViewUncertainty> read_uncertainty(const MeshFile& file, const std:
   uncertainty.covariance = Eigen::Matrix<double, kStates, kStates>::Map(covariance->data());
   uncertainty.discrepancy_mm = discrepancy->front();
   for (int i = 0; i < kMechanical; ++i)
-    if (const auto varied = file.configurations.find(std::string(kVaried) + kStateNames[i]);
-        varied != file.configurations.end())
-      uncertainty.varied[i] = varied->second;
+    uncertainty.varied[i] = configuration(file, std::string(kVaried) + kStateNames[i]);
   return uncertainty;
+}
+
+WhatIfShapes read_what_if(const MeshFile& file) {
+  WhatIfShapes shapes;
+  for (std::size_t n = 0; n < shapes.size(); ++n) {
+    const char* name = kStateNames[kWhatIf[n].number];
+    WhatIfEnds ends{configuration(file, std::string(kUp) + name),
+                    configuration(file, std::string(kDown) + name)};
+    if (!ends.up.empty() && !ends.down.empty()) shapes[n] = std::move(ends);
+  }
+  return shapes;
+}
+
+void write_what_if(const WhatIfShapes& shapes, MeshFile& file) {
+  for (std::size_t n = 0; n < shapes.size(); ++n) {
+    if (shapes[n].up.empty()) continue;
+    const char* name = kStateNames[kWhatIf[n].number];
+    file.configurations[std::string(kUp) + name] = shapes[n].up;
+    file.configurations[std::string(kDown) + name] = shapes[n].down;
+  }
 }
 
 SearchEnd read_end(const MeshFile& file, const std::string& name) {
@@ -100,6 +124,7 @@ AffineBaseline baseline_of(const RegisteredRecord::Baseline& record, const Hermi
 
 void write_registered(const RegisteredRecord& record, MeshFile& file) {
   if (record.uncertainty) write_uncertainty(*record.uncertainty, file);
+  write_what_if(record.what_if, file);
   if (record.baseline) file.metadata[kBaseline] = numbers_of(*record.baseline);
   file.metadata[kEnd] = {static_cast<double>(record.end)};
 }
@@ -109,10 +134,15 @@ RegisteredRecord read_registered(const MeshFile& file, const std::string& name) 
   if (const auto* n = find_field(file.metadata, name, kBaseline, kBaselineNumbers))
     record.baseline = baseline_from(*n);
   record.uncertainty = read_uncertainty(file, name);
+  record.what_if = read_what_if(file);
   record.end = read_end(file, name);
   return record;
 }
 
-bool is_varied(const std::string& configuration) { return configuration.starts_with(kVaried); }
+bool is_varied(const std::string& configuration) {
+  for (const char* begin : {kVaried, kUp, kDown})
+    if (configuration.starts_with(begin)) return true;
+  return false;
+}
 
 }  // namespace mammotwin

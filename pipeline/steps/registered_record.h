@@ -7,6 +7,7 @@
 #include "registration/search/affine_baseline.h"
 #include "registration/search/search_ellipse.h"
 #include "registration/search/search_verdict.h"
+#include "registration/search/what_if.h"
 
 namespace mammotwin {
 
@@ -22,6 +23,7 @@ struct RegisteredRecord {
   };
   std::optional<Baseline> baseline;
   std::optional<ViewUncertainty> uncertainty;  ///< of a view whose sensitivities were solved for
+  WhatIfShapes what_if{};                      ///< likewise
   SearchEnd end = SearchEnd::none;             ///< of the search against its mammogram
 };
 
@@ -32,8 +34,8 @@ AffineBaseline baseline_of(const RegisteredRecord::Baseline& record, const Hermi
                            CompressedView view);
 
 /// As fields `baseline`, `state_sd`, `state_covariance`, `discrepancy_mm` and `search_end`, and as
-/// the breast with each state's number varied, "varied_roll_deg" and so on, among the
-/// configurations.
+/// the breast with each state's number varied, "varied_roll_deg" and so on, and at the ends of what
+/// a reader may vary, "what_if_up_roll_deg", "what_if_down_roll_deg", among the configurations.
 void write_registered(const RegisteredRecord& record, MeshFile& file);
 
 /// Throws std::runtime_error naming `name` and the field that is damaged.

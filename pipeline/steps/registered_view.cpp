@@ -33,6 +33,7 @@ RegisteredView read_registered_view(const std::string& name, const std::filesyst
           std::move(projection),
           std::move(states),
           record.uncertainty,
+          record.what_if,
           record.end};
 }
 
@@ -41,7 +42,8 @@ void write_registered_view(const std::filesystem::path& path, const RegisteredVi
   file.mesh = view.compressed;
   file.fields.clear();  // stresses are those of the state before the search
   write_view(view.projection.view(), file.metadata);
-  write_registered({record_of(view.projection.baseline()), view.uncertainty, view.end}, file);
+  write_registered(
+      {record_of(view.projection.baseline()), view.uncertainty, view.what_if, view.end}, file);
   erase_solution(file);
   write_mesh_file(path, file);
 }

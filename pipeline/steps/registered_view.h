@@ -8,6 +8,7 @@
 #include "pipeline/patient/compression_settings.h"
 #include "registration/search/search_ellipse.h"
 #include "registration/search/search_verdict.h"
+#include "registration/search/what_if.h"
 #include "registration/view/project_lesions.h"
 
 namespace mammotwin {
@@ -20,7 +21,8 @@ struct RegisteredView {
   /// The same breast in other states that unload found, by name: "unloaded", "standing", "supine".
   std::map<std::string, HermiteMesh> states;
   std::optional<ViewUncertainty> uncertainty;  ///< of a view whose sensitivities were solved for
-  SearchEnd end = SearchEnd::none;             ///< of the search against its mammogram
+  WhatIfShapes what_if{};
+  SearchEnd end = SearchEnd::none;  ///< of the search against its mammogram
 
   /// Covariance of a material point on the detector [mm^2]; empty without an uncertainty.
   std::optional<Eigen::Matrix2d> covariance(const MeshPoint& point) const;

@@ -89,6 +89,7 @@ SearchInput search_input(const Patient& patient, const Segmentation& segmentatio
 RegisteredView registered(RegisteredView view, const SearchedView& searched) {
   view.compressed = searched.compressed;
   view.uncertainty = searched.uncertainty;
+  view.what_if = searched.what_if;
   view.end = searched.verdict.end;
   view.projection = ViewProjection(view.prone, view.compressed, searched.view,
                                    view.projection.detector(), searched.baseline);

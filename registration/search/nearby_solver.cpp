@@ -46,6 +46,14 @@ Nodes in_view(const Nodes& nodes, const ViewFrame& frame) {
   return result;
 }
 
+Nodes in_lps(Nodes nodes, const ViewFrame& frame) {
+  for (HermiteMesh::Node& node : nodes) {
+    node = (frame.axes.transpose() * node).eval();
+    node.col(0) += frame.origin_in_lps;
+  }
+  return nodes;
+}
+
 Nodes combined(double a, const Nodes& x, double b, const Nodes& y) {
   Nodes sum = x;
   for (std::size_t i = 0; i < x.size(); ++i) sum[i] = a * x[i] + b * y[i];

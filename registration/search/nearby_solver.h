@@ -69,6 +69,9 @@ class NearbySolver {
 /// Nodes of a mesh in LPS as they stand in a view's frame.
 Nodes in_view(const Nodes& nodes, const ViewFrame& frame);
 
+/// The way back.
+Nodes in_lps(Nodes nodes, const ViewFrame& frame);
+
 /// a x + b y, parameter by parameter.
 Nodes combined(double a, const Nodes& x, double b, const Nodes& y);
 

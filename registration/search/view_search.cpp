@@ -19,14 +19,6 @@ CompressedView laid_on_detector(CompressedView view, const ViewState& state) {
   return view;
 }
 
-Nodes in_lps(Nodes nodes, const ViewFrame& frame) {
-  for (HermiteMesh::Node& node : nodes) {
-    node = (frame.axes.transpose() * node).eval();
-    node.col(0) += frame.origin_in_lps;
-  }
-  return nodes;
-}
-
 ReducedView unsolved(const SearchInput& input) {
   ReducedView view;
   view.base = in_view(input.file.mesh.nodes(), input.view.frame);
@@ -53,6 +45,13 @@ ViewUncertainty uncertainty(const ReducedView& reduced, const ViewState& z,
   return result;
 }
 
+/// About the state as it was computed: from the search's secants, or of their own.
+WhatIfShapes shapes_unsearched(const SearchInput& input, const ReducedView& reduced) {
+  if (!input.solver) return {};
+  return what_if_shapes(input.evidence ? reduced : solve_what_if(*input.solver), ViewState::Zero(),
+                        input.view.frame);
+}
+
 AffineBaseline baseline_of(const SearchInput& input, const CompressedView& view,
                            const Eigen::Vector3d& nipple_in_lps) {
   return placed_baseline(input.file, view, view.thickness_mm, nipple_in_lps, input.detector,
@@ -75,6 +74,7 @@ SearchedView unmatched(const SearchInput& input, const ReducedView& reduced, con
   result.uncertainty.covariance = edge.covariance;
   if (!input.evidence) result.uncertainty.covariance(kShiftLateral, kShiftLateral) = 0;
   result.uncertainty.discrepancy_mm = kUncorrectedSd_mm;
+  result.what_if = shapes_unsearched(input, reduced);
   result.failed_solves = reduced.failed_solves;
   return result;
 }
@@ -103,6 +103,7 @@ SearchedView matched(const SearchInput& input, const ViewToSearch& found, const 
       baseline_of(input, with_thickness(input.view, view.thickness_mm), nipple_in_lps)};
   result.uncertainty = uncertainty(reduced, z, view.frame);
   result.uncertainty.covariance = end.pose.covariances[number];
+  result.what_if = what_if_shapes(reduced, z, view.frame);
   result.state = state;
   result.state_sd = result.uncertainty.covariance.diagonal().cwiseSqrt().cwiseProduct(reduced.sd);
   result.after = found.match.figures(z);
@@ -121,6 +122,7 @@ SearchedView given_up(SearchedView found, const SearchedView& unsearched) {
   found.compressed = unsearched.compressed;
   found.baseline = unsearched.baseline;
   found.uncertainty = unsearched.uncertainty;
+  found.what_if = unsearched.what_if;
   return found;
 }
 

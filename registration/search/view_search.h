@@ -4,6 +4,7 @@
 #include "registration/search/model_discrepancy.h"
 #include "registration/search/search_ellipse.h"
 #include "registration/search/search_verdict.h"
+#include "registration/search/what_if.h"
 #include "solver/progress.h"
 
 namespace mammotwin {
@@ -24,6 +25,7 @@ struct SearchedView {
   HermiteMesh compressed;
   AffineBaseline baseline;  ///< brought to the same outline and nipple by turn and shifts
   ViewUncertainty uncertainty{};
+  WhatIfShapes what_if{};
   ViewState state = ViewState::Zero(), state_sd = ViewState::Zero();  ///< physical units
   std::optional<MatchFigures> before{}, after{};
   SearchVerdict verdict{};

@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "registration/search/view_state.h"
+#include "registration/search/reduced_view.h"
 
 namespace mammotwin {
 
@@ -12,14 +12,32 @@ struct WhatIf {
   double range;  ///< in the number's unit
 };
 
-/// The ranges that evaluate-what-if presses views in
-/// (pipeline/evaluate/registration/what_if_rows.h).
 inline constexpr std::array<WhatIf, 4> kWhatIf = {
     {{kThickness, 3}, {kRoll, 3}, {kStiffnessRatio, 0.45}, {kClearance, 3}}};
 
-/// How far tissue lay from where full solves put it on the detector [mm], on the sample patient's
-/// CC with 4 x 4 x 1 elements, in ranges of 3 mm, 4 degrees, 0.7 and 4 mm
-/// (docs/measured/notes/report.md).
-inline constexpr double kWhatIfMedian_mm = 1.0, kWhatIfP95_mm = 3.5;
+/// How far tissue lies from where full solves put it on the detector [mm], in these ranges: as
+/// `make evaluate-what-if` found (docs/measured/what_if.md; a test compares).
+inline constexpr double kWhatIfMedian_mm = 0.6, kWhatIfP95_mm = 2;
+
+/// The ranges as a state; 0 for numbers that are not varied.
+ViewState what_if_ranges();
+
+/// A view through two solves for each number that is varied, at the ends of its range.
+ReducedView solve_what_if(const NearbySolver& solver);
+
+/// The breast with one number at either end of its range, as it stands in the registered view's
+/// frame, in LPS [mm]. Empty: not known.
+struct WhatIfEnds {
+  Nodes up, down;
+};
+using WhatIfShapes = std::array<WhatIfEnds, kWhatIf.size()>;
+
+/// About the state z of a reduced view that stands in `frame`.
+WhatIfShapes what_if_shapes(const ReducedView& reduced, const ViewState& z, const ViewFrame& frame);
+
+/// The quadratic through these shapes and `base`, the nodes in the view's frame; its standard
+/// deviations are the ranges.
+ReducedView what_if_view(const WhatIfShapes& shapes, const HermiteMesh& compressed,
+                         const ViewFrame& frame);
 
 }  // namespace mammotwin

@@ -25,19 +25,6 @@ constexpr int kStateSeed = 28;
 
 double cpu_so_far() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
-/// 0 for numbers that are not varied.
-ViewState ranges() {
-  ViewState range = ViewState::Zero();
-  for (const WhatIf& varied : kWhatIf) range[varied.number] = varied.range;
-  return range;
-}
-
-std::vector<int> varied_numbers() {
-  std::vector<int> numbers;
-  for (const WhatIf& varied : kWhatIf) numbers.push_back(varied.number);
-  return numbers;
-}
-
 /// Shares of the ranges, in [-1, 1].
 std::vector<ViewState> drawn_states(int count) {
   std::mt19937 random(kStateSeed);
@@ -147,15 +134,14 @@ class WhatIfRun {
     view_ = compressed_view(asked.view, product_.filename(), file_.metadata);
     solver_ = nearby_solver(patient_, view_, file_, tissue_of(file_, segmentation.fractions));
     if (!solver_) throw std::runtime_error(product_.string() + ": holds no solution to go on from");
-    models_.push_back(timed("slopes", [&] { return linear_view(*solver_, ranges()); }));
-    models_.push_back(
-        timed("quadratic", [&] { return reduce_view(*solver_, ranges(), varied_numbers()); }));
+    models_.push_back(timed("slopes", [&] { return linear_view(*solver_, what_if_ranges()); }));
+    models_.push_back(timed("quadratic", [&] { return solve_what_if(*solver_); }));
     seen_.emplace(file_, FollowedPoints(labels, asked.folder / "prone.vtu"), base());
   }
 
   void compare_at(const ViewState& z) {
     const double before = cpu_so_far();
-    const std::optional<Nodes> truth = press(z.cwiseProduct(ranges()));
+    const std::optional<Nodes> truth = press(z.cwiseProduct(what_if_ranges()));
     solve_seconds_ += cpu_so_far() - before;
     if (!truth) {
       ++unsolved_;

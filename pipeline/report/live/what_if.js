@@ -1,5 +1,5 @@
 // Sliders: lesions, their outlines, search ellipses and the skin's outline follow from the reduced
-// model that came with the page, x(z) = x + sum z_i a_i in each view's frame.
+// model that came with the page, x(s) = x + sum s_i a_i + s_i^2 b_i in each view's frame, s from -1 to 1 over a slider.
 (function () {
   "use strict";
   const root = document.getElementById("what-if");
@@ -16,18 +16,17 @@
   };
   const SHARED = "ln_stiffness_ratio";
 
-  // z of a view, in standard deviations, by its sliders.
-  const state = model => {
-    const z = new Float64Array(STATES);
-    for (const number of model.numbers) z[number.index] = number.by / model.ellipse.sd[number.index];
-    return z;
-  };
+  const POINT = 3 * (1 + MECHANICAL + 2 * 4);  // numbers of a point: place, slopes of the ellipse, a and b of four sliders
+
+  const shareOf = number => number.by / number.range;
   const isMoved = model => model.numbers.some(number => number.by !== 0);
 
-  const placeOf = (model, point, z) => {
-    const from = point * 3 * (1 + MECHANICAL), x = [0, 1, 2].map(axis => model.values[from + axis]);
-    for (const number of model.numbers)
-      for (let axis = 0; axis < 3; ++axis) x[axis] += z[number.index] * model.values[from + 3 * (1 + number.index) + axis];
+  const placeOf = (model, point) => {
+    const from = point * POINT, x = [0, 1, 2].map(axis => model.values[from + axis]);
+    for (const number of model.numbers) {
+      const s = shareOf(number), a = from + 3 * (1 + MECHANICAL + 2 * number.mode);
+      for (let axis = 0; axis < 3; ++axis) x[axis] += s * model.values[a + axis] + s * s * model.values[a + 3 + axis];
+    }
     return x;
   };
 
@@ -37,7 +36,7 @@
     const to = moved => { const there = mammotwin.project(view, moved); return [there[0] - here[0], there[1] - here[1]]; };
     const J = [];
     for (let i = 0; i < MECHANICAL; ++i) {
-      const from = (point * (1 + MECHANICAL) + 1 + i) * 3;
+      const from = point * POINT + 3 * (1 + i);
       J.push(to(x.map((value, axis) => value + model.values[from + axis])));
     }
     const t = sd[TURN] * Math.PI / 180;
@@ -63,7 +62,7 @@
   // Of a lesion by its number: where the sliders put it, and its ellipse.
   mammotwin.whatIf = (name, lesion) => {
     const view = mammotwin.panes.get(name).view, model = view.what_if, { point } = model.lesions[lesion];
-    const x = placeOf(model, point, state(model));
+    const x = placeOf(model, point);
     return { uv: mammotwin.project(view, x), ellipse: ellipseOf(view, point, x) };
   };
 
@@ -90,13 +89,13 @@
     return [u + Math.cos(angle) * a - Math.sin(angle) * b, v + Math.sin(angle) * a + Math.cos(angle) * b];
   });
 
-  function drawSkin(context, pane, z) {
+  function drawSkin(context, pane) {
     const model = pane.view.what_if, line = [];
     for (const ray of model.skin) {
       if (ray.far === null) continue;
-      const far = model.numbers.reduce((sum, number, n) => {
-        const share = z[number.index];
-        return sum + share * ray.slopes[n] + share * share * ray.curvatures[n];
+      const far = model.numbers.reduce((sum, number) => {
+        const s = shareOf(number);
+        return sum + s * ray.slopes[number.mode] + s * s * ray.curvatures[number.mode];
       }, ray.far);
       line.push(ray.direction.map(d => far * d));
     }
@@ -106,10 +105,10 @@
     context.setLineDash([]);
   }
 
-  function drawNipple(context, pane, z) {
+  function drawNipple(context, pane) {
     const model = pane.view.what_if;
     if (model.nipple === undefined) return;
-    const [x, y] = pane.at(mammotwin.project(pane.view, placeOf(model, model.nipple, z)));
+    const [x, y] = pane.at(mammotwin.project(pane.view, placeOf(model, model.nipple)));
     context.beginPath();
     context.moveTo(x, y - 6);
     context.lineTo(x - 6, y + 5);
@@ -118,11 +117,11 @@
     mammotwin.edged(context, mammotwin.views.nipple_colour, 2);
   }
 
-  function drawLesions(context, pane, z) {
+  function drawLesions(context, pane) {
     const { view } = pane, model = view.what_if, hidden = document.getElementById("lesions").classList;
     const colour = mammotwin.views.lesion_colour;
     for (const lesion of model.lesions) {
-      const x = placeOf(model, lesion.point, z), uv = mammotwin.project(view, x), ellipse = ellipseOf(view, lesion.point, x);
+      const x = placeOf(model, lesion.point), uv = mammotwin.project(view, x), ellipse = ellipseOf(view, lesion.point, x);
       if (!hidden.contains("without-ellipses")) {
         mammotwin.path(context, pane, rim(ellipse, uv));
         mammotwin.edged(context, colour, 2);
@@ -131,7 +130,7 @@
         context.beginPath();
         for (const loop of lesion.loops)
           loop.forEach((point, n) => {
-            const at = pane.at(mammotwin.project(view, placeOf(model, point, z)));
+            const at = pane.at(mammotwin.project(view, placeOf(model, point)));
             n ? context.lineTo(...at) : context.moveTo(...at);
           });
         mammotwin.edged(context, colour, 1.2);
@@ -148,19 +147,18 @@
   }
 
   const drawMoved = (context, pane) => {
-    const z = state(pane.view.what_if);
-    drawSkin(context, pane, z);
-    if (!document.getElementById("lesions").classList.contains("without-lesions")) drawNipple(context, pane, z);
-    drawLesions(context, pane, z);
+    drawSkin(context, pane);
+    if (!document.getElementById("lesions").classList.contains("without-lesions")) drawNipple(context, pane);
+    drawLesions(context, pane);
   };
 
   // "L1 in CC: 34 mm behind the nipple, 33 mm medial."
   const placeWords = pane => {
-    const { view } = pane, model = view.what_if, z = state(model);
+    const { view } = pane, model = view.what_if;
     if (model.nipple === undefined) return [];
-    const nipple = mammotwin.project(view, placeOf(model, model.nipple, z));
+    const nipple = mammotwin.project(view, placeOf(model, model.nipple));
     return model.lesions.map(lesion => {
-      const uv = mammotwin.project(view, placeOf(model, lesion.point, z)), aside = uv[1] - nipple[1];
+      const uv = mammotwin.project(view, placeOf(model, lesion.point)), aside = uv[1] - nipple[1];
       const side = view.cranio_caudal ? (aside < 0 ? "medial" : "lateral") : (aside < 0 ? "below" : "above");
       return lesion.id + " in " + view.title + ": " + (nipple[0] - uv[0]).toFixed(0).replace("-", "−") + " mm behind the nipple, " + Math.abs(aside).toFixed(0) + " mm " + side + ".";
     });

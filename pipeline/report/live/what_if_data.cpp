@@ -1,5 +1,6 @@
 #include "pipeline/report/live/what_if_data.h"
 
+#include <algorithm>
 #include <map>
 
 #include "pipeline/report/drawing/lesion_outline.h"
@@ -14,33 +15,32 @@ namespace {
 
 using nlohmann::json;
 
-/// About the registered state.
-ReducedView reduced_view(const ViewResult& view) {
-  ReducedView reduced;
-  reduced.elements = view.file.mesh.elements();
-  reduced.base = in_view(view.file.mesh.nodes(), view.view.frame);
-  reduced.sd = view.uncertainty->sd;
-  for (int i = 0; i < kMechanical; ++i) {
-    const Nodes& varied = view.uncertainty->varied[i];
-    if (varied.empty()) continue;
-    reduced.modes[i] = {combined(1, in_view(varied, view.view.frame), -1, reduced.base),
-                        Nodes(varied.size(), HermiteMesh::Node::Zero())};
-  }
-  return reduced;
+/// Slopes a standard deviation of every mechanical number; empty without effect.
+Slopes slopes_of(const ViewResult& view) {
+  Slopes slopes;
+  const Nodes base = in_view(view.file.mesh.nodes(), view.view.frame);
+  for (int i = 0; i < kMechanical; ++i)
+    if (const Nodes& varied = view.uncertainty->varied[i]; !varied.empty())
+      slopes[i] = combined(1, in_view(varied, view.view.frame), -1, base);
+  return slopes;
 }
 
-/// Material points in the view's frame, each with its way a standard deviation along every
-/// mechanical number.
+/// Material points in the view's frame, each with its slopes a standard deviation along every
+/// mechanical number and, for each of kWhatIf, slope and curvature by the number's range.
 class TrackedPoints {
  public:
-  explicit TrackedPoints(const ReducedView& reduced) : reduced_(reduced) {}
+  TrackedPoints(const ReducedView& what_if, const Slopes& slopes)
+      : what_if_(what_if), slopes_(slopes) {}
 
   /// Its number. `x` [mm, view frame] is where it stands; at `point` or beside it.
   int add(const Eigen::Vector3d& x, const MeshPoint& point) {
     append(x);
-    for (const ReducedView::Mode& mode : reduced_.modes)
-      append(mode.linear.empty() ? Eigen::Vector3d::Zero().eval()
-                                 : HermiteMesh(mode.linear, reduced_.elements).position(point));
+    for (const Nodes& slope : slopes_) append(slope, point);
+    for (const WhatIf& varied : kWhatIf) {
+      const ReducedView::Mode& mode = what_if_.modes[varied.number];
+      append(mode.linear, point);
+      append(mode.quadratic, point);
+    }
     return count_++;
   }
 
@@ -50,8 +50,13 @@ class TrackedPoints {
   void append(const Eigen::Vector3d& x) {
     for (const double number : x) numbers_.push_back(static_cast<float>(number));
   }
+  void append(const Nodes& change, const MeshPoint& point) {
+    append(change.empty() ? Eigen::Vector3d::Zero().eval()
+                          : HermiteMesh(change, what_if_.elements).position(point));
+  }
 
-  const ReducedView& reduced_;
+  const ReducedView& what_if_;
+  const Slopes& slopes_;
   std::vector<float> numbers_;
   int count_ = 0;
 };
@@ -77,12 +82,12 @@ json outline_of(const PatientResults& results, std::size_t lesion, const Project
   return ends;
 }
 
-/// Distances of the skin's outline from the middle of the detector's edge: as it is, and by each
-/// number's slope and curvature a standard deviation; null where the model has no skin.
-json skin_data(const ReducedView& reduced, const ViewResult& view) {
-  const Silhouette silhouette(reduced, view.file.faces);
+/// Distances of the skin's outline from the middle of the detector's edge: as it is, and by slope
+/// and curvature of each of kWhatIf over its range; null where the model has no skin.
+json skin_data(const ReducedView& what_if, const ViewResult& view) {
+  const Silhouette silhouette(what_if, view.file.faces);
   const auto at = [&](const ViewState& z) {
-    return silhouette.at(reduced, z, view.detector, Eigen::Vector2d::Zero());
+    return silhouette.at(what_if, z, view.detector, Eigen::Vector2d::Zero());
   };
   const RayDistances here = at(ViewState::Zero());
   json rays = json::array();
@@ -94,14 +99,12 @@ json skin_data(const ReducedView& reduced, const ViewResult& view) {
                     {"curvatures", json::array()}});
   }
   for (const WhatIf& varied : kWhatIf) {
-    const double share = varied.range / reduced.sd[varied.number];
-    const ViewState z = share * ViewState::Unit(varied.number);
-    const RayDistances up = at(z), down = at(-z);
+    const ViewState end = ViewState::Unit(varied.number);
+    const RayDistances up = at(end), down = at(-end);
     for (int ray = 0; ray < kRays; ++ray) {
       const bool all = here[ray] && up[ray] && down[ray];
-      rays[ray]["slopes"].push_back(all ? (*up[ray] - *down[ray]) / (2 * share) : 0);
-      rays[ray]["curvatures"].push_back(
-          all ? (*up[ray] + *down[ray] - 2 * *here[ray]) / (2 * share * share) : 0);
+      rays[ray]["slopes"].push_back(all ? (*up[ray] - *down[ray]) / 2 : 0);
+      rays[ray]["curvatures"].push_back(all ? (*up[ray] + *down[ray]) / 2 - *here[ray] : 0);
     }
   }
   return rays;
@@ -126,20 +129,23 @@ json ellipse_data(const ViewUncertainty& uncertainty) {
 }  // namespace
 
 std::string what_if_words() {
-  return "First order about the computed state. Tissue lay " + word::mm(kWhatIfMedian_mm) +
+  return "By solves at the ends of each slider. Tissue lay " + word::mm(kWhatIfMedian_mm) +
          " mm in the median and up to " + word::mm(kWhatIfP95_mm) +
-         " mm in 95 % from where full solves put it, in somewhat wider ranges; measured on one "
-         "synthetic patient with a coarse mesh only.";
+         " mm in 95 % from where full solves put it, all sliders moved at once.";
 }
 
 json what_if_data(const PatientResults& results, const ViewResult& view) {
   if (!view.uncertainty) return nullptr;
-  const ReducedView reduced = reduced_view(view);
+  const bool known = std::any_of(view.what_if.begin(), view.what_if.end(),
+                                 [](const WhatIfEnds& ends) { return !ends.up.empty(); });
+  if (!known) return nullptr;
+  const ReducedView what_if = what_if_view(view.what_if, view.file.mesh, view.view.frame);
+  const Slopes slopes = slopes_of(view);
   const ViewProjection projection(results.prone->mesh, view.file.mesh, view.view, view.detector);
   const ViewRays rays(results.prone->mesh, view.file.mesh, view.view, view.detector);
-  TrackedPoints points(reduced);
+  TrackedPoints points(what_if, slopes);
   json data = {{"ellipse", ellipse_data(shown_uncertainty(results, view))},
-               {"skin", skin_data(reduced, view)},
+               {"skin", skin_data(what_if, view)},
                {"lesions", json::array()},
                {"numbers", json::array()}};
   const std::vector<Landmark> lesions = results.lesions();
@@ -155,9 +161,10 @@ json what_if_data(const PatientResults& results, const ViewResult& view) {
     const ProjectedLandmark place = projection.project({"nipple", *nipple});
     data["nipple"] = points.add(place.in_view, place.point);
   }
-  for (const WhatIf& varied : kWhatIf)
-    data["numbers"].push_back(
-        {{"name", kStateNames[varied.number]}, {"index", varied.number}, {"range", varied.range}});
+  for (std::size_t n = 0; n < kWhatIf.size(); ++n)
+    if (!view.what_if[n].up.empty())
+      data["numbers"].push_back(
+          {{"name", kStateNames[kWhatIf[n].number]}, {"mode", n}, {"range", kWhatIf[n].range}});
   data["points"] = points.packed();
   return data;
 }

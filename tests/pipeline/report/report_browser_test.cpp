@@ -20,15 +20,21 @@ PatientResults with_ellipses(PatientResults results) {
 }
 
 constexpr double kFurther_mm = 2;  // along depth, by a standard deviation more of thickness
+// Along depth at the ends of the slider.
+constexpr double kFurtherUp_mm = 3, kFurtherDown_mm = -1;
 
 /// Sensitivities to thickness, turn and shifts alone.
 PatientResults with_sensitivities(PatientResults results) {
   for (ViewResult& view : results.views) {
     view.uncertainty.emplace();
-    Nodes further = view.file.mesh.nodes();
-    for (HermiteMesh::Node& node : further)
-      node.col(0) += kFurther_mm * view.view.frame.axes.row(0).transpose();
-    view.uncertainty->varied[kThickness] = further;
+    const auto along_depth = [&](double by) {
+      Nodes nodes = view.file.mesh.nodes();
+      for (HermiteMesh::Node& node : nodes)
+        node.col(0) += by * view.view.frame.axes.row(0).transpose();
+      return nodes;
+    };
+    view.uncertainty->varied[kThickness] = along_depth(kFurther_mm);
+    view.what_if[0] = {along_depth(kFurtherUp_mm), along_depth(kFurtherDown_mm)};
   }
   return results;
 }
@@ -70,11 +76,18 @@ class ReportInABrowser : public ScratchFolder {
     return x;
   }
 
+  /// Until the cross is where its words hold `text`, or no longer.
+  bool cross_says(const std::string& text, bool yes = true) {
+    return browser_->wait_until(std::string(yes ? "" : "!") +
+                                "document.getElementById('planes-status').textContent.includes('" +
+                                text + "')");
+  }
+
   void go_through_slices_by_keyboard() {
     EXPECT_TRUE(browser_->has_accessible("slider", "Axial"));
     browser_->evaluate("document.querySelector('#planes figure input').focus()");
     browser_->press("ArrowRight");
-    EXPECT_NE(at_the_cross().find("S −10.0 mm"), std::string::npos) << at_the_cross();
+    EXPECT_TRUE(cross_says("S −10.0 mm")) << at_the_cross();
     EXPECT_EQ(browser_->evaluate(
                   "document.querySelector('#planes figure input').getAttribute('aria-valuetext')"),
               "S −10.0 mm");
@@ -96,12 +109,13 @@ class ReportInABrowser : public ScratchFolder {
 TEST_F(ReportInABrowser, FindsALesionByItsLabelAndMovesThePlanes) {
   EXPECT_TRUE(browser_->has_accessible("button", "Lesion 2"));
   browser_->click("#planes-places button:nth-child(2)");
+  EXPECT_TRUE(cross_says("lesion 2"));
   EXPECT_EQ(at_the_cross(), "L 65.0, P −52.0, S −12.0 mm: lesion 2");
   const std::string axial = picture_of(0), sagittal = picture_of(1), coronal = picture_of(2);
   browser_->click("#planes figure:nth-child(1) canvas", 0.2, 0.1);  // in the axial plane
+  EXPECT_TRUE(cross_says("L 65.0", false)) << at_the_cross();
   EXPECT_NE(picture_of(1), sagittal);
   EXPECT_NE(picture_of(2), coronal);
-  EXPECT_EQ(at_the_cross().find("L 65.0"), std::string::npos);
   EXPECT_NE(at_the_cross().find("S −12.0 mm"), std::string::npos);  // that plane itself stays
   EXPECT_NE(picture_of(0), axial);                                  // but for its cross
   go_through_slices_by_keyboard();
@@ -143,8 +157,9 @@ TEST_F(ReportInABrowser, SwitchesMarksOff) {
   EXPECT_TRUE(browser_->has_accessible("checkbox", "Search ellipse (90 %)"));
 }
 
-// The sliders' script and the stages' own formula say the same; at a standard deviation (3 mm) the
-// lesion is 2 mm further from the edge, enlarged by the beam.
+// The sliders' script and the stages' own formula say the same. The lesion is 3 mm further from the
+// edge at one end of thickness and 1 mm nearer at the other, so that halfway up it is 3/8 x 3 -
+// 1/8 x -1 = 1.25 mm further; enlarged by the beam.
 TEST_F(ReportInABrowser, MovesLesionAndEllipseWithTheSliders) {
   const ViewResult& cc = *results_.view("cc");
   const ViewProjection projection(results_.prone->mesh, cc.file.mesh, cc.view, cc.detector);
@@ -160,9 +175,19 @@ TEST_F(ReportInABrowser, MovesLesionAndEllipseWithTheSliders) {
 
   browser_->evaluate("document.querySelector('#what-if input[name=thickness_mm]').focus()");
   browser_->press("End");
-  const Eigen::Vector3d moved = lesion.in_view + Eigen::Vector3d(kFurther_mm, 0, 0);
-  EXPECT_LT((pair_of(at("uv")) - cc.detector.project(moved)).norm(), 1e-3);
+  const auto expect_further = [&](double by) {
+    const Eigen::Vector3d moved = lesion.in_view + Eigen::Vector3d(by, 0, 0);
+    EXPECT_LT((pair_of(at("uv")) - cc.detector.project(moved)).norm(), 1e-3) << by;
+  };
+  expect_further(kFurtherUp_mm);
   EXPECT_TRUE(browser_->wait_until("document.querySelector('.view[data-view=cc].moved')"));
+  browser_->press("Home");
+  expect_further(kFurtherDown_mm);
+  browser_->evaluate(
+      "{ const slider = document.querySelector('#what-if input[name=thickness_mm]'); slider.value "
+      "= slider.max / 2;"
+      " slider.dispatchEvent(new Event('input')); }");
+  expect_further(1.25);
   browser_->click("#what-if-back");
   EXPECT_TRUE(browser_->wait_until("!document.querySelector('.view.moved')"));
 }

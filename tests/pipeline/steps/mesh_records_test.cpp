@@ -57,8 +57,11 @@ TEST_F(MeshRecords, WhatRegisterKnowsComesBack) {
   uncertainty.covariance(kTilt, kRoll) = 0.25;
   uncertainty.varied[kRoll] = file.mesh.nodes();
   uncertainty.discrepancy_mm = 4.5;
-  write_registered({baseline, uncertainty, SearchEnd::look}, file);
-  EXPECT_TRUE(is_varied(file.configurations.begin()->first));
+  WhatIfShapes what_if;
+  what_if[1] = {file.mesh.nodes(), file.mesh.nodes()};
+  what_if[1].down[0](2, 0) -= 5;
+  write_registered({baseline, uncertainty, what_if, SearchEnd::look}, file);
+  for (const auto& [name, nodes] : file.configurations) EXPECT_TRUE(is_varied(name)) << name;
 
   const RegisteredRecord found = read_registered(file, "cc_registered.vtu");
   ASSERT_TRUE(found.baseline && found.uncertainty);
@@ -73,6 +76,9 @@ TEST_F(MeshRecords, WhatRegisterKnowsComesBack) {
   EXPECT_EQ(found.end, SearchEnd::look);
   EXPECT_EQ(found.uncertainty->varied[kRoll].size(), file.mesh.nodes().size());
   EXPECT_TRUE(found.uncertainty->varied[kTilt].empty());
+  EXPECT_EQ(found.what_if[1].up[0], what_if[1].up[0]);
+  EXPECT_EQ(found.what_if[1].down[0], what_if[1].down[0]);
+  EXPECT_TRUE(found.what_if[0].up.empty());
 }
 
 TEST_F(MeshRecords, AMeshWithoutFaceLabelsIsNoBreast) {
