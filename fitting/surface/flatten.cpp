@@ -123,8 +123,11 @@ FlatSkin flatten(const TriangleSurface& skin, const BreastRegion& region) {
   const OneBlasThread one_thread;  // UMFPACK's last bits depend on the number
   const auto error = parameterization::parameterize(mesh, MeanValue(square), border, uv);
   if (error != parameterization::OK)
-    throw std::runtime_error(std::string("the skin surface cannot be laid on a square: ") +
-                             parameterization::get_error_message(error));
+    throw std::runtime_error(
+        std::string("the skin surface cannot be laid on a square: ") +
+        (error == parameterization::ERROR_CANNOT_SOLVE_LINEAR_SYSTEM
+             ? "its triangles are degenerate"  // for which CGAL 5.5 has another code's words
+             : parameterization::get_error_message(error)));
   for (Vertex v : mesh.vertices())
     flat.uv.push_back(swapped ? Eigen::Vector2d(uv[v].y(), uv[v].x())
                               : Eigen::Vector2d(uv[v].x(), uv[v].y()));
