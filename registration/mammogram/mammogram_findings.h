@@ -54,8 +54,8 @@ struct SaidFindings {
 /// breast is bright on dark air and touches one vertical edge.
 ///
 /// A nipple with a standard deviation of more than 5 mm, and a pectoral edge with one of more than
-/// 5.6 mm or none at all, are named in `unsure`; so is the view where a CC shows the muscle of an MLO
-/// or an MLO shows none. Throws std::runtime_error with what to do if no such breast is there.
+/// 5.6 mm or none at all, are named in `unsure`; so is the view where a CC shows the muscle of an
+/// MLO or an MLO shows none. Throws std::runtime_error with what to do if no such breast is there.
 MammogramFindings find_breast(const MammogramImage& image, double pixel_mm, bool oblique,
                               const SaidFindings& said = {});
 
