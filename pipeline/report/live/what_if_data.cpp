@@ -129,9 +129,14 @@ json ellipse_data(const ViewUncertainty& uncertainty) {
 }  // namespace
 
 std::string what_if_words() {
-  return "By solves at the ends of each slider. Tissue lay " + word::mm(kWhatIfMedian_mm) +
-         " mm in the median and up to " + word::mm(kWhatIfP95_mm) +
-         " mm in 95 % from where full solves put it, all sliders moved at once.";
+  return "By solves at the ends of each slider. On four breasts, all sliders moved at once, tissue "
+         "lay " +
+         word::mm(kWhatIfMedian.best_mm) + " to " + word::mm(kWhatIfMedian.worst_mm) +
+         " mm in the median and " + word::mm(kWhatIfP95.best_mm) + " to " +
+         word::mm(kWhatIfP95.worst_mm) +
+         " mm in 95 % from where full solves put it: a breast that slips or rolls between the "
+         "plates "
+         "does not follow sliders.";
 }
 
 json what_if_data(const PatientResults& results, const ViewResult& view) {
