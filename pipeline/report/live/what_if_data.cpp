@@ -5,6 +5,7 @@
 
 #include "pipeline/report/drawing/lesion_outline.h"
 #include "pipeline/report/live/base64.h"
+#include "pipeline/report/quality_limit.h"
 #include "pipeline/report/word.h"
 #include "registration/carry/ray_curve.h"
 #include "registration/search/silhouette.h"
@@ -126,6 +127,18 @@ json ellipse_data(const ViewUncertainty& uncertainty) {
            kModelSd_mm * kModelSd_mm + uncertainty.discrepancy_mm * uncertainty.discrepancy_mm}};
 }
 
+/// Such a breast ends elsewhere at a little more or less of anything: no reduced model follows it.
+bool slips_or_rolls(const PatientResults& results, const std::string& view) {
+  const std::string product = view + ".vtu";
+  const json* sidecar = results.sidecar(product);
+  if (!sidecar || !sidecar->contains("quality")) return false;
+  for (const char* key : {"swing_mm", "roll_deg"})
+    if (const auto expected = expectation(product, key, sidecar->at("quality"));
+        expected && !expected->held)
+      return true;
+  return false;
+}
+
 }  // namespace
 
 std::string what_if_words() {
@@ -134,16 +147,15 @@ std::string what_if_words() {
          word::mm(kWhatIfMedian.best_mm) + " to " + word::mm(kWhatIfMedian.worst_mm) +
          " mm in the median and " + word::mm(kWhatIfP95.best_mm) + " to " +
          word::mm(kWhatIfP95.worst_mm) +
-         " mm in 95 % from where full solves put it: a breast that slips or rolls between the "
-         "plates "
-         "does not follow sliders.";
+         " mm in 95 % from where full solves put it, worst on one that slips and rolls between the "
+         "plates; a view that swings or rolls beyond its limit has no sliders.";
 }
 
 json what_if_data(const PatientResults& results, const ViewResult& view) {
   if (!view.uncertainty) return nullptr;
   const bool known = std::any_of(view.what_if.begin(), view.what_if.end(),
                                  [](const WhatIfEnds& ends) { return !ends.up.empty(); });
-  if (!known) return nullptr;
+  if (!known || slips_or_rolls(results, view.view.name)) return nullptr;
   const ReducedView what_if = what_if_view(view.what_if, view.file.mesh, view.view.frame);
   const Slopes slopes = slopes_of(view);
   const ViewProjection projection(results.prone->mesh, view.file.mesh, view.view, view.detector);

@@ -14,6 +14,7 @@
 #include "pipeline/report/figures/fit_course_figure.h"
 #include "pipeline/report/figures/fit_error.h"
 #include "pipeline/report/live/base64.h"
+#include "pipeline/report/live/what_if_data.h"
 #include "pipeline/report/quality_limit.h"
 #include "pipeline/report/quality_table.h"
 #include "pipeline/report/verdict.h"
@@ -224,6 +225,20 @@ TEST(FitCourseFigure, ShowsWhatTheFitLeftOfItsIterations) {
 }
 
 // A field that is linear in position is its own cubic interpolant.
+TEST(WhatIfData, LeavesOutAViewThatSlipsBetweenThePlates) {
+  PatientResults results = fake_results(Side::left);
+  for (ViewResult& view : results.views) {
+    view.uncertainty.emplace();
+    view.what_if[0] = {view.file.mesh.nodes(), view.file.mesh.nodes()};
+  }
+  const ViewResult& cc = *results.view("cc");
+  EXPECT_EQ(what_if_data(results, cc)["numbers"].size(), 1U);
+  for (StageRecord& stage : results.stages)
+    if (stage.product == "cc.vtu") stage.sidecar["quality"]["swing_mm"] = -25.9;
+  EXPECT_TRUE(what_if_data(results, cc).is_null());
+  EXPECT_FALSE(what_if_data(results, *results.view("mlo")).is_null());
+}
+
 TEST(MeshField, ReadsWhatWasInterpolated) {
   const HermiteMesh mesh = block_mesh({0, 0, 0}, {2, 3, 4}, {2, 1, 2});
   const auto linear = [&](const MeshPoint& p) {
