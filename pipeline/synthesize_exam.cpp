@@ -4,12 +4,13 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
-#include "pipeline/evaluate/registration/true_mammogram.h"
 #include "pipeline/frame/command_line.h"
+#include "pipeline/frame/partial_path.h"
 #include "pipeline/frame/products.h"
 #include "pipeline/patient/compression_settings.h"
-#include "pipeline/synthesize/exam_dicom.h"
 #include "pipeline/synthesize/patient_files.h"
+#include "pipeline/synthesize/views/exam_dicom.h"
+#include "pipeline/synthesize/views/true_mammogram.h"
 
 namespace mammotwin {
 namespace {
@@ -72,9 +73,11 @@ int run(const Arguments& args) {
   const Side side = drawn.patient.anatomy.side;
   std::cerr << "synthesize-exam: body and MRI" << std::endl;
   const SyntheticPatient patient = make_patient(drawn.patient);
-  const fs::path folder = args.folder.has_filename() ? args.folder : args.folder.parent_path();
-  const fs::path part = folder.string() + ".part";
-  fs::remove_all(part);
+  const fs::path given = fs::absolute(args.folder).lexically_normal();
+  const fs::path folder = given.has_filename() ? given : given.parent_path();
+  const std::string name = folder.filename().string();
+  remove_partial_leftovers(folder.parent_path(), name);
+  const fs::path part = partial_path(folder.parent_path(), name);
   write_mri_series(part / "mri", patient.scan.image, args.seed);
   const TrueBreast breast(patient, drawn);
   const Detector detector = synthetic_detector(side);

@@ -139,7 +139,7 @@ RegisteredRecord read_registered(const MeshFile& file, const std::string& name) 
   return record;
 }
 
-bool is_varied(const std::string& configuration) {
+bool is_of_registration(const std::string& configuration) {
   for (const char* begin : {kVaried, kUp, kDown})
     if (configuration.starts_with(begin)) return true;
   return false;

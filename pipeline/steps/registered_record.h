@@ -42,6 +42,6 @@ void write_registered(const RegisteredRecord& record, MeshFile& file);
 RegisteredRecord read_registered(const MeshFile& file, const std::string& name);
 
 /// Is a configuration of the file part of the record, and not a state that `unload` found?
-bool is_varied(const std::string& configuration);
+bool is_of_registration(const std::string& configuration);
 
 }  // namespace mammotwin

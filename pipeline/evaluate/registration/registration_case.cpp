@@ -7,12 +7,13 @@
 #include <stdexcept>
 
 #include "pipeline/evaluate/cases/patient_chain.h"
-#include "pipeline/evaluate/registration/true_mammogram.h"
-#include "pipeline/evaluate/registration/true_tomosynthesis.h"
 #include "pipeline/frame/products.h"
+#include "pipeline/patient/compression_settings.h"
 #include "pipeline/synthesize/counter_random.h"
 #include "pipeline/synthesize/nrrd_file.h"
 #include "pipeline/synthesize/patient_files.h"
+#include "pipeline/synthesize/views/true_mammogram.h"
+#include "pipeline/synthesize/views/true_tomosynthesis.h"
 
 namespace mammotwin {
 namespace {
@@ -20,11 +21,57 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
+constexpr std::uint64_t kSeed = 8051;
+const Eigen::Vector3i kCoarse{3, 3, 1}, kCoarseTruth{4, 4, 1};
+constexpr double kCoarseVoxel_mm = 1.8;
 constexpr int kMostChests = 30;  // of the drawn build: not every chest carries every breast
 /// Not mri.nrrd: `segment`, whose products stand in the same folder, leaves its part of the MRI
 /// there.
 constexpr const char* kScan = "scan.nrrd";
 constexpr int kPoints = 20;  // landmarks beside the lesions
+
+DrawnView draw_view(CounterRandom& random, const std::string& name, double angle_deg) {
+  DrawnView view;
+  view.name = name;
+  view.header_angle_deg = angle_deg;
+  view.roll_deg = random.uniform(-5, 5);
+  view.turn_deg = random.uniform(-4, 4);
+  view.lift_mm = random.uniform(-5, 5);
+  view.clearance_mm = random.uniform(6, 16);
+  view.shift_mm = random.uniform(-15, 15);
+  view.compressed_fraction = random.uniform(0.45, 0.58);
+  view.thickness_error_mm = random.uniform() < 0.5 ? -3 : 3;
+  return view;
+}
+
+/// Patient n, from n alone: body, tissue that is unlike the registering model's, and how each view
+/// was taken. The law is in pipeline/evaluate/README.md. `coarse`: few elements in the truth and in
+/// the model, so that it takes seconds instead of minutes.
+DrawnPatient draw_registration(int number, bool coarse, int attempt = 0) {
+  CounterRandom random(kSeed, number, 0), build(kSeed, number, 1000 * (attempt + 1));
+  DrawnPatient drawn;
+  if (coarse) {
+    drawn.true_elements = kCoarseTruth;
+    drawn.elements = kCoarse;
+    drawn.patient.scan.voxel_mm = kCoarseVoxel_mm;
+  }
+  AnatomyOptions& a = drawn.patient.anatomy;
+  a.seed = kSeed * 1000 + number * 50 + attempt;
+  a.side = random.uniform() < 0.5 ? Side::left : Side::right;
+  a.volume_ml = random.uniform(350, 1000);
+  a.density = random.uniform(0.1, 0.35);
+  a.ptosis = random.uniform(0.1, 0.6);
+  a.projection = build.uniform(1.2, 1.8);
+  a.chest_half_width_mm = build.uniform(125, 150);
+  a.lesions = 3;
+  drawn.patient.scan.contrast =
+      number % 2 ? ScanContrast::not_suppressed : ScanContrast::fat_suppressed;
+  const double factor = number % 2 ? 2 : 0.5;  // off what the registering model assumes
+  const CompressionSettings assumed;
+  drawn.stiffness_ratio = factor * assumed.fibroglandular.c1_kpa / assumed.fat.c1_kpa;
+  drawn.views = {draw_view(random, "cc", 0), draw_view(random, "mlo", random.uniform(40, 50))};
+  return drawn;
+}
 
 SyntheticPatient make_drawn(int number, bool coarse, DrawnPatient& drawn) {
   for (int attempt = 0;; ++attempt) {

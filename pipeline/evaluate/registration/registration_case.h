@@ -2,8 +2,6 @@
 
 #include <filesystem>
 
-#include "pipeline/evaluate/registration/true_views.h"
-
 namespace mammotwin {
 
 /// Makes synthetic patient n in `folder`: mri.nrrd, cc.png, mlo.png, patient.toml, landmarks.csv

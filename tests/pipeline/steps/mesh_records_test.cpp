@@ -61,7 +61,8 @@ TEST_F(MeshRecords, WhatRegisterKnowsComesBack) {
   what_if[1] = {file.mesh.nodes(), file.mesh.nodes()};
   what_if[1].down[0](2, 0) -= 5;
   write_registered({baseline, uncertainty, what_if, SearchEnd::look}, file);
-  for (const auto& [name, nodes] : file.configurations) EXPECT_TRUE(is_varied(name)) << name;
+  for (const auto& [name, nodes] : file.configurations)
+    EXPECT_TRUE(is_of_registration(name)) << name;
 
   const RegisteredRecord found = read_registered(file, "cc_registered.vtu");
   ASSERT_TRUE(found.baseline && found.uncertainty);

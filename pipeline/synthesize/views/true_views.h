@@ -24,8 +24,7 @@ struct DrawnView {
   double thickness_error_mm = 0;  ///< of the header
 };
 
-/// Patient n of the evaluation, from n alone: body, tissue that is unlike the registering model's,
-/// and how each view was taken. The law is in pipeline/evaluate/README.md.
+/// A body, its tissue, and how each view of it was taken.
 struct DrawnPatient {
   PatientOptions patient;
   double stiffness_ratio = 1;              ///< fibroglandular over fat
@@ -34,8 +33,6 @@ struct DrawnPatient {
       elements;  ///< of the mesh that registers; absent: as `fit` chooses
   std::array<DrawnView, 2> views;
 };
-/// `coarse`: few elements in both, so that it takes seconds instead of minutes.
-DrawnPatient draw_registration(int number, bool coarse, int attempt = 0);
 
 /// A synthetic patient's breast in one true view.
 struct TrueView {

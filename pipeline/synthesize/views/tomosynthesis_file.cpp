@@ -11,7 +11,8 @@
 #include <cstdio>
 #include <stdexcept>
 
-#include "pipeline/evaluate/registration/true_tomosynthesis.h"
+#include "pipeline/synthesize/views/dicom_codes.h"
+#include "pipeline/synthesize/views/true_tomosynthesis.h"
 
 namespace mammotwin {
 namespace {
@@ -87,15 +88,6 @@ void write_acquisition(double angle_deg, double thickness_mm, DcmDataset& d) {
   item->putAndInsertFloat64(DCM_PrimaryPositionerScanStartAngle, angle_deg - kArc_deg / 2);
 }
 
-void write_view(const CompressedView& view, DcmDataset& d) {
-  const bool cc = view.name == "cc";
-  DcmItem* code = nullptr;
-  d.findOrCreateSequenceItem(DCM_ViewCodeSequence, code, -2);
-  code->putAndInsertString(DCM_CodeValue, cc ? "399162004" : "399368009");
-  code->putAndInsertString(DCM_CodingSchemeDesignator, "SCT");
-  code->putAndInsertString(DCM_CodeMeaning, cc ? "cranio-caudal" : "medio-lateral oblique");
-}
-
 std::vector<Uint16> pixels_of(const TomosynthesisVolume& volume, bool wall_left) {
   const double most = std::pow(2, kBits) - 1;
   std::vector<Uint16> pixels;
@@ -137,7 +129,7 @@ void write_tomosynthesis(const std::filesystem::path& path, const TomosynthesisV
   d.putAndInsertString(DCM_PresentationIntentType, "FOR PRESENTATION");
   d.putAndInsertString(DCM_PositionerType, "MAMMOGRAPHIC");
   d.putAndInsertString(DCM_BreastImplantPresent, "NO");
-  write_view(view, d);
+  put_view_code(d, view.name);
   write_acquisition(angle_deg, thickness_mm, d);
   write_groups(volume, view, d);
   write_pixels(volume, hanging(view).wall_left, d);

@@ -1,4 +1,4 @@
-#include "pipeline/evaluate/registration/true_tomosynthesis.h"
+#include "pipeline/synthesize/views/true_tomosynthesis.h"
 
 #include <tbb/parallel_for.h>
 
@@ -7,8 +7,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "pipeline/evaluate/registration/true_mammogram.h"
 #include "pipeline/synthesize/counter_random.h"
+#include "pipeline/synthesize/views/true_mammogram.h"
 
 namespace mammotwin {
 namespace {

@@ -1,9 +1,9 @@
-#include "pipeline/synthesize/exam_dicom.h"
+#include "pipeline/synthesize/views/exam_dicom.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "registration/export/dicom/dicom_object.h"
+#include "pipeline/synthesize/views/dicom_codes.h"
 
 namespace mammotwin {
 namespace {
@@ -51,15 +51,6 @@ void put_pixels(DcmItem& object, int columns, int rows, int bits,
     object.putAndInsertUint16(tag, static_cast<Uint16>(value));
   put(object, DCM_PhotometricInterpretation, "MONOCHROME2");
   object.putAndInsertUint16Array(DCM_PixelData, grey.data(), grey.size());
-}
-
-DcmItem& put_code(DcmItem& object, const DcmTagKey& sequence, const char* value, const char* scheme,
-                  const char* meaning) {
-  DcmItem& item = new_item(object, sequence);
-  put_all(
-      item,
-      {{DCM_CodeValue, value}, {DCM_CodingSchemeDesignator, scheme}, {DCM_CodeMeaning, meaning}});
-  return item;
 }
 
 void fill_slice(const Volume<std::int16_t>& image, int k, int seed, DcmItem& object) {
@@ -132,10 +123,8 @@ void put_view(const Detector& detector, const ExamView& view, DcmItem& object) {
        {DCM_WindowCenter, "8192"},
        {DCM_WindowWidth, "16384"}});
   object.putAndInsertSint16(DCM_PixelIntensityRelationshipSign, 1);
-  put_code(object, DCM_ViewCodeSequence, cc ? "399162004" : "399368009", "SCT",
-           cc ? "cranio-caudal" : "medio-lateral oblique")
-      .insertEmptyElement(DCM_ViewModifierCodeSequence);
-  put_code(object, DCM_AnatomicRegionSequence, "76752008", "SCT", "Breast");
+  put_view_code(object, view.name);
+  put_code(object, DCM_AnatomicRegionSequence, "76752008", "Breast");
   object.insertEmptyElement(DCM_AcquisitionContextSequence);
 }
 

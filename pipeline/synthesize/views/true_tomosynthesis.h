@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "pipeline/evaluate/registration/true_views.h"
+#include "pipeline/synthesize/views/true_views.h"
 #include "registration/view/simulated_mammogram.h"
 
 namespace mammotwin {

@@ -1,4 +1,4 @@
-#include "pipeline/evaluate/registration/true_tomosynthesis.h"
+#include "pipeline/synthesize/views/true_tomosynthesis.h"
 
 #include <gtest/gtest.h>
 

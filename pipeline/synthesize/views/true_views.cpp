@@ -1,4 +1,4 @@
-#include "pipeline/evaluate/registration/true_views.h"
+#include "pipeline/synthesize/views/true_views.h"
 
 #include <Eigen/Geometry>
 #include <cmath>
@@ -8,7 +8,6 @@
 #include "fitting/fit_breast.h"
 #include "pipeline/patient/gravity_settings.h"
 #include "pipeline/steps/breast_problem.h"
-#include "pipeline/synthesize/counter_random.h"
 #include "registration/view/view_frame.h"
 #include "solver/gravity/unload.h"
 #include "solver/press/compress.h"
@@ -16,9 +15,6 @@
 namespace mammotwin {
 namespace {
 
-constexpr std::uint64_t kSeed = 8051;
-const Eigen::Vector3i kCoarse{3, 3, 1}, kCoarseTruth{4, 4, 1};
-constexpr double kCoarseVoxel_mm = 1.8;
 constexpr double kSpringFactor = 3, kSkinFactor = 2, kPaddleTilt = 3;  // [-], [-], [deg]
 constexpr double kTrueFriction = 0.45;  // typical of dry skin, above what is assumed
 constexpr double kStiffening = 1;  // at half the thickness, I1 - 3 = 1.25, a modulus of 3.5 times
@@ -74,47 +70,7 @@ Eigen::Matrix3d true_axes(Side side, const DrawnView& drawn) {
   return turned;
 }
 
-DrawnView draw_view(CounterRandom& random, const std::string& name, double angle_deg) {
-  DrawnView view;
-  view.name = name;
-  view.header_angle_deg = angle_deg;
-  view.roll_deg = random.uniform(-5, 5);
-  view.turn_deg = random.uniform(-4, 4);
-  view.lift_mm = random.uniform(-5, 5);
-  view.clearance_mm = random.uniform(6, 16);
-  view.shift_mm = random.uniform(-15, 15);
-  view.compressed_fraction = random.uniform(0.45, 0.58);
-  view.thickness_error_mm = random.uniform() < 0.5 ? -3 : 3;
-  return view;
-}
-
 }  // namespace
-
-DrawnPatient draw_registration(int number, bool coarse, int attempt) {
-  CounterRandom random(kSeed, number, 0), build(kSeed, number, 1000 * (attempt + 1));
-  DrawnPatient drawn;
-  if (coarse) {
-    drawn.true_elements = kCoarseTruth;
-    drawn.elements = kCoarse;
-    drawn.patient.scan.voxel_mm = kCoarseVoxel_mm;
-  }
-  AnatomyOptions& a = drawn.patient.anatomy;
-  a.seed = kSeed * 1000 + number * 50 + attempt;
-  a.side = random.uniform() < 0.5 ? Side::left : Side::right;
-  a.volume_ml = random.uniform(350, 1000);
-  a.density = random.uniform(0.1, 0.35);
-  a.ptosis = random.uniform(0.1, 0.6);
-  a.projection = build.uniform(1.2, 1.8);
-  a.chest_half_width_mm = build.uniform(125, 150);
-  a.lesions = 3;
-  drawn.patient.scan.contrast =
-      number % 2 ? ScanContrast::not_suppressed : ScanContrast::fat_suppressed;
-  const double factor = number % 2 ? 2 : 0.5;  // off what the registering model assumes
-  const CompressionSettings assumed;
-  drawn.stiffness_ratio = factor * assumed.fibroglandular.c1_kpa / assumed.fat.c1_kpa;
-  drawn.views = {draw_view(random, "cc", 0), draw_view(random, "mlo", random.uniform(40, 50))};
-  return drawn;
-}
 
 TrueBreast::TrueBreast(const SyntheticPatient& patient, const DrawnPatient& drawn)
     : truth_(true_segmentation(patient.tissue, patient.labels, patient.truth)),

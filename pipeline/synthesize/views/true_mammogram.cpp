@@ -1,4 +1,4 @@
-#include "pipeline/evaluate/registration/true_mammogram.h"
+#include "pipeline/synthesize/views/true_mammogram.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "pipeline/evaluate/registration/true_views.h"
+#include "pipeline/synthesize/views/true_views.h"
 #include "registration/export/png_file.h"
 
 namespace mammotwin {
