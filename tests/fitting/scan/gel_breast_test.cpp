@@ -11,7 +11,7 @@ namespace {
 // What the project asks of a scan with 0.3 mm of noise, 1 % outliers and three holes.
 TEST(GelBreast, IsFittedToAQuarterMillimetreOfItsTrueSkin) {
   const ScanAccuracy accuracy =
-      gel_scan_accuracy(std::string(MAMMOTWIN_SOURCE_DIR) + "/sample_data/gel_breast/scan.ply");
+      gel_scan_accuracy(MAMMOTWIN_SOURCE_DIR "/sample_data/gel_breast/scan.ply");
   EXPECT_EQ(accuracy.holes, 3);
   EXPECT_NEAR(accuracy.noise_mm, 0.3, 0.1);
   EXPECT_LT(accuracy.outside_holes_mm, 0.25);
