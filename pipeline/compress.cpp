@@ -11,7 +11,7 @@
 #include "pipeline/steps/view_header.h"
 #include "pipeline/steps/view_problem.h"
 #include "registration/view/view_frame.h"
-#include "segmentation/files/segmentation_file.h"
+#include "segmentation/segmentation_file.h"
 #include "solver/newton/blas_kernels.h"
 #include "solver/press/checkpoint.h"
 

@@ -6,7 +6,7 @@
 #include "pipeline/frame/stage.h"
 #include "pipeline/patient/patient.h"
 #include "pipeline/steps/fit_quality.h"
-#include "segmentation/files/segmentation_file.h"
+#include "segmentation/segmentation_file.h"
 #include "solver/newton/blas_kernels.h"
 
 namespace mammotwin {

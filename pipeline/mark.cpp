@@ -9,10 +9,10 @@
 #include "pipeline/frame/command_line.h"
 #include "pipeline/steps/registered_view.h"
 #include "pipeline/steps/view_header.h"
-#include "registration/carry/mark_curve.h"
 #include "registration/export/markups.h"
 #include "registration/export/view_products.h"
-#include "registration/view/simulated_mammogram.h"
+#include "registration/prediction/simulated_mammogram.h"
+#include "registration/search/mark_curve.h"
 
 namespace mammotwin {
 namespace {

@@ -12,7 +12,7 @@
 #include "pipeline/steps/view_header.h"
 #include "registration/export/detector_record.h"
 #include "registration/export/predictions_text.h"
-#include "segmentation/files/segmentation_file.h"
+#include "segmentation/segmentation_file.h"
 #include "solver/newton/blas_kernels.h"
 
 namespace mammotwin {

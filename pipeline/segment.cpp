@@ -6,7 +6,7 @@
 #include "fitting/tissue/tissue_volumes.h"
 #include "pipeline/frame/stage.h"
 #include "pipeline/patient/patient.h"
-#include "segmentation/files/segmentation_file.h"
+#include "segmentation/segmentation_file.h"
 
 namespace mammotwin {
 namespace {

@@ -11,7 +11,7 @@
 #include "pipeline/steps/second_state.h"
 #include "pipeline/steps/unload_quality.h"
 #include "segmentation/files/detached_data.h"
-#include "segmentation/files/segmentation_file.h"
+#include "segmentation/segmentation_file.h"
 #include "solver/newton/blas_kernels.h"
 
 namespace mammotwin {

@@ -7,10 +7,10 @@
 #include "segmentation/body/judge_region.h"
 #include "segmentation/body/nipple.h"
 #include "segmentation/files/markups_point.h"
-#include "segmentation/files/read_image.h"
 #include "segmentation/image/crop.h"
 #include "segmentation/image/distance.h"
 #include "segmentation/label_maps/segment_labels.h"
+#include "segmentation/mri/read_mri.h"
 #include "segmentation/segment_limits.h"
 #include "segmentation/segment_mri.h"
 

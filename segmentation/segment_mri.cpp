@@ -6,16 +6,16 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "segmentation/body/half_breast.h"
 #include "segmentation/body/midline.h"
+#include "segmentation/chest_wall/half_breast.h"
 #include "segmentation/chest_wall/judge_wall.h"
 #include "segmentation/contrast_agent/before_agent.h"
 #include "segmentation/contrast_agent/enhancement.h"
-#include "segmentation/files/read_image.h"
 #include "segmentation/image/crop.h"
 #include "segmentation/lesion/lesion_seed.h"
 #include "segmentation/lesion/lesion_stage.h"
 #include "segmentation/lesion/measure_lesions.h"
+#include "segmentation/mri/read_mri.h"
 #include "segmentation/segment_limits.h"
 #include "segmentation/shading/correct_shading.h"
 #include "segmentation/shading/half_images.h"

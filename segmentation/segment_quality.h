@@ -8,7 +8,7 @@
 
 #include "segmentation/contrast_agent/enhancement.h"
 #include "segmentation/doubt.h"
-#include "segmentation/files/series_choice.h"
+#include "segmentation/mri/series_choice.h"
 #include "segmentation/segmentation.h"
 
 namespace mammotwin {

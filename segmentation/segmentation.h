@@ -31,6 +31,13 @@ struct Fractions {
   float lesion = 0;
 };
 
+/// All of a voxel to the tissue of its label (skin counts as fat); nothing outside the breast.
+inline Fractions pure_fractions(std::uint8_t value) {
+  if (label::is_lesion(value)) return {0, 0, 1};
+  if (value == label::fibroglandular) return {0, 1, 0};
+  return label::is_breast(value) ? Fractions{1, 0, 0} : Fractions{};
+}
+
 /// Rectangle in the coronal plane [mm, LPS] that bounds the breast: design "the breast".
 /// Vertical (antero-posterior) cut planes at x_min, x_max, z_min, z_max.
 struct BreastRegion {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "fitting/solve/one_blas_thread.h"
+#include "fitting/one_blas_thread.h"
 
 namespace mammotwin {
 

@@ -12,7 +12,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "fitting/solve/one_blas_thread.h"
+#include "fitting/one_blas_thread.h"
 
 namespace mammotwin {
 

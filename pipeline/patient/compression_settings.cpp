@@ -67,8 +67,8 @@ Detector ViewSettings::detector(const std::string& view, Side side) const {
                                 lateral_at_top.value_or(true)};
   }
   if (slice_count)
-    detector.slices = SliceStack{*slice_count, slice_spacing_mm.value(), lowest_slice_mm.value(),
-                                 first_slice_at_support.value()};
+    detector.slices = TomosynthesisSlices{*slice_count, slice_spacing_mm.value(),
+                                          lowest_slice_mm.value(), first_slice_at_support.value()};
   check_detector(detector);
   return detector;
 }

@@ -6,7 +6,7 @@
 #include "pipeline/frame/sidecar.h"
 #include "pipeline/report/patient_results.h"
 #include "registration/export/detector_record.h"
-#include "segmentation/files/segmentation_file.h"
+#include "segmentation/segmentation_file.h"
 
 namespace mammotwin {
 namespace {

@@ -3,7 +3,7 @@
 #include "registration/export/dicom/dicom_export.h"
 #include "registration/export/view_products.h"
 #include "registration/mammogram/mammogram_header.h"
-#include "segmentation/files/read_image.h"
+#include "segmentation/mri/read_mri.h"
 
 namespace mammotwin {
 namespace {

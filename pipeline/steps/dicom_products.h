@@ -2,7 +2,7 @@
 
 #include "pipeline/patient/patient.h"
 #include "pipeline/steps/registration_products.h"
-#include "registration/view/simulated_mammogram.h"
+#include "registration/prediction/simulated_mammogram.h"
 
 namespace mammotwin {
 

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "fitting/mesh/mesh_file.h"
-#include "registration/search/affine_baseline.h"
+#include "registration/prediction/affine_baseline.h"
 #include "registration/search/search_ellipse.h"
 #include "registration/search/search_verdict.h"
 #include "registration/search/what_if.h"

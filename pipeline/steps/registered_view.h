@@ -6,10 +6,10 @@
 #include <string>
 
 #include "pipeline/patient/compression_settings.h"
+#include "registration/prediction/project_lesions.h"
 #include "registration/search/search_ellipse.h"
 #include "registration/search/search_verdict.h"
 #include "registration/search/what_if.h"
-#include "registration/view/project_lesions.h"
 
 namespace mammotwin {
 

@@ -7,7 +7,7 @@
 #include "registration/carry/supine_place.h"
 #include "registration/export/markups.h"
 #include "registration/export/view_products.h"
-#include "segmentation/files/segmentation_file.h"
+#include "segmentation/segmentation_file.h"
 
 namespace mammotwin {
 namespace {

@@ -5,7 +5,7 @@
 #include "pipeline/frame/products.h"
 #include "pipeline/steps/lesion_ellipses.h"
 #include "registration/export/lesion_table.h"
-#include "registration/view/simulated_mammogram.h"
+#include "registration/prediction/simulated_mammogram.h"
 
 namespace mammotwin {
 

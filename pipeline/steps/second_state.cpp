@@ -6,7 +6,7 @@
 
 #include "fitting/surface/label_surface.h"
 #include "fitting/surface/read_surface.h"
-#include "segmentation/files/read_image.h"
+#include "segmentation/files/read_labels.h"
 
 namespace mammotwin {
 namespace {

@@ -24,8 +24,9 @@ Detector read_detector_record(const nlohmann::json& record) {
   read("support_gap_mm", detector.support_gap_mm);
   if (record.is_object() && record.contains("slices")) {
     const nlohmann::json& s = record["slices"];
-    detector.slices = SliceStack{s.value("count", 0), s.value("spacing_mm", 1.),
-                                 s.value("lowest_mm", 0.), s.value("first_at_support", true)};
+    detector.slices =
+        TomosynthesisSlices{s.value("count", 0), s.value("spacing_mm", 1.),
+                            s.value("lowest_mm", 0.), s.value("first_at_support", true)};
   }
   return detector;
 }

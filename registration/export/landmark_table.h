@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "registration/carry/ray_curve.h"
-#include "registration/view/project_lesions.h"
+#include "registration/prediction/project_lesions.h"
 
 namespace mammotwin {
 

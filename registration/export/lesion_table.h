@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "registration/view/project_lesions.h"
+#include "registration/prediction/project_lesions.h"
 #include "segmentation/segmentation.h"
 
 namespace mammotwin {

@@ -5,8 +5,8 @@
 
 #include "registration/carry/displacement_field.h"
 #include "registration/export/png_file.h"
-#include "registration/view/project_lesions.h"
-#include "registration/view/simulated_mammogram.h"
+#include "registration/prediction/project_lesions.h"
+#include "registration/prediction/simulated_mammogram.h"
 
 namespace mammotwin {
 

@@ -326,8 +326,8 @@ HeaderGeometry header_geometry(const MammogramHeader& h, const std::string& view
   grid.lateral_at_top = o.lateral_at_top ? *o.lateral_at_top : lateral_at_top_of(h, view, side);
   g.detector.pixels = grid;
   if (h.slices)
-    g.detector.slices = slice_stack(h, view_axes(side, g.angle_deg).row(2), g.thickness_mm,
-                                    o.slices, view, g.remarks);
+    g.detector.slices = tomosynthesis_slices(h, view_axes(side, g.angle_deg).row(2), g.thickness_mm,
+                                             o.slices, view, g.remarks);
   check_detector(g.detector);
   return g;
 }

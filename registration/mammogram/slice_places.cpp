@@ -76,10 +76,11 @@ bool first_at_support(const MammogramHeader& h, const Eigen::Vector3d& up,
 
 }  // namespace
 
-SliceStack slice_stack(const MammogramHeader& h, const Eigen::Vector3d& up_in_lps,
-                       const std::optional<double>& thickness_mm, const SliceOverrides& o,
-                       const std::string& view, std::vector<std::string>& remarks) {
-  SliceStack stack;
+TomosynthesisSlices tomosynthesis_slices(const MammogramHeader& h, const Eigen::Vector3d& up_in_lps,
+                                         const std::optional<double>& thickness_mm,
+                                         const SliceOverrides& o, const std::string& view,
+                                         std::vector<std::string>& remarks) {
+  TomosynthesisSlices stack;
   stack.count = h.frames.value_or(1);
   stack.spacing_mm = o.spacing_mm ? *o.spacing_mm : slice_spacing_of(h, view, remarks);
   stack.first_at_support =

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "registration/mammogram/mammogram_header.h"
-#include "registration/view/slice_stack.h"
+#include "registration/view/tomosynthesis_slices.h"
 
 namespace mammotwin {
 
@@ -22,8 +22,10 @@ struct SliceOverrides {
 ///
 /// Throws std::runtime_error naming the key of patient.toml that replaces what the header lacks:
 /// the spacing, or which end is first where positions are missing or do not lie along the beam.
-SliceStack slice_stack(const MammogramHeader& header, const Eigen::Vector3d& up_in_lps,
-                       const std::optional<double>& thickness_mm, const SliceOverrides& overrides,
-                       const std::string& view, std::vector<std::string>& remarks);
+TomosynthesisSlices tomosynthesis_slices(const MammogramHeader& header,
+                                         const Eigen::Vector3d& up_in_lps,
+                                         const std::optional<double>& thickness_mm,
+                                         const SliceOverrides& overrides, const std::string& view,
+                                         std::vector<std::string>& remarks);
 
 }  // namespace mammotwin

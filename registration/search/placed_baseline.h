@@ -1,6 +1,6 @@
 #pragma once
 
-#include "registration/search/affine_baseline.h"
+#include "registration/prediction/affine_baseline.h"
 #include "registration/search/view_match.h"
 
 namespace mammotwin {

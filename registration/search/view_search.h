@@ -1,6 +1,6 @@
 #pragma once
 
-#include "registration/search/affine_baseline.h"
+#include "registration/prediction/affine_baseline.h"
 #include "registration/search/model_discrepancy.h"
 #include "registration/search/search_ellipse.h"
 #include "registration/search/search_verdict.h"

@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <optional>
 
-#include "registration/view/slice_stack.h"
+#include "registration/view/tomosynthesis_slices.h"
 
 namespace mammotwin {
 
@@ -26,10 +26,10 @@ inline constexpr double kParallel_mm = 1e7;
 /// the middle of its chest-wall edge: u along the view's depth, v along its lateral axis. The
 /// source stands above that edge's middle, so rays there are vertical and the field is half a cone.
 struct Detector {
-  double source_distance_mm = 660;     ///< source to detector plane (DistanceSourceToDetector)
-  double support_gap_mm = 0;           ///< detector plane to support surface: real ones 10 to 20
-  std::optional<PixelGrid> pixels;     ///< absent: positions in mm only
-  std::optional<SliceStack> slices{};  ///< of a tomosynthesis volume
+  double source_distance_mm = 660;  ///< source to detector plane (DistanceSourceToDetector)
+  double support_gap_mm = 0;        ///< detector plane to support surface: real ones 10 to 20
+  std::optional<PixelGrid> pixels;  ///< absent: positions in mm only
+  std::optional<TomosynthesisSlices> slices{};  ///< of a tomosynthesis volume
 
   /// Point in the view frame -> (u, v). Magnification M = D / (D - gap - height).
   /// Throws std::invalid_argument at or above the source.

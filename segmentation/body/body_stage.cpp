@@ -6,10 +6,10 @@
 #include <stdexcept>
 
 #include "segmentation/body/body_mask.h"
+#include "segmentation/body/contrast.h"
 #include "segmentation/image/crop.h"
 #include "segmentation/image/denoise.h"
 #include "segmentation/image/noise.h"
-#include "segmentation/shading/contrast.h"
 
 namespace mammotwin {
 namespace {

@@ -4,9 +4,9 @@
 #include <optional>
 
 #include "segmentation/body/breast_frame.h"
+#include "segmentation/body/contrast.h"
 #include "segmentation/image/volume.h"
 #include "segmentation/segment_quality.h"
-#include "segmentation/shading/contrast.h"
 
 namespace mammotwin {
 

@@ -10,7 +10,6 @@
 #include "segmentation/image/components.h"
 #include "segmentation/image/crop.h"
 #include "segmentation/image/distance.h"
-#include "segmentation/label_maps/label_values.h"
 
 namespace mammotwin {
 namespace {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "segmentation/body/half_breast.h"
+#include "segmentation/chest_wall/half_breast.h"
 #include "segmentation/chest_wall/wall_stage.h"
 #include "segmentation/segment_quality.h"
 

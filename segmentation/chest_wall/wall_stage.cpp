@@ -8,8 +8,8 @@
 #include "segmentation/body/midline.h"
 #include "segmentation/chest_wall/muscle_brightness.h"
 #include "segmentation/image/crop.h"
+#include "segmentation/image/em_bias.h"
 #include "segmentation/image/smoothing.h"
-#include "segmentation/shading/em_bias.h"
 
 namespace mammotwin {
 namespace {

@@ -110,12 +110,6 @@ LabelValues own_label_values() {
   return values;
 }
 
-Fractions pure_fractions(std::uint8_t value) {
-  if (label::is_lesion(value)) return {0, 0, 1};
-  if (value == label::fibroglandular) return {0, 1, 0};
-  return label::is_breast(value) ? Fractions{1, 0, 0} : Fractions{};
-}
-
 MappedLabels map_labels(const Volume<std::uint16_t>& foreign, const LabelValues& values,
                         double least_lesion_ml) {
   MappedLabels out{foreign.like<std::uint8_t>(0), foreign.like<Fractions>()};

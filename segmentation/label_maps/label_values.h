@@ -25,9 +25,6 @@ using LabelValues = std::map<std::uint16_t, ForeignTissue>;
 /// Values of the project's own maps (segmentation.h).
 LabelValues own_label_values();
 
-/// All of a voxel to the tissue of its label (skin counts as fat); nothing outside the breast.
-Fractions pure_fractions(std::uint8_t value);
-
 /// Labels as in segmentation.h, and fractions, from a foreign map.
 struct MappedLabels {
   Volume<std::uint8_t> labels;

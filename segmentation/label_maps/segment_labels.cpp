@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "segmentation/body/midline.h"
-#include "segmentation/files/read_image.h"
+#include "segmentation/files/read_labels.h"
 #include "segmentation/label_maps/fill_behind_muscle.h"
 #include "segmentation/label_maps/segment_names.h"
 #include "segmentation/lesion/lesion_seed.h"

@@ -3,7 +3,7 @@
 #include <stdexcept>
 
 #include "segmentation/files/markups_point.h"
-#include "segmentation/files/read_image.h"
+#include "segmentation/files/read_labels.h"
 
 namespace mammotwin {
 namespace {

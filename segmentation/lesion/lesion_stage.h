@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "segmentation/body/half_breast.h"
+#include "segmentation/chest_wall/half_breast.h"
 #include "segmentation/lesion/lesion_seed.h"
 #include "segmentation/segment.h"
 #include "segmentation/shading/half_images.h"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "segmentation/body/half_breast.h"
+#include "segmentation/chest_wall/half_breast.h"
 #include "segmentation/segmentation.h"
 #include "segmentation/shading/half_images.h"
 #include "segmentation/skin/skin_stage.h"

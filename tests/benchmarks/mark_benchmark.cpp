@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "fitting/mesh/block_mesh.h"
-#include "registration/carry/mark_curve.h"
+#include "registration/search/mark_curve.h"
 #include "registration/view/view_frame.h"
 
 namespace mammotwin {

@@ -15,7 +15,7 @@
 #include "registration/export/lesion_table.h"
 #include "registration/export/markups.h"
 #include "registration/export/png_file.h"
-#include "segmentation/files/segmentation_file.h"
+#include "segmentation/segmentation_file.h"
 #include "solver/press/checkpoint.h"
 #include "tests/registration/mammogram_dicom.h"
 #include "tests/segmentation/files/dicom_writer.h"

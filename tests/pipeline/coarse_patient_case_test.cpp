@@ -8,7 +8,7 @@
 #include <chrono>
 
 #include "registration/export/png_file.h"
-#include "segmentation/files/segmentation_file.h"
+#include "segmentation/segmentation_file.h"
 #include "tests/pipeline/chain_run.h"
 #include "tests/pipeline/kills.h"
 #include "tests/pipeline/opened_streams.h"

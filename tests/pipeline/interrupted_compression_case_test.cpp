@@ -12,7 +12,7 @@
 #include <thread>
 
 #include "fitting/mesh/mesh_file.h"
-#include "segmentation/files/segmentation_file.h"
+#include "segmentation/segmentation_file.h"
 #include "tests/pipeline/command.h"
 #include "tests/pipeline/kills.h"
 #include "tests/pipeline/scratch_folder.h"

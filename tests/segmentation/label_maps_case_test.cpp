@@ -1,5 +1,5 @@
 #include "segmentation/body/breast_region.h"
-#include "segmentation/files/read_image.h"
+#include "segmentation/files/read_labels.h"
 #include "segmentation/label_maps/label_values.h"
 #include "tests/segmentation/cases.h"
 

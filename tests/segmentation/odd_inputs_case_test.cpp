@@ -1,4 +1,4 @@
-#include "segmentation/files/read_image.h"
+#include "segmentation/mri/read_mri.h"
 #include "tests/segmentation/cases.h"
 #include "tests/segmentation/message.h"
 

@@ -1,7 +1,7 @@
 #include <fstream>
 
-#include "segmentation/files/segmentation_file.h"
 #include "segmentation/segment.h"
+#include "segmentation/segmentation_file.h"
 #include "tests/segmentation/message.h"
 #include "tests/segmentation/phantom.h"
 

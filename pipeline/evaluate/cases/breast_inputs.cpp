@@ -12,7 +12,7 @@
 #include "pipeline/synthesize/option_table.h"
 #include "pipeline/synthesize/patient.h"
 #include "registration/view/view_frame.h"
-#include "segmentation/files/segmentation_file.h"
+#include "segmentation/segmentation_file.h"
 
 namespace mammotwin {
 namespace {

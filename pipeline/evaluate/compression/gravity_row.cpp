@@ -11,7 +11,7 @@
 #include "pipeline/frame/products.h"
 #include "pipeline/synthesize/options.h"
 #include "registration/carry/point_carrier.h"
-#include "segmentation/files/segmentation_file.h"
+#include "segmentation/segmentation_file.h"
 #include "solver/load/wall_surface.h"
 
 namespace mammotwin {

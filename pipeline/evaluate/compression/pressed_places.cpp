@@ -6,7 +6,7 @@
 
 #include "pipeline/steps/breast_problem.h"
 #include "registration/view/compressed_view.h"
-#include "segmentation/files/segmentation_file.h"
+#include "segmentation/segmentation_file.h"
 
 namespace mammotwin {
 namespace {

@@ -14,7 +14,7 @@
 #include "pipeline/evaluate/compression/pressed_places.h"
 #include "pipeline/frame/products.h"
 #include "pipeline/synthesize/option_table.h"
-#include "segmentation/files/read_image.h"
+#include "segmentation/files/read_labels.h"
 #include "segmentation/files/write_image_file.h"
 
 namespace mammotwin {

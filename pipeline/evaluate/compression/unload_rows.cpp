@@ -10,7 +10,7 @@
 #include "pipeline/steps/breast_problem.h"
 #include "registration/carry/point_carrier.h"
 #include "registration/view/view_frame.h"
-#include "segmentation/files/segmentation_file.h"
+#include "segmentation/segmentation_file.h"
 #include "solver/gravity/unload.h"
 #include "solver/press/compress.h"
 

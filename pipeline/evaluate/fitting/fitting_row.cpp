@@ -9,7 +9,7 @@
 #include "pipeline/evaluate/cases/breast_inputs.h"
 #include "pipeline/evaluate/cases/stage_command.h"
 #include "pipeline/frame/products.h"
-#include "segmentation/files/segmentation_file.h"
+#include "segmentation/segmentation_file.h"
 
 namespace mammotwin {
 namespace {

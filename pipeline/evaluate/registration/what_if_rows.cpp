@@ -13,7 +13,7 @@
 #include "pipeline/steps/breast_problem.h"
 #include "pipeline/steps/view_problem.h"
 #include "registration/search/what_if.h"
-#include "segmentation/files/segmentation_file.h"
+#include "segmentation/segmentation_file.h"
 
 namespace mammotwin {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "pipeline/evaluate/cases/label_maps.h"
 #include "pipeline/synthesize/map_patient.h"
-#include "segmentation/files/read_image.h"
+#include "segmentation/files/read_labels.h"
 
 namespace mammotwin {
 namespace {

@@ -8,8 +8,8 @@
 #include <sstream>
 
 #include "pipeline/evaluate/segmentation/score.h"
-#include "segmentation/files/segmentation_file.h"
 #include "segmentation/segment.h"
+#include "segmentation/segmentation_file.h"
 
 namespace mammotwin {
 namespace {

@@ -3,7 +3,7 @@
 #include <utility>
 #include <vector>
 
-#include "registration/view/project_lesions.h"
+#include "registration/prediction/project_lesions.h"
 #include "segmentation/segmentation.h"
 
 namespace mammotwin {

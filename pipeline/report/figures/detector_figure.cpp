@@ -10,7 +10,7 @@
 #include "pipeline/report/drawing/panel.h"
 #include "pipeline/report/view_figures.h"
 #include "pipeline/report/word.h"
-#include "registration/view/simulated_mammogram.h"
+#include "registration/prediction/simulated_mammogram.h"
 
 namespace mammotwin {
 namespace {

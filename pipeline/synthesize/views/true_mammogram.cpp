@@ -5,7 +5,7 @@
 
 #include "pipeline/synthesize/counter_random.h"
 #include "registration/carry/point_carrier.h"
-#include "registration/view/simulated_mammogram.h"
+#include "registration/prediction/simulated_mammogram.h"
 
 namespace mammotwin {
 namespace {

@@ -5,13 +5,13 @@
 #include <vector>
 
 #include "pipeline/synthesize/views/true_views.h"
-#include "registration/view/simulated_mammogram.h"
+#include "registration/prediction/simulated_mammogram.h"
 
 namespace mammotwin {
 
 /// Slices of a tomosynthesis scan, dense tissue bright; the first lies at the support.
 struct TomosynthesisVolume {
-  SliceStack stack;
+  TomosynthesisSlices stack;
   double pixel_mm = 0;
   std::vector<DetectorImage> slices;  ///< (u, v) of the breast's plane, from the edge
 };

@@ -1,4 +1,4 @@
-#include "segmentation/files/read_image.h"
+#include "segmentation/mri/read_mri.h"
 #include "tests/fuzz/readers/reader.h"
 
 namespace mammotwin::fuzz {

@@ -1,4 +1,4 @@
-#include "segmentation/files/segmentation_file.h"
+#include "segmentation/segmentation_file.h"
 #include "tests/fuzz/readers/reader.h"
 
 namespace mammotwin::fuzz {

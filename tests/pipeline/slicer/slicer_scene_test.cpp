@@ -7,7 +7,7 @@
 #include "registration/carry/displacement_field.h"
 #include "registration/carry/point_carrier.h"
 #include "registration/export/markups.h"
-#include "segmentation/files/segmentation_file.h"
+#include "segmentation/segmentation_file.h"
 #include "tests/pipeline/report/report_fake_results.h"
 #include "tests/pipeline/scratch_folder.h"
 #include "tests/pipeline/slicer/scene_reader.h"

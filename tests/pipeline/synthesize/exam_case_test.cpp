@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "segmentation/files/read_image.h"
+#include "segmentation/mri/read_mri.h"
 #include "tests/pipeline/command.h"
 #include "tests/pipeline/scratch_folder.h"
 #include "tests/where.h"

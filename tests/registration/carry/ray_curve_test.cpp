@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
+#include "registration/prediction/project_lesions.h"
 #include "registration/search/search_ellipse.h"
-#include "registration/view/project_lesions.h"
 #include "tests/registration/squeezed_box.h"
 
 namespace mammotwin {

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "registration/view/project_lesions.h"
+#include "registration/prediction/project_lesions.h"
 #include "segmentation/image/volume.h"
 #include "tests/registration/squeezed_box.h"
 

@@ -4,7 +4,7 @@
 
 #include "segmentation/body/breast_frame.h"
 #include "segmentation/chest_wall/wall_prior.h"
-#include "segmentation/files/read_image.h"
+#include "segmentation/files/read_labels.h"
 #include "segmentation/image/components.h"
 #include "tests/segmentation/cases.h"
 

@@ -7,9 +7,9 @@
 #include <optional>
 #include <random>
 
-#include "segmentation/files/read_image.h"
-#include "segmentation/files/segmentation_file.h"
+#include "segmentation/mri/read_mri.h"
 #include "segmentation/segment.h"
+#include "segmentation/segmentation_file.h"
 #include "tests/segmentation/files/dicom_writer.h"
 #include "tests/segmentation/message.h"
 #include "tests/segmentation/phantom.h"

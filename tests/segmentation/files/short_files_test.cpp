@@ -7,7 +7,7 @@
 
 #include "segmentation/files/detached_data.h"
 #include "segmentation/files/dicom_pixel_length.h"
-#include "segmentation/files/read_image.h"
+#include "segmentation/mri/read_mri.h"
 #include "tests/segmentation/files/dicom_writer.h"
 #include "tests/segmentation/message.h"
 

@@ -6,7 +6,7 @@
 #include <cerrno>
 #include <fstream>
 
-#include "segmentation/files/read_image.h"
+#include "segmentation/mri/read_mri.h"
 #include "tests/segmentation/files/dicom_writer.h"
 #include "tests/segmentation/message.h"
 

@@ -1,11 +1,11 @@
 #include <fstream>
 
 #include "segmentation/files/markups_point.h"
-#include "segmentation/files/read_image.h"
-#include "segmentation/files/segmentation_file.h"
+#include "segmentation/files/read_labels.h"
 #include "segmentation/files/write_image_file.h"
 #include "segmentation/image/crop.h"
 #include "segmentation/segment.h"
+#include "segmentation/segmentation_file.h"
 #include "tests/segmentation/message.h"
 
 namespace mammotwin {

@@ -7,7 +7,7 @@
 #include "pipeline/evaluate/cases/label_maps.h"
 #include "pipeline/evaluate/segmentation/segmentation_row.h"
 #include "pipeline/synthesize/map_patient.h"
-#include "segmentation/files/read_image.h"
+#include "segmentation/files/read_labels.h"
 #include "tests/segmentation/cases.h"
 #include "tests/segmentation/message.h"
 

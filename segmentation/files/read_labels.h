@@ -1,0 +1,14 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+
+#include "segmentation/image/volume.h"
+
+namespace mammotwin {
+
+/// Reads a label map (NIfTI, NRRD or MetaImage) onto the LPS grid. Values must be whole, 0 to
+/// 65535. Throws std::runtime_error naming the path, what was expected and what was found.
+Volume<std::uint16_t> read_labels(const std::filesystem::path& path);
+
+}  // namespace mammotwin
