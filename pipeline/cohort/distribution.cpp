@@ -46,7 +46,7 @@ std::vector<Distribution::Value> Distribution::outliers() const {
 std::vector<Distribution> distributions_of(const std::vector<PatientSummary>& cohort) {
   std::map<std::string, Distribution> by_name;
   for (const PatientSummary& patient : cohort)
-    for (const Figure& figure : patient.figures()) {
+    for (const NamedValue& figure : patient.figures()) {
       if (!figure.second.is_number()) continue;
       Distribution& d = by_name[figure.first];
       d.name = figure.first;

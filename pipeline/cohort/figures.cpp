@@ -9,15 +9,15 @@ namespace {
 using nlohmann::json;
 constexpr std::size_t kLongestPoint = 3;
 
-void add(const std::string& name, const json& value, std::vector<Figure>& figures);
+void add(const std::string& name, const json& value, std::vector<NamedValue>& figures);
 
-void add_table(const std::string& name, const json& table, std::vector<Figure>& figures) {
+void add_table(const std::string& name, const json& table, std::vector<NamedValue>& figures) {
   for (const auto& [key, value] : table.items()) add(name + "." + key, value, figures);
 }
 
 std::string id_text(const json& id) { return id.is_string() ? id.get<std::string>() : id.dump(); }
 
-void add_list(const std::string& name, const json& list, std::vector<Figure>& figures) {
+void add_list(const std::string& name, const json& list, std::vector<NamedValue>& figures) {
   const auto has_id = [](const json& item) { return item.is_object() && item.contains("id"); };
   if (std::all_of(list.begin(), list.end(), has_id)) {
     for (json item : list) {
@@ -32,7 +32,7 @@ void add_list(const std::string& name, const json& list, std::vector<Figure>& fi
     if (list[i].is_primitive()) add(name + "." + std::to_string(i), list[i], figures);
 }
 
-void add(const std::string& name, const json& value, std::vector<Figure>& figures) {
+void add(const std::string& name, const json& value, std::vector<NamedValue>& figures) {
   if (value.is_object())
     add_table(name, value, figures);
   else if (value.is_array())
@@ -43,11 +43,11 @@ void add(const std::string& name, const json& value, std::vector<Figure>& figure
 
 }  // namespace
 
-std::vector<Figure> figures_of(const std::string& prefix, const json& quality) {
-  std::vector<Figure> figures;
+std::vector<NamedValue> figures_of(const std::string& prefix, const json& quality) {
+  std::vector<NamedValue> figures;
   if (quality.is_object()) add_table(prefix, quality, figures);
   std::sort(figures.begin(), figures.end(),
-            [](const Figure& a, const Figure& b) { return a.first < b.first; });
+            [](const NamedValue& a, const NamedValue& b) { return a.first < b.first; });
   return figures;
 }
 

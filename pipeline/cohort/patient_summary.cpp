@@ -113,8 +113,8 @@ void judge(PatientSummary& summary, const CohortFolder& cohort) {
 
 }  // namespace
 
-std::vector<Figure> PatientSummary::figures() const {
-  std::vector<Figure> all;
+std::vector<NamedValue> PatientSummary::figures() const {
+  std::vector<NamedValue> all;
   for (const StageResult& result : results) {
     const auto some = figures_of(result.short_name(), result.quality);
     all.insert(all.end(), some.begin(), some.end());

@@ -21,7 +21,7 @@ struct PatientSummary {
   bool has_page = false;  ///< report.html is there
 
   bool failed() const { return status != "ok" && status != "look"; }
-  std::vector<Figure> figures() const;
+  std::vector<NamedValue> figures() const;
 };
 
 /// Where the cohort keeps what is not a result: RESULTS/.cohort. No patient's name begins with ".".

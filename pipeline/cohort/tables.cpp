@@ -43,7 +43,7 @@ std::vector<std::string> products_of(const std::vector<PatientSummary>& cohort) 
 std::vector<std::string> figure_columns(const std::vector<PatientSummary>& cohort) {
   std::map<std::string, std::set<std::string>> names_by_product;
   for (const PatientSummary& patient : cohort)
-    for (const Figure& figure : patient.figures())
+    for (const NamedValue& figure : patient.figures())
       names_by_product[figure.first.substr(0, figure.first.find('.'))].insert(figure.first);
   std::vector<std::string> columns;
   for (const std::string& product : products_of(cohort))
@@ -71,7 +71,7 @@ Table cohort_table(const std::vector<PatientSummary>& cohort) {
   table.columns.insert(table.columns.end(), names.begin(), names.end());
   for (const PatientSummary& patient : cohort) {
     std::map<std::string, std::string> value;
-    for (const Figure& figure : patient.figures()) value[figure.first] = text_of(figure.second);
+    for (const NamedValue& figure : patient.figures()) value[figure.first] = text_of(figure.second);
     std::vector<std::string> row{patient.patient, patient.status, patient.stage,
                                  joined(patient.reasons)};
     for (const std::string& name : names) row.push_back(value[name]);

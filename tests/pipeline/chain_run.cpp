@@ -7,6 +7,7 @@
 #include <iterator>
 #include <random>
 
+#include "tests/file_text.h"
 #include "tests/pipeline/faults/faults.h"
 #include "tests/where.h"
 
@@ -16,11 +17,6 @@ namespace {
 namespace fs = std::filesystem;
 using Bytes = std::map<std::string, std::string>;
 using Times = std::map<std::string, fs::file_time_type>;
-
-std::string text_of(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 /// `finished`: when each product with a sidecar was written; new ones are added.
 void expect_nothing_half_written(const ChainRun& chain, const Bytes& expected, Times& finished) {

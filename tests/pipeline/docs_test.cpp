@@ -9,6 +9,7 @@
 #include <regex>
 #include <string>
 
+#include "tests/file_text.h"
 #include "tests/where.h"
 
 namespace mammotwin {
@@ -17,11 +18,6 @@ namespace {
 namespace fs = std::filesystem;
 
 const fs::path kSource = MAMMOTWIN_SOURCE_DIR;
-
-std::string text_of(const fs::path& path) {
-  std::ifstream in(path);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 std::vector<std::smatch> matches(const std::string& text, const std::regex& pattern) {
   return {std::sregex_iterator(text.begin(), text.end(), pattern), {}};

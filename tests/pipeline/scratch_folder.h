@@ -5,8 +5,9 @@
 
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <string>
+
+#include "tests/file_text.h"
 
 namespace mammotwin {
 
@@ -27,10 +28,6 @@ class ScratchFolder : public testing::Test {
   std::filesystem::path write(const std::string& name, const std::string& text) const {
     std::ofstream(folder_ / name, std::ios::binary) << text;
     return folder_ / name;
-  }
-  static std::string text_of(const std::filesystem::path& path) {
-    std::ifstream in(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), {}};
   }
   /// The message of what `action` throws; empty if it throws nothing.
   template <class Action>

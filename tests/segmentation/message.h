@@ -27,15 +27,15 @@ inline void expect_mentions(const std::string& message, std::initializer_list<st
 }
 
 /// A folder that vanishes with the test.
-struct ScratchFolder {
+struct EmptyFolder {
   std::filesystem::path path;
-  explicit ScratchFolder(const std::string& name)
+  explicit EmptyFolder(const std::string& name)
       : path(std::filesystem::temp_directory_path() /
              ("mammotwin_" + std::to_string(getpid()) + "_" + name)) {
     std::filesystem::remove_all(path);
     std::filesystem::create_directories(path);
   }
-  ~ScratchFolder() { std::filesystem::remove_all(path); }
+  ~EmptyFolder() { std::filesystem::remove_all(path); }
 };
 
 }  // namespace mammotwin

@@ -26,7 +26,7 @@ SegmentInput input_for(const fs::path& mri, const Phantom& phantom,
 class SegmentMri : public testing::TestWithParam<bool> {};
 
 TEST_P(SegmentMri, FindsThePartsOfThePhantom) {
-  const ScratchFolder folder("phantom");
+  const EmptyFolder folder("phantom");
   Phantom phantom;
   phantom.fat_suppressed = GetParam();
   phantom.shading = 0.7;  // fat falls to half from front to back
@@ -76,7 +76,7 @@ INSTANTIATE_TEST_SUITE_P(Contrasts, SegmentMri, testing::Bool(), [](const auto& 
 });
 
 TEST(SegmentOfAnMri, RefusesALesionOutsideTheBreast) {
-  const ScratchFolder folder("outside");
+  const EmptyFolder folder("outside");
   const Phantom phantom{.voxel_mm = 3};
   SegmentInput input = input_for(write_phantom(folder.path, phantom), phantom);
   input.side = Side::left;
@@ -89,7 +89,7 @@ TEST(SegmentOfAnMri, RefusesALesionOutsideTheBreast) {
 }
 
 TEST(SegmentOfAnMri, KeepsTwoLesionsThatAreOneBrightPatch) {
-  const ScratchFolder folder("close");
+  const EmptyFolder folder("close");
   const Phantom phantom;
   SegmentInput input = input_for(write_phantom(folder.path, phantom), phantom, {-3.4, 0, 0});
   input.lesions.push_back({"L2", phantom.lesion + Eigen::Vector3d(3.4, 0, 0), {}, {}, {}, {}});
@@ -104,7 +104,7 @@ TEST(SegmentOfAnMri, KeepsTwoLesionsThatAreOneBrightPatch) {
 }
 
 TEST(SegmentOfAnMri, RefusesAnUnclearSide) {
-  const ScratchFolder folder("noside");
+  const EmptyFolder folder("noside");
   const Phantom phantom{.voxel_mm = 3};
   SegmentInput input = input_for(write_phantom(folder.path, phantom), phantom);
   input.lesions.push_back({"L2", phantom.right_base, {}, {}, {}, {}});
@@ -112,7 +112,7 @@ TEST(SegmentOfAnMri, RefusesAnUnclearSide) {
 }
 
 TEST(SegmentOfAnMri, RefusesAnImageWithoutBreasts) {
-  const ScratchFolder folder("flat");
+  const EmptyFolder folder("flat");
   Phantom phantom{.voxel_mm = 3};
   phantom.semi_axes = {52, 5, 60};  // under the coat
   SegmentInput input = input_for(write_phantom(folder.path, phantom), phantom);
@@ -120,7 +120,7 @@ TEST(SegmentOfAnMri, RefusesAnImageWithoutBreasts) {
 }
 
 TEST(SegmentOfAnMri, RefusesABreastCutInFront) {
-  const ScratchFolder folder("cut");
+  const EmptyFolder folder("cut");
   Phantom phantom{.voxel_mm = 3};
   phantom.semi_axes.y() = 120;  // the image begins 20 mm behind its tip
   SegmentInput input = input_for(write_phantom(folder.path, phantom), phantom);
@@ -128,7 +128,7 @@ TEST(SegmentOfAnMri, RefusesABreastCutInFront) {
 }
 
 TEST(SegmentOfAnMri, IsTheSameTwiceAndTellsItsProgress) {
-  const ScratchFolder folder("twice");
+  const EmptyFolder folder("twice");
   const Phantom phantom{.voxel_mm = 3};
   const SegmentInput input = input_for(write_phantom(folder.path, phantom), phantom);
   std::vector<double> fractions;
@@ -143,7 +143,7 @@ TEST(SegmentOfAnMri, IsTheSameTwiceAndTellsItsProgress) {
 }
 
 TEST(SegmentOfAnMri, ContrastCanBeGiven) {
-  const ScratchFolder folder("given_contrast");
+  const EmptyFolder folder("given_contrast");
   const Phantom phantom;  // suppressed
   SegmentInput input = input_for(write_phantom(folder.path, phantom), phantom);
   input.fat_suppressed = false;
@@ -152,7 +152,7 @@ TEST(SegmentOfAnMri, ContrastCanBeGiven) {
 
 /// Blurred over a voxel, half a voxel of skin hardly shows beside fat: muscle and gland decide.
 TEST(SegmentOfAnMri, ContrastIsThatOfOtherTissueWhereSkinHardlyShows) {
-  const ScratchFolder folder("thin_skin");
+  const EmptyFolder folder("thin_skin");
   const auto mentions = [](const SegmentResult& result) {
     const auto& reasons = result.quality.reasons;
     return std::any_of(reasons.begin(), reasons.end(), [](const std::string& reason) {
@@ -174,7 +174,7 @@ TEST(SegmentOfAnMri, ContrastIsThatOfOtherTissueWhereSkinHardlyShows) {
 }
 
 TEST(SegmentOfAnMri, NoiseThatTheScannerFilteredIsNotGland) {
-  const ScratchFolder folder("filtered");
+  const EmptyFolder folder("filtered");
   Phantom phantom;
   phantom.noise = 0.4;  // 0.12 of fat once filtered, 0.04 between neighbours
   phantom.is_filtered = true;
@@ -197,7 +197,7 @@ TEST(SegmentOfAnMri, NoiseThatTheScannerFilteredIsNotGland) {
 /// Not suppressed, after contrast agent: the lesion is as bright as fat, and is seen only against
 /// the image before.
 TEST(SegmentOfAnMri, ImageBeforeContrastAgentShowsTheLesion) {
-  const ScratchFolder folder("dynamic");
+  const EmptyFolder folder("dynamic");
   Phantom phantom;
   phantom.fat_suppressed = false;
   write_image(folder.path / "pre.nrrd", phantom.image());
@@ -216,7 +216,7 @@ TEST(SegmentOfAnMri, ImageBeforeContrastAgentShowsTheLesion) {
 }
 
 TEST(SegmentOfAnMri, RefusesAnImageBeforeContrastAgentOfAnotherPlace) {
-  const ScratchFolder folder("elsewhere");
+  const EmptyFolder folder("elsewhere");
   Phantom phantom;
   Volume<float> pre = phantom.image();
   pre.origin.z() += 60;
@@ -228,7 +228,7 @@ TEST(SegmentOfAnMri, RefusesAnImageBeforeContrastAgentOfAnotherPlace) {
 }
 
 TEST(SegmentOfAnMri, NamesAnImageTurnedBackToFront) {
-  const ScratchFolder folder("turned");
+  const EmptyFolder folder("turned");
   const Phantom phantom;
   const Volume<float> right = phantom.image();
   Volume<float> turned = right;

@@ -31,7 +31,7 @@ Segmentation small_segmentation() {
 }
 
 TEST(SegmentationFile, ComesBackAsItWas) {
-  const ScratchFolder folder("seg");
+  const EmptyFolder folder("seg");
   const Segmentation s = small_segmentation();
   write_segmentation(folder.path / "a.seg.nrrd", s);
   write_fractions(folder.path / "f.nrrd", s.fractions);
@@ -51,7 +51,7 @@ TEST(SegmentationFile, ComesBackAsItWas) {
 }
 
 TEST(SegmentationFile, HeaderIsWhatSlicerReads) {
-  const ScratchFolder folder("slicer");
+  const EmptyFolder folder("slicer");
   write_segmentation(folder.path / "a.seg.nrrd", small_segmentation());
   std::ifstream file(folder.path / "a.seg.nrrd", std::ios::binary);
   std::stringstream header;
@@ -63,7 +63,7 @@ TEST(SegmentationFile, HeaderIsWhatSlicerReads) {
 }
 
 TEST(SegmentationFile, TwoRunsWriteTheSameBytes) {
-  const ScratchFolder folder("bytes");
+  const EmptyFolder folder("bytes");
   for (const char* name : {"a.seg.nrrd", "b.seg.nrrd"})
     write_segmentation(folder.path / name, small_segmentation());
   const auto bytes = [&](const char* name) {
@@ -87,7 +87,7 @@ TEST(SegmentationFile, NiftiHoldsTheSameVoxelsInTheSamePlace) {
 }
 
 TEST(SegmentationFile, GridsMustAgree) {
-  const ScratchFolder folder("grids");
+  const EmptyFolder folder("grids");
   Segmentation s = small_segmentation();
   write_segmentation(folder.path / "a.seg.nrrd", s);
   s.fractions.origin.x() += 1;
@@ -99,7 +99,7 @@ TEST(SegmentationFile, GridsMustAgree) {
 
 // patient.toml refuses such names; here they come from a file that somebody edited.
 TEST(SegmentationFile, HostileNamesOfLesionsAreRefused) {
-  const ScratchFolder folder("names");
+  const EmptyFolder folder("names");
   Segmentation s = small_segmentation();
   write_fractions(folder.path / "f.nrrd", s.fractions);
   for (const std::string id : {"=cmd|' /C calc'!A0", "\u202egnp.1L", "a\x1b[31m"}) {

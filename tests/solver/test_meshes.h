@@ -106,8 +106,8 @@ inline HermiteMesh mapped_mesh(const Eigen::Vector3i& n,
 }
 
 /// (element, face) pairs whose face lies in the plane x_axis = value.
-inline std::vector<std::pair<int, int>> faces_in_plane(const HermiteMesh& mesh, int axis,
-                                                       double value, double tolerance = 1e-9) {
+inline std::vector<std::pair<int, int>> faces_at(const HermiteMesh& mesh, int axis, double value,
+                                                 double tolerance = 1e-9) {
   std::vector<std::pair<int, int>> faces;
   for (int e = 0; e < mesh.num_elements(); ++e)
     for (int face = 0; face < 6; ++face) {
@@ -121,7 +121,7 @@ inline std::vector<std::pair<int, int>> faces_in_plane(const HermiteMesh& mesh, 
 }
 
 inline void hold_plane(const HermiteMesh& mesh, int axis, double value, DofMap& dofs) {
-  for (const auto& [e, face] : faces_in_plane(mesh, axis, value))
+  for (const auto& [e, face] : faces_at(mesh, axis, value))
     for (int dof : face_dofs(mesh, e, face, axis)) dofs.prescribe(dof);
 }
 

@@ -8,7 +8,7 @@
 #include "solver/material/neo_hookean.h"
 #include "tests/solver/test_meshes.h"
 
-namespace mammotwin {
+namespace mammotwin::contact_test {
 namespace {
 
 constexpr double kC1 = 3;  // [kPa]
@@ -39,7 +39,7 @@ struct PressedBody {
     return count;
   }
   void hold_underside() {
-    for (const auto& [e, face] : faces_in_plane(mesh, 2, 0))
+    for (const auto& [e, face] : faces_at(mesh, 2, 0))
       for (int i = 0; i < 3; ++i)
         for (int dof : face_dofs(mesh, e, face, i)) dofs.prescribe(dof);
   }
@@ -125,4 +125,4 @@ TEST(Contact, HertzParaboloidOnARigidPlate) {
 }
 
 }  // namespace
-}  // namespace mammotwin
+}  // namespace mammotwin::contact_test

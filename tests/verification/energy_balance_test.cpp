@@ -2,7 +2,7 @@
 
 #include "pipeline/validation/gel_cylinder/gel_cylinder.h"
 
-namespace mammotwin {
+namespace mammotwin::energy_balance_test {
 namespace {
 
 // The plates' work is the stored energy. Work by the trapezoidal rule over the load steps errs by
@@ -19,4 +19,4 @@ TEST(EnergyBalance, WorkOfThePlatesIsStored) {
 }
 
 }  // namespace
-}  // namespace mammotwin
+}  // namespace mammotwin::energy_balance_test

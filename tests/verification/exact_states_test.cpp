@@ -7,7 +7,7 @@
 #include "tests/solver/test_meshes.h"
 #include "tests/verification/dead_traction.h"
 
-namespace mammotwin {
+namespace mammotwin::exact_states_test {
 namespace {
 
 constexpr double kC1 = 2, kSide = 20;  // [kPa], [mm]
@@ -35,10 +35,9 @@ struct SaggingSlab {
       return Eigen::Vector3d(2 * kC1 * shear(point.X.x()) * point.normal.z(), 0, 0);
     });
     for (const double z : {0.0, kSide})
-      for (const auto& [e, face] : faces_in_plane(mesh, 2, z))
-        model.add_surface_potential(e, face, pull);
+      for (const auto& [e, face] : faces_at(mesh, 2, z)) model.add_surface_potential(e, face, pull);
     for (int axis = 0; axis < 3; ++axis)
-      for (const auto& [e, face] : faces_in_plane(mesh, 0, 0))
+      for (const auto& [e, face] : faces_at(mesh, 0, 0))
         for (int dof : face_dofs(mesh, e, face, axis)) dofs.prescribe(dof);
     for (const double y : {0.0, kSide}) hold_plane(mesh, 1, y, dofs);
     dofs.number(mesh);
@@ -123,8 +122,7 @@ double residual_after(int k) {
   const auto pull = std::make_shared<DeadTraction>([](const SurfacePoint&) {
     return Eigen::Vector3d(2 * kC1 * (stretch - 1 / (stretch * stretch)), 0, 0);
   });
-  for (const auto& [e, face] : faces_in_plane(mesh, 0, kSide))
-    model.add_surface_potential(e, face, pull);
+  for (const auto& [e, face] : faces_at(mesh, 0, kSide)) model.add_surface_potential(e, face, pull);
   DofMap dofs(mesh);
   for (int axis = 0; axis < 3; ++axis) hold_plane(mesh, axis, 0, dofs);
   dofs.number(mesh);
@@ -154,4 +152,4 @@ TEST(ExactState, IsApproachedQuadratically) {
 }
 
 }  // namespace
-}  // namespace mammotwin
+}  // namespace mammotwin::exact_states_test

@@ -5,7 +5,7 @@
 #include "tests/solver/dome_breast.h"
 #include "tests/verification/plate_under_block.h"
 
-namespace mammotwin {
+namespace mammotwin::friction_test {
 namespace {
 
 constexpr double kC1 = PlateUnderBlock::kC1, kCoefficient = PlateUnderBlock::kCoefficient;
@@ -79,4 +79,4 @@ TEST(Friction, HoldsTheSkinOfABreastBack) {
 }
 
 }  // namespace
-}  // namespace mammotwin
+}  // namespace mammotwin::friction_test

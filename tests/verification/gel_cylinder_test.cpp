@@ -6,7 +6,7 @@
 #include <numbers>
 #include <stdexcept>
 
-namespace mammotwin {
+namespace mammotwin::gel_cylinder_test {
 namespace {
 
 CylinderFigures squeeze(CylinderCase how, const CylinderElements& elements, double thickness = 17) {
@@ -90,4 +90,4 @@ TEST(GelCylinder, RefusesWhatItCannotMesh) {
 }
 
 }  // namespace
-}  // namespace mammotwin
+}  // namespace mammotwin::gel_cylinder_test

@@ -6,7 +6,7 @@
 #include "solver/newton/newton.h"
 #include "tests/solver/test_meshes.h"
 
-namespace mammotwin {
+namespace mammotwin::gravity_test {
 namespace {
 
 constexpr double kC1 = 1, kHeight = 40;  // [kPa], [mm]
@@ -64,4 +64,4 @@ TEST(Gravity, OnThenOffReturnsTheUnloadedShape) {
 }
 
 }  // namespace
-}  // namespace mammotwin
+}  // namespace mammotwin::gravity_test

@@ -7,7 +7,7 @@
 #include "tests/solver/test_meshes.h"
 #include "tests/verification/dead_traction.h"
 
-namespace mammotwin {
+namespace mammotwin::incompressible_bending_test {
 namespace {
 
 // Cook's membrane in plane strain, incompressible: 48 long, 44 high at the clamped side, 16 at the
@@ -73,7 +73,7 @@ struct BondedStrip {
     hold_plane(mesh, 2, 0, dofs);
     hold_plane(mesh, 2, 1, dofs);
     std::vector<HermiteMesh::Node> pending(mesh.num_nodes(), HermiteMesh::Node::Zero());
-    for (const auto& [e, face] : faces_in_plane(mesh, 1, kHalfHeight))
+    for (const auto& [e, face] : faces_at(mesh, 1, kHalfHeight))
       for (int i = 0; i < 3; ++i)
         for (int dof : face_dofs(mesh, e, face, i)) dofs.prescribe(dof);
     for (int i = 0; i < mesh.num_nodes(); ++i)
@@ -134,4 +134,4 @@ TEST(BondedStrip, HasAPressureWithoutOscillation) {
 }
 
 }  // namespace
-}  // namespace mammotwin
+}  // namespace mammotwin::incompressible_bending_test

@@ -9,7 +9,7 @@
 #include "tests/solver/test_meshes.h"
 #include "tests/verification/follower_pressure.h"
 
-namespace mammotwin {
+namespace mammotwin::inflation_test {
 namespace {
 
 constexpr double kC1 = 3, kInner = 10, kOuter = 20;  // [kPa], [mm]
@@ -91,4 +91,4 @@ TEST(Inflation, TubeInAStiffSkinIsTheClosedForm) {
 }
 
 }  // namespace
-}  // namespace mammotwin
+}  // namespace mammotwin::inflation_test

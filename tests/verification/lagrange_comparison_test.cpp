@@ -6,7 +6,7 @@
 #include "pipeline/validation/lagrange/lagrange_mesh.h"
 #include "pipeline/validation/lagrange/strain_jump.h"
 
-namespace mammotwin {
+namespace mammotwin::lagrange_comparison_test {
 namespace {
 
 // A field that the order holds is the same polynomial whether nodes or Hermite coefficients carry
@@ -57,4 +57,4 @@ TEST(LagrangeCylinder, ComesNearThePeers) {
 }
 
 }  // namespace
-}  // namespace mammotwin
+}  // namespace mammotwin::lagrange_comparison_test

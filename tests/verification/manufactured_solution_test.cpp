@@ -8,7 +8,7 @@
 #include "tests/solver/test_meshes.h"
 #include "tests/verification/dead_traction.h"
 
-namespace mammotwin {
+namespace mammotwin::manufactured_solution_test {
 namespace {
 
 constexpr double kSide = 20, kC1 = 1, kShear = 4, kPressure = 0.8;  // [mm], [kPa], [mm], [kPa]
@@ -128,4 +128,4 @@ TEST(ManufacturedSolution, OrdersOnUniformMeshes) { expect_orders(false); }
 TEST(ManufacturedSolution, OrdersOnBentMeshes) { expect_orders(true); }
 
 }  // namespace
-}  // namespace mammotwin
+}  // namespace mammotwin::manufactured_solution_test

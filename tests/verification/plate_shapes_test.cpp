@@ -7,7 +7,7 @@
 #include "tests/scratch_file.h"
 #include "tests/solver/dome_breast.h"
 
-namespace mammotwin {
+namespace mammotwin::plate_shapes_test {
 namespace {
 
 CompressionProblem coarse_dome() {
@@ -135,4 +135,4 @@ TEST(PlateShapes, WithoutFrictionItDoesNotMatterWhichPlateMoves) {
 }
 
 }  // namespace
-}  // namespace mammotwin
+}  // namespace mammotwin::plate_shapes_test

@@ -26,7 +26,7 @@ class PlateUnderBlock {
         model_(mesh, uniform(std::make_shared<NeoHookean>(kC1)),
                {PressureSpace::trilinear, 1e6, 0}),
         dofs_(mesh) {
-    faces_ = faces_in_plane(mesh, 2, 0);
+    faces_ = faces_at(mesh, 2, 0);
     contact_->penalty = 1000;
     contact_->plates = {Plate{{0, 0, 0}, {0, 0, 1}, {0, 1, 0}, 0, true}};
     for (const auto& [e, face] : faces_) {
@@ -84,7 +84,7 @@ class PlateUnderBlock {
     ASSERT_TRUE(report.usable()) << report.reason;
   }
   void hold_plane_along(int component, double height) {
-    for (const auto& [e, face] : faces_in_plane(mesh_, 2, height))
+    for (const auto& [e, face] : faces_at(mesh_, 2, height))
       for (int dof : face_dofs(mesh_, e, face, component)) dofs_.prescribe(dof);
   }
   void tie_ends() {

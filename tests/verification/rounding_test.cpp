@@ -60,7 +60,7 @@ TEST(Rounding, ABlockYieldsAlikeToAPlatesEdge) {
     for (int axis = 0; axis < 3; ++axis) hold_plane(mesh, axis, 0, dofs);
     dofs.number(mesh);
     auto contact = std::make_shared<PlateContact>();
-    const auto faces = faces_in_plane(mesh, 2, 20);
+    const auto faces = faces_at(mesh, 2, 20);
     for (const auto& [e, face] : faces) model.add_surface_potential(e, face, contact);
     contact->plates = {Plate{{0, 5, 14 + k * kPerturbation}, {0, 0, -1}, {0, 1, 0}, 2}};
     State state = model.rest();

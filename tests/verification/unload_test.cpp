@@ -4,7 +4,7 @@
 #include "solver/material/neo_hookean.h"
 #include "tests/solver/dome_breast.h"
 
-namespace mammotwin {
+namespace mammotwin::unload_test {
 namespace {
 
 constexpr double kC1 = 1, kLength = 40;  // [kPa], [mm]
@@ -18,7 +18,7 @@ BreastProblem hanging_body(const HermiteMesh& mesh, const TissueSampler& tissue,
   inside.fill(FaceLabel::interior);
   problem.mesh.mesh = mesh;
   problem.mesh.faces.assign(mesh.num_elements(), inside);
-  for (const auto& [e, face] : faces_in_plane(mesh, 2, 0))
+  for (const auto& [e, face] : faces_at(mesh, 2, 0))
     problem.mesh.faces[e][face] = FaceLabel::chest_wall;
   problem.tissue = tissue;
   problem.laws.laws = {std::make_shared<NeoHookean>(kC1), std::make_shared<NeoHookean>(5 * kC1),
@@ -159,4 +159,4 @@ TEST(FitStiffness, FindsTheFactorFromASupineShape) {
 }
 
 }  // namespace
-}  // namespace mammotwin
+}  // namespace mammotwin::unload_test

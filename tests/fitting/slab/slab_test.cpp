@@ -9,8 +9,8 @@
 namespace mammotwin {
 namespace {
 
-constexpr double kSide = FlatTarget::side, kDepth = FlatTarget::depth;
-const BreastRegion kRegion{Side::left, 0, kSide, 0, kSide};
+constexpr double kFlatSide = FlatTarget::side, kFlatDepth = FlatTarget::depth;
+const BreastRegion kRegion{Side::left, 0, kFlatSide, 0, kFlatSide};
 const Eigen::Vector3i kElements(3, 2, 2);
 
 HermiteMesh start_of(const FlatTarget& flat) {
@@ -36,7 +36,7 @@ TEST(Slab, StartsAsABrickBetweenTwoPlanes) {
   const FlatTarget flat(kElements, 3);
   const HermiteMesh start = start_of(flat);
   everywhere([&](const MeshPoint& p, const Eigen::Vector3d& uvw) {
-    const Eigen::Vector3d x(kSide * uvw.x(), -(kDepth + 3) * uvw.z(), kSide * uvw.y());
+    const Eigen::Vector3d x(kFlatSide * uvw.x(), -(kFlatDepth + 3) * uvw.z(), kFlatSide * uvw.y());
     EXPECT_LT((start.position(p) - x).norm(), 1e-9);
   });
 }
@@ -45,7 +45,7 @@ TEST(Slab, StartsAsABrickBetweenTwoPlanes) {
 // of at most 48 mm in a unit square bends it by about the square root of 1e-7 48²: 15 µm.
 TEST(Slab, StartsOnABicubicSkin) {
   FlatTarget flat(kElements, 0);
-  const auto skin_y = [](double u, double v) { return -kDepth - 8 * u * u * u * v * v; };
+  const auto skin_y = [](double u, double v) { return -kFlatDepth - 8 * u * u * u * v * v; };
   for (std::size_t n = 0; n < flat.skin.vertices.size(); ++n)
     flat.skin.vertices[n].y() = skin_y(flat.flat.uv[n].x(), flat.flat.uv[n].y());
   const HermiteMesh start = start_of(flat);
@@ -62,8 +62,8 @@ TEST(Slab, HeldParametersAreThoseThatKeepTheSidesInTheirPlanes) {
     double off = 0;
     everywhere([&](const MeshPoint& p, const Eigen::Vector3d& uvw) {
       const Eigen::Vector3d x = mesh.position(p);
-      if (uvw.x() == 0 || uvw.x() == 1) off = std::max(off, std::abs(x.x() - kSide * uvw.x()));
-      if (uvw.y() == 0 || uvw.y() == 1) off = std::max(off, std::abs(x.z() - kSide * uvw.y()));
+      if (uvw.x() == 0 || uvw.x() == 1) off = std::max(off, std::abs(x.x() - kFlatSide * uvw.x()));
+      if (uvw.y() == 0 || uvw.y() == 1) off = std::max(off, std::abs(x.z() - kFlatSide * uvw.y()));
     });
     return off;
   };
@@ -92,11 +92,12 @@ TEST(Slab, FacesAreLabelledByWhereTheyLie) {
       Eigen::Vector3d xi = Eigen::Vector3d::Constant(0.5);
       xi[face / 2] = face % 2;
       const Eigen::Vector3d x = flat.box.position({e, xi});
-      const bool on_side = std::min(x.x(), x.z()) < 1e-9 || std::max(x.x(), x.z()) > kSide - 1e-9;
-      const FaceLabel expected = x.y() > -1e-9            ? FaceLabel::chest_wall
-                                 : x.y() < -kDepth + 1e-9 ? FaceLabel::skin
-                                 : on_side                ? FaceLabel::cut
-                                                          : FaceLabel::interior;
+      const bool on_side =
+          std::min(x.x(), x.z()) < 1e-9 || std::max(x.x(), x.z()) > kFlatSide - 1e-9;
+      const FaceLabel expected = x.y() > -1e-9                ? FaceLabel::chest_wall
+                                 : x.y() < -kFlatDepth + 1e-9 ? FaceLabel::skin
+                                 : on_side                    ? FaceLabel::cut
+                                                              : FaceLabel::interior;
       EXPECT_EQ(faces[e][face], expected) << "element " << e << ", face " << face;
     }
 }

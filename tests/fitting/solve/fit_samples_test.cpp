@@ -9,7 +9,7 @@
 namespace mammotwin {
 namespace {
 
-constexpr double kSide = FlatTarget::side, kDepth = FlatTarget::depth;
+constexpr double kSkinSide = FlatTarget::side, kSkinDepth = FlatTarget::depth;
 constexpr int kData = 81, kOnEdges = 4 * 9;  // of FlatTarget's sheet
 
 double sum_of_weights(const std::vector<PlaneSample>& samples, int first, int count) {
@@ -55,7 +55,7 @@ TEST(FitSamples, DataAreSeenAtTheirFeetAcrossTheSkin) {
 // A nipple's weight is 20 and falls as a Gaussian 10 mm wide: 1 + 20 exp(-d² / 200).
 TEST(FitSamples, SkinCountsMoreNearTheNipple) {
   FlatTarget flat({2, 2, 1}, 0);
-  const Eigen::Vector3d nipple(kSide / 2, -kDepth, kSide / 2);
+  const Eigen::Vector3d nipple(kSkinSide / 2, -kSkinDepth, kSkinSide / 2);
   FitTarget target(flat.slab, flat.skin, flat.flat, flat.wall, nipple);
   target.weigh_mesh(flat.box);
   const auto with = target.samples(flat.box, {});

@@ -34,7 +34,7 @@ constexpr int kPatience_ms = 60000;  // a machine under load draws slowly withou
   _exit(127);
 }
 
-std::string text_of(const json& value) {
+std::string plain_text(const json& value) {
   return value.is_string() ? value.get<std::string>() : value.dump();
 }
 
@@ -102,7 +102,7 @@ void Browser::note(const json& event) {
   if (method == "Runtime.consoleAPICalled" && p["type"] == "error")
     complaints_.push_back(p["args"].dump());
   if (method == "Log.entryAdded" && p["entry"]["level"] == "error")
-    complaints_.push_back(text_of(p["entry"]["text"]));
+    complaints_.push_back(plain_text(p["entry"]["text"]));
 }
 
 json Browser::call(const std::string& method, const json& parameters) {

@@ -11,6 +11,7 @@
 #include "pipeline/report/figures/overview_picture.h"
 #include "pipeline/report/page_data.h"
 #include "pipeline/report/page_template.h"
+#include "tests/file_text.h"
 #include "tests/pipeline/report/report_fake_results.h"
 #include "tests/scratch_file.h"
 
@@ -20,12 +21,6 @@ namespace {
 namespace fs = std::filesystem;
 
 void write_text(const fs::path& path, const std::string& text) { std::ofstream(path) << text; }
-
-std::string text_of(const fs::path& path) {
-  std::ostringstream text;
-  text << std::ifstream(path).rdbuf();
-  return text.str();
-}
 
 std::size_t count(const std::string& text, const std::string& part) {
   std::size_t n = 0;

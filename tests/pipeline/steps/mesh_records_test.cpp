@@ -11,10 +11,12 @@ namespace {
 
 using MeshRecords = ScratchFolder;
 
-MeshFile block() { return {block_mesh({0, 0, 0}, {60, 60, 60}, {1, 1, 1}), {}, {}, {}, {}, {}}; }
+MeshFile one_element() {
+  return {block_mesh({0, 0, 0}, {60, 60, 60}, {1, 1, 1}), {}, {}, {}, {}, {}};
+}
 
 TEST_F(MeshRecords, ASolutionComesBackNumberByNumber) {
-  MeshFile file = block();
+  MeshFile file = one_element();
   EXPECT_FALSE(read_solution(file, "cc.vtu"));
   write_solution({{1.5, -2}, 1, 2, 3, 4, 5, 6, {{7, 1, {8, 9, 10}, 11}}}, file);
   const auto found = read_solution(file, "cc.vtu");
@@ -36,7 +38,7 @@ TEST_F(MeshRecords, ASolutionComesBackNumberByNumber) {
 }
 
 TEST_F(MeshRecords, ADamagedFieldIsNamed) {
-  MeshFile file = block();
+  MeshFile file = one_element();
   write_solution({}, file);
   file.metadata.begin()->second.push_back(0);  // plates: the first by name
   const std::string message = message_of([&] { read_solution(file, "cc.vtu"); });
@@ -45,7 +47,7 @@ TEST_F(MeshRecords, ADamagedFieldIsNamed) {
 }
 
 TEST_F(MeshRecords, WhatRegisterKnowsComesBack) {
-  MeshFile file = block();
+  MeshFile file = one_element();
   RegisteredRecord::Baseline baseline;
   baseline.frame.origin_in_lps = {1, 2, 3};
   baseline.frame.axes << 0, -1, 0, 1, 0, 0, 0, 0, 1;
@@ -83,7 +85,7 @@ TEST_F(MeshRecords, WhatRegisterKnowsComesBack) {
 }
 
 TEST_F(MeshRecords, AMeshWithoutFaceLabelsIsNoBreast) {
-  const std::string message = message_of([&] { breast_problem(block(), {}, {}, 1); });
+  const std::string message = message_of([&] { breast_problem(one_element(), {}, {}, 1); });
   EXPECT_NE(message.find("face_labels has 0 rows; expected 1"), std::string::npos) << message;
 }
 

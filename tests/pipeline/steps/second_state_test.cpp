@@ -11,7 +11,7 @@ namespace mammotwin {
 namespace {
 
 /// A flat slab of 30 x 30 x 10 mm with skin on top, no cut faces.
-MeshFile slab() {
+MeshFile mesh_of_a_slab() {
   MeshFile file{box_mesh({30, 30, 10}, {3, 3, 1}), {}, {}, {}, {}, {}};
   FaceLabels labels;
   labels.fill(FaceLabel::interior);
@@ -31,7 +31,7 @@ class SecondStateTest : public ScratchFolder {
 };
 
 TEST_F(SecondStateTest, DistanceToASurfaceIsTheRootMeanSquare) {
-  const MeshFile mesh = slab();
+  const MeshFile mesh = mesh_of_a_slab();
   const SecondState level(plane(12.5), mesh);
   EXPECT_NEAR(level.distance(mesh.mesh.nodes()), 2.5, 1e-6);
   // Tilted by z = z0 + x/10 over 0..30, at the middles of 12 strips of 2.5 mm.
@@ -49,18 +49,18 @@ TEST_F(SecondStateTest, ReadsALabelMapToo) {
   std::fill(labels.begin(), labels.begin() + 60 * 60 * 22, std::uint8_t{2});
   write_nrrd(folder_ / "labels.nrrd", {{60, 60, 40}, {1, 1, 1}, {-15, -15, -10}}, labels.data(), 1,
              {});
-  const MeshFile mesh = slab();
+  const MeshFile mesh = mesh_of_a_slab();
   EXPECT_NEAR(SecondState(folder_ / "labels.nrrd", mesh).distance(mesh.mesh.nodes()), 1.5, 0.05);
 }
 
 TEST_F(SecondStateTest, SaysWhatIsWrong) {
-  const MeshFile mesh = slab();
+  const MeshFile mesh = mesh_of_a_slab();
   EXPECT_NE(message_of([&] { SecondState(folder_ / "none.ply", mesh); }).find("no such file"),
             std::string::npos);
   EXPECT_NE(
       message_of([&] { SecondState(write("bad.stl", "solid nothing"), mesh); }).find("bad.stl"),
       std::string::npos);
-  MeshFile bare = slab();
+  MeshFile bare = mesh_of_a_slab();
   for (auto& labels : bare.faces) labels[5] = FaceLabel::cut;
   EXPECT_NE(message_of([&] { SecondState(plane(12), bare); }).find("no skin"), std::string::npos);
 }

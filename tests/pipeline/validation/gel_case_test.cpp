@@ -7,12 +7,12 @@
 namespace mammotwin {
 namespace {
 
-const std::filesystem::path kCases =
+const std::filesystem::path kGelCases =
     std::filesystem::path(MAMMOTWIN_SOURCE_DIR) / "sample_data/gel_cylinder";
 
 TEST(GelCase, EveryFileOfTheSampleDataReads) {
   for (const std::string name : {"lateral", "plane_strain", "axial", "bonded"}) {
-    const GelCase c = read_gel_case(kCases / (name + ".toml"));
+    const GelCase c = read_gel_case(kGelCases / (name + ".toml"));
     EXPECT_EQ(c.name, name);
     EXPECT_TRUE(c.force_N && c.force_target) << name;
     EXPECT_EQ(c.experiment.elements.square % 2, 0) << name;
@@ -36,7 +36,7 @@ TEST_F(GelCaseFile, UnknownKeyIsRefusedWithTheNearestOne) {
 // Coarse and off by more than the target: what is missed is said, and the keys that others read
 // stand where design, section 1, has them.
 TEST(GelResult, HasTheKeysOfTheDesignAndSaysWhatItMisses) {
-  GelCase c = read_gel_case(kCases / "axial.toml");
+  GelCase c = read_gel_case(kGelCases / "axial.toml");
   c.force_N = 2 * *c.force_N;
   const GelResult result = run_gel_case(c, [](const std::string&) {});
   const nlohmann::json entry = to_json(result);

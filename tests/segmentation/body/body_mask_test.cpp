@@ -8,15 +8,16 @@ namespace {
 constexpr int skin_begins = 20, skin_voxels = 2;  // slices of 1 mm
 constexpr double share = 0.3;
 
-struct Scene {
+struct BodyWithSkin {
   Volume<float> image;
   Volume<std::uint8_t> body;
 };
 
 /// A flat fat-suppressed body over 20 slices of air: skin 2, fat `fat`; in the middle of the air 8
 /// slices of ghost of brightness `ghost` hang on it, which the mask takes for body.
-Scene body_with_ghost(float fat, float ghost) {
-  Scene scene{Volume<float>({40, 40, 50}, Eigen::Vector3d::Ones(), Eigen::Vector3d::Zero(), 0), {}};
+BodyWithSkin body_with_ghost(float fat, float ghost) {
+  BodyWithSkin scene{
+      Volume<float>({40, 40, 50}, Eigen::Vector3d::Ones(), Eigen::Vector3d::Zero(), 0), {}};
   scene.body = scene.image.like<std::uint8_t>(0);
   for (int k = 0; k < 50; ++k)
     for (int j = 0; j < 40; ++j)
@@ -33,7 +34,7 @@ Scene body_with_ghost(float fat, float ghost) {
 }
 
 TEST(BodyMask, AGhostThatHangsOnTheBodyIsCutOffToTheSkin) {
-  const Scene scene = body_with_ghost(1, 0.1F);
+  const BodyWithSkin scene = body_with_ghost(1, 0.1F);
   const auto without_ghost = cut_ghosts(scene.image, scene.body, share);
   // What is left of it shines by the skin's blur, and belongs to the rim.
   for (int k = 0; k < skin_begins - 3; ++k) EXPECT_EQ(without_ghost(20, 20, k), 0) << k;
@@ -56,7 +57,7 @@ TEST(BodyMask, HazeInTheAirIsNoBodyWhereNoiseIsLow) {
 
 TEST(BodyMask, DarkFatBehindSkinIsNoGhost) {
   // Fat a tenth as bright as skin, as where suppression works well: skin keeps it.
-  const Scene scene = body_with_ghost(0.2F, 0.02F);
+  const BodyWithSkin scene = body_with_ghost(0.2F, 0.02F);
   const auto cut = cut_ghosts(scene.image, scene.body, share);
   for (int k = skin_begins; k < 50; ++k) EXPECT_EQ(cut(20, 20, k), 1) << k;
 }

@@ -166,7 +166,7 @@ class DamagedInputs : public testing::Test {
     expect_mentions(message_of([&] { segment(input, {}); }), {name, word});
   }
 
-  ScratchFolder folder_{"damaged"};
+  EmptyFolder folder_{"damaged"};
   int count_ = 0, readable_ = 0, segmented_ = 0;
 };
 

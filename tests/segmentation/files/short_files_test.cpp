@@ -34,7 +34,7 @@ std::string meta_header(const std::string& dimensions, const std::string& data_f
 }
 
 struct ShortFiles : testing::Test {
-  ScratchFolder folder{"short"};
+  EmptyFolder folder{"short"};
   fs::path write(const std::string& name, const std::string& bytes) const {
     std::ofstream(folder.path / name, std::ios::binary) << bytes;
     return folder.path / name;

@@ -18,7 +18,7 @@ using std::chrono::milliseconds;
 
 class TrialRead : public testing::Test {
  protected:
-  ScratchFolder folder{"trial_read"};
+  EmptyFolder folder{"trial_read"};
 
   fs::path write(const std::string& name, const std::string& bytes) {
     std::ofstream(folder.path / name, std::ios::binary) << bytes;

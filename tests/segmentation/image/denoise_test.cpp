@@ -8,13 +8,13 @@
 namespace mammotwin {
 namespace {
 
-constexpr double noise = 5;
+constexpr double step_noise = 5;
 
 /// A step of 100 at i = 10, with noise.
 Volume<float> noisy_step() {
   Volume<float> image({20, 16, 16}, Eigen::Vector3d::Ones(), Eigen::Vector3d::Zero(), 0);
   std::mt19937 random(5);
-  std::normal_distribution<float> gauss(0, noise);
+  std::normal_distribution<float> gauss(0, step_noise);
   for (int k = 0; k < 16; ++k)
     for (int j = 0; j < 16; ++j)
       for (int i = 0; i < 20; ++i) image(i, j, k) = (i < 10 ? 100.0F : 200.0F) + gauss(random);
@@ -29,11 +29,11 @@ double spread(const Volume<float>& image, int i, double mean) {
 }
 
 TEST(Denoise, AveragesNoiseAndKeepsTheEdge) {
-  const Volume<float> out = denoised(noisy_step(), noise);
+  const Volume<float> out = denoised(noisy_step(), step_noise);
   // About half of 57 neighbours count: noise falls to a fifth to a third; the step of 20 noises
   // lies beyond the likeness, so that the voxels on both sides of it keep their side's level.
-  for (const int i : {5, 9}) EXPECT_LT(spread(out, i, 100), 0.4 * noise) << i;
-  for (const int i : {10, 15}) EXPECT_LT(spread(out, i, 200), 0.4 * noise) << i;
+  for (const int i : {5, 9}) EXPECT_LT(spread(out, i, 100), 0.4 * step_noise) << i;
+  for (const int i : {10, 15}) EXPECT_LT(spread(out, i, 200), 0.4 * step_noise) << i;
 }
 
 TEST(Denoise, LeavesAnImageWithoutNoiseAlone) {

@@ -29,11 +29,11 @@ Volume<float> blurred(Volume<float> image, double sigma) {
 }
 
 /// A step from 1 to 2 at i = 12; noise of 5 % on the first half of the slices, 20 % on the others.
-struct Scene {
+struct NoisyStep {
   Volume<float> truth{{24, 20, 20}, Eigen::Vector3d::Ones(), Eigen::Vector3d::Zero(), 0};
   Volume<float> noise = truth, image = truth;
 
-  explicit Scene(double blur = 0) {
+  explicit NoisyStep(double blur = 0) {
     for (int k = 0; k < 20; ++k)
       for (int j = 0; j < 20; ++j)
         for (int i = 0; i < 24; ++i) {
@@ -57,7 +57,7 @@ struct Scene {
 };
 
 TEST(TotalVariation, TakesOutMoreWhereThereIsMoreNoise) {
-  const Scene scene;
+  const NoisyStep scene;
   const Volume<float> found = total_variation_restored(scene.image, scene.noise, 0.5, 0);
   // A piecewise constant image is what the method is made for: noise falls to a third at least.
   EXPECT_LT(scene.error(found, 1, 9), 0.05 / 3);
@@ -67,7 +67,7 @@ TEST(TotalVariation, TakesOutMoreWhereThereIsMoreNoise) {
 class Blur : public testing::TestWithParam<double> {};
 
 TEST_P(Blur, MinimisesTheEnergy) {
-  const Scene scene(GetParam());
+  const NoisyStep scene(GetParam());
   constexpr double strength = 0.5;
   const auto energy = [&](const Volume<float>& u) {
     const Volume<float> seen = blurred(u, GetParam());
@@ -109,7 +109,7 @@ INSTANTIATE_TEST_SUITE_P(TotalVariation, Blur, testing::Values(0, 0.55));
 
 TEST(TotalVariation, TakesOutTheBlur) {
   constexpr double blur = 0.55;
-  const Scene scene(blur);
+  const NoisyStep scene(blur);
   const auto edge = [](const Volume<float>& u) {  // mean step from i = 11 to 12, of 1
     double sum = 0;
     for (int k = 1; k < 9; ++k)
@@ -121,7 +121,7 @@ TEST(TotalVariation, TakesOutTheBlur) {
 }
 
 TEST(TotalVariation, FillsWhatIsNotKnownFromAround) {
-  Scene scene;
+  NoisyStep scene;
   for (int k = 4; k < 7; ++k)
     for (int j = 8; j < 11; ++j)
       for (int i = 3; i < 6; ++i) scene.noise(i, j, k) = 0, scene.image(i, j, k) = 100;
@@ -130,7 +130,7 @@ TEST(TotalVariation, FillsWhatIsNotKnownFromAround) {
 }
 
 TEST(TotalVariation, LeavesAnImageWithoutNoiseAlone) {
-  const Scene scene;
+  const NoisyStep scene;
   const Volume<float> none = scene.image.like<float>(0);
   EXPECT_EQ(total_variation_restored(scene.image, none, 0.5, 0.55).values, scene.image.values);
 }

@@ -44,7 +44,7 @@ SegmentInput foreign_input(const fs::path& folder) {
 }
 
 TEST(SegmentLabels, TakesTheLesionsSideAndDropsTheOther) {
-  const ScratchFolder folder("foreign");
+  const EmptyFolder folder("foreign");
   const SegmentResult result = segment(foreign_input(folder.path), {});
   const Segmentation& s = result.segmentation;
   EXPECT_EQ(s.region.side, Side::left);
@@ -61,14 +61,14 @@ TEST(SegmentLabels, TakesTheLesionsSideAndDropsTheOther) {
 }
 
 TEST(SegmentLabels, FillsTheThoraxBehindTheMuscle) {
-  const ScratchFolder folder("thorax");
+  const EmptyFolder folder("thorax");
   const Segmentation s = segment(foreign_input(folder.path), {}).segmentation;
   const Eigen::Vector3i deep = s.labels.index({75, 100, 0}).array().round().cast<int>();
   EXPECT_EQ(s.labels(deep.x(), deep.y(), deep.z()), label::muscle);
 }
 
 TEST(SegmentLabels, TheSideCanBeNamed) {
-  const ScratchFolder folder("side");
+  const EmptyFolder folder("side");
   SegmentInput input = foreign_input(folder.path);
   input.side = Side::right;
   const SegmentResult result = segment(input, {});
@@ -78,7 +78,7 @@ TEST(SegmentLabels, TheSideCanBeNamed) {
 }
 
 TEST(SegmentLabels, ASphereIsALesion) {
-  const ScratchFolder folder("sphere");
+  const EmptyFolder folder("sphere");
   SegmentInput input = foreign_input(folder.path);
   input.lesions = {{"b", Eigen::Vector3d(60, 35, -10), 9.0, {}, {}, {}}};
   const SegmentResult result = segment(input, {});
@@ -90,7 +90,7 @@ TEST(SegmentLabels, ASphereIsALesion) {
 }
 
 TEST(SegmentLabels, APointNamesTheLesionNearIt) {
-  const ScratchFolder folder("named");
+  const EmptyFolder folder("named");
   SegmentInput input = foreign_input(folder.path);
   input.lesions = {{"biopsy", Eigen::Vector3d(83, 38, 2), {}, {}, {}, {}}};
   EXPECT_EQ(segment(input, {}).segmentation.lesions[0].id, "biopsy");
@@ -99,7 +99,7 @@ TEST(SegmentLabels, APointNamesTheLesionNearIt) {
 }
 
 TEST(SegmentLabels, MarkupsMayBeInLpsOrRas) {
-  const ScratchFolder folder("markups");
+  const EmptyFolder folder("markups");
   const auto write = [&](const char* name, const char* frame, const char* position) {
     std::ofstream(folder.path / name)
         << R"({"markups":[{"coordinateSystem":")" << frame << R"(","controlPoints":[{"position":)"
@@ -116,7 +116,7 @@ TEST(SegmentLabels, MarkupsMayBeInLpsOrRas) {
 }
 
 TEST(SegmentLabels, AnUnclearSideIsRefused) {
-  const ScratchFolder folder("unclear");
+  const EmptyFolder folder("unclear");
   SegmentInput input = foreign_input(folder.path);
   input.label_values[14] = ForeignTissue::fat;
   expect_mentions(message_of([&] { segment(input, {}); }), {"side is not clear", "patient.toml"});
@@ -150,7 +150,7 @@ fs::path write_slicer_segments(const fs::path& folder) {
 }
 
 TEST(SegmentLabels, SegmentsOfSlicerAreKnownByNameNotByValue) {
-  const ScratchFolder folder("slicer");
+  const EmptyFolder folder("slicer");
   SegmentInput input;
   input.label_map = write_slicer_segments(folder.path);
   const Segmentation by_name = segment(input, {}).segmentation;
@@ -161,7 +161,7 @@ TEST(SegmentLabels, SegmentsOfSlicerAreKnownByNameNotByValue) {
 }
 
 TEST(SegmentLabels, GoesOnFromItsOwnProductCorrectedByHand) {
-  const ScratchFolder folder("resume");
+  const EmptyFolder folder("resume");
   const Segmentation first = segment(foreign_input(folder.path), {}).segmentation;
   Segmentation corrected = first;
   const Eigen::Vector3i v = first.labels.index({75, 45, 0}).array().round().cast<int>();

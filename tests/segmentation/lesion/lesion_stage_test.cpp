@@ -7,7 +7,7 @@
 namespace mammotwin {
 namespace {
 
-constexpr int voxels = 60;
+constexpr int side_voxels = 60;
 
 /// Fat of 1 with balls of 3, noise of 3 %.
 struct BallsInFat {
@@ -17,15 +17,16 @@ struct BallsInFat {
   HalfImages images;
 
   BallsInFat(std::vector<Eigen::Vector3d> at, double radius) : centres(at), radius_mm(radius) {
-    const Volume<float> grid({voxels, voxels, voxels}, Eigen::Vector3d::Ones(), {0, 0, 0}, 1);
+    const Volume<float> grid({side_voxels, side_voxels, side_voxels}, Eigen::Vector3d::Ones(),
+                             {0, 0, 0}, 1);
     half.body = half.inside = grid.like<std::uint8_t>(1);
     half.depth = half.above_wall = grid.like<float>(20);
     std::mt19937 random(11);
     std::normal_distribution<float> noise(0, 0.03F);
     images.denoised = grid;
-    for (int k = 0; k < voxels; ++k)
-      for (int j = 0; j < voxels; ++j)
-        for (int i = 0; i < voxels; ++i)
+    for (int k = 0; k < side_voxels; ++k)
+      for (int j = 0; j < side_voxels; ++j)
+        for (int i = 0; i < side_voxels; ++i)
           images.denoised(i, j, k) =
               (holding(grid.position(i, j, k)) >= 0 ? 3.0F : 1.0F) + noise(random);
     images.noisy = images.denoised;
@@ -54,9 +55,9 @@ struct BallsInFat {
 Eigen::Vector3d centroid(const Volume<std::uint8_t>& lesions, std::uint8_t value) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   double count = 0;
-  for (int k = 0; k < voxels; ++k)
-    for (int j = 0; j < voxels; ++j)
-      for (int i = 0; i < voxels; ++i)
+  for (int k = 0; k < side_voxels; ++k)
+    for (int j = 0; j < side_voxels; ++j)
+      for (int i = 0; i < side_voxels; ++i)
         if (lesions(i, j, k) == value) sum += lesions.position(i, j, k), ++count;
   return sum / count;  // not a number where there is none
 }

@@ -15,13 +15,13 @@ namespace {
 
 /// A ball of 3.2 in gland of 1.8 on the left and fat of 1 on the right, with a bright vessel
 /// through it; noise of 3.5 %.
-struct Scene {
+struct BallAndVessel {
   Eigen::Vector3d centre{1, 2, -3};
   double radius = 7;
   Volume<float> image{{70, 70, 70}, Eigen::Vector3d::Ones(), {-35, -35, -35}, 0};
   Volume<std::uint8_t> truth = image.like<std::uint8_t>(0), allowed = image.like<std::uint8_t>(1);
 
-  explicit Scene(bool brighter = true) {
+  explicit BallAndVessel(bool brighter = true) {
     std::mt19937 random(5);
     std::normal_distribution<float> noise(0, 0.035F);
     for (int k = 0; k < 70; ++k)
@@ -57,7 +57,7 @@ SharpImage as_it_is(const Volume<float>& image) {
 }
 
 TEST(Lesion, StopsAtItsEdgeAndDropsTheVessel) {
-  const Scene scene;
+  const BallAndVessel scene;
   const FoundLesion found = find_lesion(scene.image, as_it_is(scene.image), scene.allowed,
                                         scene.centre + Eigen::Vector3d(3, -2, 1.5), {});
   EXPECT_GT(scene.dice(found), 0.9);
@@ -67,7 +67,7 @@ TEST(Lesion, StopsAtItsEdgeAndDropsTheVessel) {
 }
 
 TEST(Lesion, RandomWalkerAgrees) {
-  const Scene scene;
+  const BallAndVessel scene;
   LesionSearch search;
   search.random_walker = true;
   EXPECT_GT(scene.dice(find_lesion(scene.image, as_it_is(scene.image), scene.allowed, scene.centre,
@@ -76,7 +76,7 @@ TEST(Lesion, RandomWalkerAgrees) {
 }
 
 TEST(Lesion, DarkOneInFatIsFound) {
-  const Scene scene(false);
+  const BallAndVessel scene(false);
   LesionSearch search;
   search.brighter = false;
   const FoundLesion found =
@@ -194,7 +194,7 @@ TEST(Lesion, LongerThanTheUsualSearchIsFollowed) {
 }
 
 TEST(Lesion, WhereNothingStandsOutABallIsTaken) {
-  Scene scene;
+  BallAndVessel scene;
   for (float& value : scene.image.values) value = 1;
   const FoundLesion found =
       find_lesion(scene.image, as_it_is(scene.image), scene.allowed, {10, 10, 10}, {});

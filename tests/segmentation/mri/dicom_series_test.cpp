@@ -30,7 +30,7 @@ void write_study(const std::filesystem::path& folder) {
 }
 
 TEST(DicomSeries, OfADynamicStudyTheSecondInTimeIsReadAndSaid) {
-  const ScratchFolder folder("study");
+  const EmptyFolder folder("study");
   write_study(folder.path);
   const Mri mri = read_mri(folder.path);
   EXPECT_EQ(mri.image(0, 0, 0), 40);
@@ -40,7 +40,7 @@ TEST(DicomSeries, OfADynamicStudyTheSecondInTimeIsReadAndSaid) {
 }
 
 TEST(DicomSeries, ALateFinerSeriesIsNotTheDynamicStudy) {
-  const ScratchFolder folder("late");
+  const EmptyFolder folder("late");
   write_study(folder.path);
   DicomHeader h;
   h.series_number = "24", h.series_uid = "1.2.24", h.acquisition_time = "121500";
@@ -65,7 +65,7 @@ TEST(DicomSeries, ALateFinerSeriesIsNotTheDynamicStudy) {
 }
 
 TEST(DicomSeries, TheTomlNamesAnother) {
-  const ScratchFolder folder("named");
+  const EmptyFolder folder("named");
   write_study(folder.path);
   EXPECT_EQ(read_mri(folder.path, "6").image(0, 0, 0), 60);
   expect_mentions(message_of([&] { read_mri(folder.path, "77"); }),
@@ -73,7 +73,7 @@ TEST(DicomSeries, TheTomlNamesAnother) {
 }
 
 TEST(DicomSeries, ASliceOfAnotherPatientIsRefusedAndNobodyNamed) {
-  const ScratchFolder folder("mixed");
+  const EmptyFolder folder("mixed");
   DicomHeader h;
   h.patient_id = "SECRET1";
   write_dicom_series(folder.path, "a", h, stack(5));
@@ -88,7 +88,7 @@ TEST(DicomSeries, ASliceOfAnotherPatientIsRefusedAndNobodyNamed) {
 }
 
 TEST(DicomSeries, HandsOnHowThePatientLayAndNoName) {
-  const ScratchFolder folder("position");
+  const EmptyFolder folder("position");
   DicomHeader h;
   h.patient_position = "FFP";
   write_dicom_series(folder.path, "a", h, stack(5));

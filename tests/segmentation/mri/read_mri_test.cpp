@@ -49,7 +49,7 @@ std::vector<float> counting(std::size_t n) {
 }
 
 TEST(ReadImage, NiftiComesInLps) {
-  const ScratchFolder folder("nifti");
+  const EmptyFolder folder("nifti");
   const Mri mri = read_mri(write_nifti(folder.path / "a.nii", 4, 5, 6, counting(120)));
   EXPECT_EQ(mri.image.size, Eigen::Vector3i(4, 5, 6));
   EXPECT_TRUE(mri.image.spacing.isApprox(Eigen::Vector3d(1, 1, 2)));
@@ -63,31 +63,31 @@ TEST(ReadImage, MissingFileIsNamed) {
 }
 
 TEST(ReadImage, EmptyFolderIsNamed) {
-  const ScratchFolder folder("empty");
+  const EmptyFolder folder("empty");
   expect_mentions(message_of([&] { read_mri(folder.path); }),
                   {folder.path.string(), "folder is empty", "DICOM"});
 }
 
 TEST(ReadImage, FolderWithoutImagesSaysSo) {
-  const ScratchFolder folder("text");
+  const EmptyFolder folder("text");
   std::ofstream(folder.path / "notes.txt") << "not an image";
   expect_mentions(message_of([&] { read_mri(folder.path); }), {"no MR image", "1 file"});
 }
 
 TEST(ReadImage, TruncatedNiftiIsRefused) {
-  const ScratchFolder folder("truncated");
+  const EmptyFolder folder("truncated");
   const fs::path path = write_nifti(folder.path / "a.nii", 4, 5, 6, counting(50));
   expect_mentions(message_of([&] { read_mri(path); }), {path.string(), "truncated", "480"});
 }
 
 TEST(ReadImage, TwoDimensionalImageIsRefused) {
-  const ScratchFolder folder("flat");
+  const EmptyFolder folder("flat");
   const fs::path path = write_nifti(folder.path / "a.nii", 4, 5, 1, counting(20));
   expect_mentions(message_of([&] { read_mri(path); }), {path.string(), "two-dimensional"});
 }
 
 TEST(ReadImage, NanIsRefused) {
-  const ScratchFolder folder("nan");
+  const EmptyFolder folder("nan");
   auto values = counting(120);
   values[7] = std::numeric_limits<float>::quiet_NaN();
   const fs::path path = write_nifti(folder.path / "a.nii", 4, 5, 6, values);
@@ -95,13 +95,13 @@ TEST(ReadImage, NanIsRefused) {
 }
 
 TEST(ReadImage, HugeHeaderIsRefusedBeforeMemoryIsTaken) {
-  const ScratchFolder folder("huge");
+  const EmptyFolder folder("huge");
   const fs::path path = write_nifti(folder.path / "a.nii", 30000, 30000, 30000, counting(120));
   expect_mentions(message_of([&] { read_mri(path); }), {path.string(), "30000", "voxels"});
 }
 
 TEST(ReadImage, GarbageIsRefused) {
-  const ScratchFolder folder("garbage");
+  const EmptyFolder folder("garbage");
   for (const char* name : {"a.nii", "a.nii.gz", "a.nrrd", "a.mha", "a.dcm"}) {
     const fs::path path = folder.path / name;
     std::ofstream(path) << "this is no image at all, whatever its name says";
@@ -110,7 +110,7 @@ TEST(ReadImage, GarbageIsRefused) {
 }
 
 TEST(ReadImage, LabelsMustBeWholeNumbers) {
-  const ScratchFolder folder("labels");
+  const EmptyFolder folder("labels");
   auto values = counting(120);
   EXPECT_EQ(read_labels(write_nifti(folder.path / "a.nii", 4, 5, 6, values))(3, 4, 5), 119);
   values[3] = 0.5F;

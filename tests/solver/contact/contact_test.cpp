@@ -76,7 +76,7 @@ TEST(PressedGap, OfATroughIsItsDepth) {
   const auto contact = std::make_shared<PlateContact>();
   FaceList faces;
   for (const double height : {0.0, 10.0})  // the lower face looks away
-    for (const auto& [e, face] : faces_in_plane(mesh, 2, height)) {
+    for (const auto& [e, face] : faces_at(mesh, 2, height)) {
       faces.push_back({e, face});
       model.add_surface_potential(e, face, contact, 12);
     }

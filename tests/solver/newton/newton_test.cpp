@@ -92,7 +92,7 @@ TEST(Newton, AxialSqueezeByContactIsTheClosedForm) {
   Block block;
   block.dofs.number(block.mesh);
   auto contact = std::make_shared<PlateContact>();
-  for (const auto& [e, face] : faces_in_plane(block.mesh, 2, block.size.z()))
+  for (const auto& [e, face] : faces_at(block.mesh, 2, block.size.z()))
     block.model.add_surface_potential(e, face, contact);
   const double stretch = 0.7;
   contact->plates = {Plate{{0, 0, stretch * block.size.z()}, {0, 0, -1}, {0, 1, 0}, 0, true}};
@@ -158,8 +158,7 @@ TEST(Newton, NoStepRaisesTheCondensedEnergyUnderAPlatesEdge) {
   for (int axis = 0; axis < 3; ++axis) hold_plane(mesh, axis, 0, dofs);
   dofs.number(mesh);
   auto contact = std::make_shared<PlateContact>();
-  for (const auto& [e, face] : faces_in_plane(mesh, 2, 20))
-    model.add_surface_potential(e, face, contact);
+  for (const auto& [e, face] : faces_at(mesh, 2, 20)) model.add_surface_potential(e, face, contact);
   contact->plates = {Plate{{0, 5, 14}, {0, 0, -1}, {0, 1, 0}, 2}};
   State state = model.rest();
   Newton newton(model, dofs);

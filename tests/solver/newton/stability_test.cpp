@@ -26,7 +26,7 @@ struct Column {
   Column() {
     for (double height : {0.0, 20.0})
       for (int i = 0; i < 3; ++i)
-        for (const auto& [e, face] : faces_in_plane(mesh, 2, height))
+        for (const auto& [e, face] : faces_at(mesh, 2, height))
           for (int dof : face_dofs(mesh, e, face, i)) dofs.prescribe(dof);
     dofs.number(mesh);
   }

@@ -12,16 +12,18 @@
 namespace mammotwin {
 namespace {
 
-const std::filesystem::path kCases =
+const std::filesystem::path kOutlines =
     std::filesystem::path(MAMMOTWIN_SOURCE_DIR) / "../shared/cases";
 
 class Outlines : public testing::Test {
  protected:
   void SetUp() override {
-    if (!std::filesystem::exists(kCases / "compressed_outlines"))
+    if (!std::filesystem::exists(kOutlines / "compressed_outlines"))
       GTEST_SKIP() << "the population's outlines are not there";
   }
-  OutlinePopulation population() const { return OutlinePopulation(kCases / "compressed_outlines"); }
+  OutlinePopulation population() const {
+    return OutlinePopulation(kOutlines / "compressed_outlines");
+  }
 };
 
 // Depth and width of the mean breast at 40, 55 and 70 mm as the case's own description gives them.

@@ -16,7 +16,7 @@ namespace {
 
 TEST(EvaluateSegmentation, ScoresAnMriSimulatedFromARealMap) {
   MAMMOTWIN_NEED_CASE(maps, "label_maps");
-  const ScratchFolder folder("evaluate");
+  const EmptyFolder folder("evaluate");
   ScanOptions scan;
   scan.voxel_mm = 1.6;  // the contrast is read from the skin, which coarser voxels lose
   scan.shading = 1.2;
