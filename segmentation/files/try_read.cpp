@@ -25,9 +25,9 @@ void read(bool dicom, const std::filesystem::path& file) {
   if (!slices.empty() && slices.front().modality == "MR") mammotwin::read_dicom_pixels(file);
 }
 
-/// Of address space: 1 GB, which holds the libraries, and what the largest file may unfold to.
+/// Of address space: 256 MB, of which libraries take 40, and what the largest file may unfold to.
 rlim_t most_memory(const std::vector<std::string>& files) {
-  constexpr rlim_t base = rlim_t{1} << 30, most = rlim_t{4} << 30, unfolded = 16;
+  constexpr rlim_t base = rlim_t{256} << 20, most = rlim_t{4} << 30, unfolded = 16;
   rlim_t largest = 0;
   for (const std::string& file : files) {
     std::error_code none;
