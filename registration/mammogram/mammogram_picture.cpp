@@ -13,6 +13,8 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "registration/mammogram/jpeg_end.h"
+
 namespace mammotwin {
 namespace {
 
@@ -64,16 +66,19 @@ void check_png_header(const std::filesystem::path& path) {
                              " pixels; expected at most 2^28 of them (is it damaged?)");
 }
 
-itk::ImageIOBase::Pointer io_for(const std::filesystem::path& path) {
-  if (!is_png(path)) return itk::JPEGImageIO::New().GetPointer();
-  check_png_header(path);
-  return itk::PNGImageIO::New().GetPointer();
-}
-
 [[noreturn]] void cannot_be_read(const std::filesystem::path& path) {
   throw std::runtime_error(path.string() +
                            ": its pixels cannot be read, the file is truncated or damaged; "
                            "export or copy it again");
+}
+
+itk::ImageIOBase::Pointer io_for(const std::filesystem::path& path) {
+  if (!is_png(path)) {
+    if (!has_jpeg_end(path)) cannot_be_read(path);
+    return itk::JPEGImageIO::New().GetPointer();
+  }
+  check_png_header(path);
+  return itk::PNGImageIO::New().GetPointer();
 }
 
 Channels::Pointer read_channels(const std::filesystem::path& path) {

@@ -55,6 +55,19 @@ TEST(MammogramPicture, ColourThatIsGreyIsReadFromPngAndJpeg) {
   }
 }
 
+// Wherever it ends; a JPEG that libjpeg would fill up, too.
+TEST(MammogramPicture, OneThatEndsEarlyIsRefused) {
+  for (const char* extension : {".png", ".jpg"}) {
+    const fs::path path = written(extension, 0);
+    for (std::uintmax_t size = fs::file_size(path) - 1; size > 20; size -= 5) {
+      fs::resize_file(path, size);
+      EXPECT_THROW(read_mammogram_picture(path), std::runtime_error)
+          << extension << " of " << size << " bytes";
+    }
+    fs::remove(path);
+  }
+}
+
 TEST(MammogramPicture, ColouredMarksAreRefused) {
   const fs::path path = written(".png", 60);
   EXPECT_THROW(read_mammogram_picture(path), std::runtime_error);
