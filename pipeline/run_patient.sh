@@ -20,8 +20,15 @@ is_plain_name "$P" ||
 toml=$DATA/$P/patient.toml
 [ -f "$toml" ] || fail "$toml: no such file (DATA=$DATA is the folder of patients, P=$P one of them)"
 
+# With less the system cannot load the programs' libraries, and says so in its own words.
+least_mib=256
+memory_kib=$(ulimit -v)
+[ "$memory_kib" = unlimited ] || [ "$memory_kib" -ge $((least_mib * 1024)) ] || {
+  echo "memory is limited to $((memory_kib / 1024)) MiB (by ulimit -v or the batch system); the programs need $least_mib MiB to begin with" >&2
+  exit 1
+}
+
 out=$RESULTS/$P
-export OPENBLAS_NUM_THREADS=1  # more are not used, and where memory is limited they end what loads them
 export MAMMOTWIN_ENDS_WITH_ITS_PARENT=1  # make, told to stop, ends this script and not what it runs
 set -- --patient "$toml"
 [ -z "${FORCE:-}" ] || set -- "$@" --force

@@ -6,9 +6,11 @@
 
 #include <csignal>
 #include <cstdlib>
+#include <exception>
 #include <string>
 #include <string_view>
 
+#include "pipeline/frame/memory_watch.h"
 #include "pipeline/frame/private_names.h"
 #include "pipeline/frame/products.h"
 #include "solver/newton/blas_kernels.h"
@@ -44,6 +46,30 @@ void prepare_process(char** argv) {
   if (!core.empty()) setenv("OPENBLAS_CORETYPE", core.c_str(), 0);
   execv("/proc/self/exe", argv);  // returns only on failure: then go on with slower kernels
 }
+
+namespace {
+
+[[noreturn]] void say_that_memory_lacks() {
+  constexpr std::string_view said =
+      "refused: there is not enough memory to begin with (is it limited, by ulimit -v or the batch "
+      "system?)\n";
+  if (write(STDERR_FILENO, said.data(), said.size()) < 0) _exit(1);
+  _exit(1);
+}
+
+/// Before libraries begin, and before libc has the environment: OpenBLAS starts its threads as it
+/// is loaded, and ends the program by a signal where there is no memory for them; others let
+/// std::bad_alloc go.
+void prepare_before_libraries(int, char** argv, char** environment) {
+  environ = environment;
+  prepare_process(argv);
+  if (address_space_is_limited()) std::set_terminate(say_that_memory_lacks);
+}
+
+__attribute__((section(".preinit_array"),
+               used)) void (*const first)(int, char**, char**) = prepare_before_libraries;
+
+}  // namespace
 
 double peak_memory_mb() {
   rusage usage{};

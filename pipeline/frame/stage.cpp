@@ -243,10 +243,7 @@ void say_edited(const Stage& stage, const fs::path& product) {
     std::cerr << stage.name << ": " << sidecar_path(product).string() << ": " << fault << "\n";
 }
 
-}  // namespace
-
-int run_stage(int argc, char** argv, SettingsFile& file, const Stage& stage) {
-  prepare_process(argv);
+int run(int argc, char** argv, SettingsFile& file, const Stage& stage) {
   try {
     stop_without_leftovers();
   } catch (const std::exception& e) {
@@ -298,6 +295,15 @@ int run_stage(int argc, char** argv, SettingsFile& file, const Stage& stage) {
   } catch (const std::exception& e) {
     return refuse_before_running(stage, product, naming, reason_of(e));
   }
+}
+
+}  // namespace
+
+int run_stage(int argc, char** argv, SettingsFile& file, const Stage& stage) {
+  prepare_process(argv);
+  const int code = run(argc, argv, file, stage);
+  if (code == kBadData && address_space_is_limited()) leave_without_destructors(code);
+  return code;
 }
 
 }  // namespace mammotwin

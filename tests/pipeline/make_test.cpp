@@ -80,6 +80,17 @@ TEST_F(RunPatientTest, WordsOfAVariableReachNoShell) {
   EXPECT_FALSE(std::filesystem::exists(mark));
 }
 
+TEST_F(RunPatientTest, SaysWhereMemoryIsTooShortForTheProgramsToBegin) {
+  std::filesystem::create_directories(folder_ / "a");
+  write("a/patient.toml", "");
+  const CommandResult run = run_command(
+      {"prlimit", "--as=209715200", MAMMOTWIN_SOURCE_DIR "/pipeline/run_patient.sh", "patient"},
+      {"P=a", "DATA=" + folder_.string(), "RESULTS=" + (folder_ / "results").string(),
+       "BIN=" MAMMOTWIN_BIN});
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_NE(run.text.find("memory is limited to 200 MiB"), std::string::npos) << run.text;
+}
+
 TEST_F(RunPatientTest, NoTargetTakesAnEmptyFolderForTheRoot) {
   for (const char* target : {"patient", "cohort", "evaluate-unload"}) {
     const CommandResult run =
