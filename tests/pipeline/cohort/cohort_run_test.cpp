@@ -227,5 +227,25 @@ TEST_F(VerifyResults, NamesHalfWrittenFilesAndFoldersWithoutResults) {
   EXPECT_EQ(verify("nobody").exit_code, 1);
 }
 
+/// Whether any sidecar of the chain names the patient's image.
+bool names_the_image(const std::filesystem::path& results) {
+  for (const auto& entry : std::filesystem::directory_iterator(results))
+    if (std::ifstream in(entry.path());
+        std::string(std::istreambuf_iterator<char>(in), {}).find("Doe_Jane") != std::string::npos)
+      return true;
+  return false;
+}
+
+TEST_F(RunCohort, KeepsNamesOfFilesOnlyWhereThePatientsFileSaysSo) {
+  for (const std::string keep : {"false", "true"}) {
+    add_patient("p");
+    std::filesystem::create_directories(folder_ / "data" / "p" / "Doe_Jane");
+    write("data/p/Doe_Jane/volume.txt", "an image");
+    write("data/p/patient.toml", "mri.path = \"Doe_Jane\"\nprivacy.keep_names = " + keep + "\n");
+    EXPECT_EQ(run_patient("p").exit_code, 0);
+    EXPECT_EQ(names_the_image(results("p")), keep == "true") << keep;
+  }
+}
+
 }  // namespace
 }  // namespace mammotwin

@@ -63,7 +63,7 @@ TEST_F(Stops, LeaveNeitherPartialFilesNorLocks) {
   }
 }
 
-TEST_F(Stops, OfACohortReachWhatItRuns) {
+TEST_F(Stops, OfAScriptReachWhatItRuns) {
   for (const char* name : {"segment", "unload", "compress", "register", "report"})
     fs::create_symlink(MAMMOTWIN_BIN "/cohort_fake_stage",
                        folder_ / "bin" / ("mammotwin-" + std::string(name)));
@@ -77,23 +77,27 @@ TEST_F(Stops, OfACohortReachWhatItRuns) {
       if (entry.path().filename().string().starts_with(begin)) return true;
     return false;
   };
-  const pid_t child = fork();
-  if (child == 0) {
-    setpgid(0, 0);
-    for (const std::string& entry :
-         {"DATA=" + (folder_ / "cohort").string(), "RESULTS=" + (folder_ / "results").string(),
-          "BIN=" + (folder_ / "bin").string()})
-      putenv(strdup(entry.c_str()));
-    execl(MAMMOTWIN_SOURCE_DIR "/pipeline/cohort/run_cohort.sh", "run_cohort.sh", nullptr);
-    _exit(127);
+  for (const std::string script : {"cohort/run_cohort.sh", "run_patient.sh"}) {
+    SCOPED_TRACE(script);
+    const pid_t child = fork();
+    if (child == 0) {
+      setpgid(0, 0);
+      for (const std::string& entry :
+           {"P=" + std::string("p"), "DATA=" + (folder_ / "cohort").string(),
+            "RESULTS=" + (folder_ / "results").string(), "BIN=" + (folder_ / "bin").string()})
+        putenv(strdup(entry.c_str()));
+      execl((MAMMOTWIN_SOURCE_DIR "/pipeline/" + script).c_str(), script.c_str(), "patient",
+            nullptr);
+      _exit(127);
+    }
+    ASSERT_TRUE(comes_true([&] { return is_there(".partial-"); }));
+    const auto told = std::chrono::steady_clock::now();
+    kill(child, SIGTERM);  // the script alone, as make, a service manager or a person does
+    waitpid(child, nullptr, 0);
+    EXPECT_TRUE(comes_true([&] { return !is_there("."); }));
+    EXPECT_LT(std::chrono::steady_clock::now() - told, seconds(2)) << "it went on to its end";
+    EXPECT_FALSE(is_there("segmentation")) << "and wrote";
   }
-  ASSERT_TRUE(comes_true([&] { return is_there(".partial-"); }));
-  const auto told = std::chrono::steady_clock::now();
-  kill(child, SIGTERM);  // the script alone, as a service manager or a person does
-  waitpid(child, nullptr, 0);
-  EXPECT_TRUE(comes_true([&] { return !is_there("."); }));
-  EXPECT_LT(std::chrono::steady_clock::now() - told, seconds(2)) << "it went on to its end";
-  EXPECT_FALSE(is_there("segmentation")) << "and wrote";
 }
 
 TEST_F(Stops, TwoRunsOfOneProductWaitForEachOther) {
