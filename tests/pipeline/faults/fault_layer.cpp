@@ -1,6 +1,7 @@
 // A library to preload (LD_PRELOAD): between a program and the disk. It watches one folder
 // (FAULT_FOLDER), counts what is done there (files opened for writing, writes, renames, removals,
-// new folders, fsync), over all processes that share FAULT_COUNTER (a file of 8 bytes), and
+// new folders, fsync; of writes every FAULT_EVERY_WRITE-th), over all processes that share
+// FAULT_COUNTER (a file of two numbers of 8 bytes: steps, and all writes), and
 // - kills the group of processes before step FAULT_KILL_AT;
 // - keeps in FAULT_STORE what a loss of power would leave: a file's bytes (content-INODE) and a
 //   folder's entries (entries-INODE) as they were at its last fsync.
@@ -14,6 +15,7 @@
 #include <sys/uio.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <climits>
 #include <csignal>
@@ -53,23 +55,37 @@ std::string path_of(int file) {
   return size > 0 ? std::string(path, static_cast<std::size_t>(size)) : std::string();
 }
 
-/// One step in the watched folder; the last thing that is done where it is the one to die at.
-void step() {
-  static std::atomic<long>* const counter = [] {
+struct Counters {
+  std::atomic<long> steps, writes;
+};
+
+/// Null where nothing is counted.
+Counters* counters() {
+  static Counters* const shared = [] {
     const std::string path = setting("FAULT_COUNTER");
     const int file =
         path.empty() ? -1 : real<int(const char*, int, ...)>("open")(path.c_str(), O_RDWR);
-    void* memory = file < 0
-                       ? MAP_FAILED
-                       : mmap(nullptr, sizeof(long), PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
+    void* memory =
+        file < 0 ? MAP_FAILED
+                 : mmap(nullptr, sizeof(Counters), PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
     if (file >= 0) close(file);
-    return memory == MAP_FAILED ? nullptr : static_cast<std::atomic<long>*>(memory);
+    return memory == MAP_FAILED ? nullptr : static_cast<Counters*>(memory);
   }();
+  return shared;
+}
+
+/// One step in the watched folder; the last thing that is done where it is the one to die at.
+void step() {
   static const long last = std::atol(setting("FAULT_KILL_AT").c_str());
-  if (counter && counter->fetch_add(1) + 1 == last) {
+  if (counters() && counters()->steps.fetch_add(1) + 1 == last) {
     kill(0, SIGKILL);
     pause();
   }
+}
+
+void step_of_write() {
+  static const long every = std::max(1L, std::atol(setting("FAULT_EVERY_WRITE").c_str()));
+  if (counters() && counters()->writes.fetch_add(1) % every == 0) step();
 }
 
 std::string stored(const char* what, ino_t inode) {
@@ -183,12 +199,12 @@ FILE* fopen(const char* path, const char* mode) { return open_stream("fopen", pa
 FILE* fopen64(const char* path, const char* mode) { return open_stream("fopen64", path, mode); }
 
 ssize_t write(int file, const void* bytes, size_t size) {
-  if (file > 2 && is_watched(path_of(file))) step();
+  if (file > 2 && is_watched(path_of(file))) step_of_write();
   return real<ssize_t(int, const void*, size_t)>("write")(file, bytes, size);
 }
 
 ssize_t writev(int file, const iovec* pieces, int count) {
-  if (file > 2 && is_watched(path_of(file))) step();
+  if (file > 2 && is_watched(path_of(file))) step_of_write();
   return real<ssize_t(int, const iovec*, int)>("writev")(file, pieces, count);
 }
 

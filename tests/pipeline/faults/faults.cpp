@@ -47,24 +47,26 @@ Faults::Faults(fs::path folder, const fs::path& scratch, Keeps keeps)
 }
 
 CommandResult Faults::run(const std::vector<std::string>& arguments,
-                          const std::vector<std::string>& environment, long kill_at) {
+                          const std::vector<std::string>& environment, long kill_at,
+                          long every_write) {
   fs::remove_all(store_);
   fs::create_directories(store_);
   if (keeps_ == Keeps::what_was_synced) remember(folder_);
-  put(counter_, std::string(sizeof(long), '\0'));
+  put(counter_, std::string(sizeof(FolderSteps), '\0'));
   std::vector<std::string> all = environment;
   for (const std::string& entry :
        {std::string("LD_PRELOAD=" MAMMOTWIN_BIN "/libmammotwin_fault_layer.so"),
         "FAULT_FOLDER=" + folder_.string(),
         "FAULT_STORE=" + (keeps_ == Keeps::nothing ? std::string() : store_.string()),
-        "FAULT_COUNTER=" + counter_.string(), "FAULT_KILL_AT=" + std::to_string(kill_at)})
+        "FAULT_COUNTER=" + counter_.string(), "FAULT_KILL_AT=" + std::to_string(kill_at),
+        "FAULT_EVERY_WRITE=" + std::to_string(every_write)})
     all.push_back(entry);
   return run_command_in_group(arguments, all);
 }
 
-long Faults::steps() const {
+FolderSteps Faults::steps() const {
   const std::string bytes = bytes_of(counter_);
-  long steps = 0;
+  FolderSteps steps;
   std::memcpy(&steps, bytes.data(), sizeof steps);
   return steps;
 }

@@ -16,6 +16,13 @@ enum class AfterPowerCut {
   entries_as_seen,    ///< names as programs saw them last, as file systems may have written them
 };
 
+/// What was done in a watched folder: files opened for writing, written, closed, renamed, removed,
+/// new folders, fsync.
+struct FolderSteps {
+  long all = 0;
+  long writes = 0;  ///< of these
+};
+
 /// Runs programs over the fault layer (fault_layer.cpp), in a group of their own.
 class Faults {
  public:
@@ -25,12 +32,14 @@ class Faults {
   Faults(std::filesystem::path folder, const std::filesystem::path& scratch,
          Keeps keeps = Keeps::what_was_synced);
 
-  /// Kills all before step `kill_at` in the folder; 0: never. The exit code is 137 where it did.
+  /// Kills all before step `kill_at` in the folder, of whose writes every `every_write`-th counts;
+  /// 0: never. The exit code is 137 where it did.
   CommandResult run(const std::vector<std::string>& arguments,
-                    const std::vector<std::string>& environment, long kill_at = 0);
+                    const std::vector<std::string>& environment, long kill_at = 0,
+                    long every_write = 1);
 
-  /// Steps in the folder during the last run.
-  long steps() const;
+  /// Steps that counted in the folder during the last run, and writes, all of them.
+  FolderSteps steps() const;
 
   /// What was in the folder when the last run began counts as written to the disk; since then, a
   /// file's bytes and a folder's entries only at an fsync of it. Puts that into the folder.

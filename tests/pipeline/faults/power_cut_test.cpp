@@ -25,7 +25,7 @@ TEST_F(PowerCut, TakesWhatWasRenamedAndNotSynced) {
   write("disk/product", "old");
   Faults layer = faults();
   layer.run(shell, {});
-  EXPECT_GT(layer.steps(), 0);
+  EXPECT_GT(layer.steps().all, 0);
   layer.cut_power(AfterPowerCut::entries_as_seen);
   EXPECT_EQ(text_of(disk + "/product"), "") << "its name was kept, its bytes were not";
   write("disk/product", "old");
@@ -56,7 +56,7 @@ TEST_F(PowerCut, LeavesAtEveryStepAProductAsItWasOrWhole) {
   write("a", "another input");
   Faults layer = faults();
   ASSERT_EQ(layer.run(stage(), {}).exit_code, 0);
-  const long steps = layer.steps();
+  const long steps = layer.steps().all;
   const std::string new_product = products(), new_main = text_of(product());
   ASSERT_NE(new_product, old_product);
   ASSERT_GT(steps, 10);
