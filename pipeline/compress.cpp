@@ -105,6 +105,7 @@ Outcome run(const Arguments& args, const Patient& patient, StageRun& stage) {
   const Side side = segmentation.region.side;
   std::vector<std::string> remarks;
   const ViewSettings view = with_header(patient, args.view, side, remarks);
+  require_whole_mammogram(patient, args.view);
   const Eigen::Matrix3d axes = view_axes(side, view.angle());
 
   const MeshFile mesh = read_mesh_file(args.mesh);

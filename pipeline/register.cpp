@@ -68,6 +68,7 @@ Inputs read_inputs(const Arguments& args, const Patient& patient) {
   if (std::filesystem::exists(args.mri())) inputs.mri = read_image_file(args.mri());
   for (const auto& [name, path] : {std::pair("cc", args.cc), std::pair("mlo", args.mlo)}) {
     const Side side = inputs.segmentation.region.side;
+    if (!patient.registration.search) require_whole_mammogram(patient, name);
     inputs.views.push_back(
         read_registered_view(name, path, with_header(patient, name, side, inputs.remarks)));
   }

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "registration/mammogram/mammogram_picture.h"
+#include "registration/mammogram/mammogram_pixels.h"
 
 namespace mammotwin {
 namespace {
@@ -100,6 +101,16 @@ std::optional<std::filesystem::path> dicom_mammogram(const Patient& patient,
   if (is_dicom(path)) return path;
   require_picture(path, "views." + view + ".mammogram");
   return std::nullopt;
+}
+
+void require_whole_mammogram(const Patient& patient, const std::string& view) {
+  const auto& named = patient.view(view).mammogram;
+  if (!named) return;
+  try {
+    read_mammogram(patient.resolve(*named));
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error("the " + view + " mammogram: " + error.what());
+  }
 }
 
 ViewSettings with_header(const Patient& patient, const std::string& name, Side side,

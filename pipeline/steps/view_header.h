@@ -11,6 +11,10 @@ namespace mammotwin {
 std::optional<std::filesystem::path> dicom_mammogram(const Patient& patient,
                                                      const std::string& view);
 
+/// Reads the view's mammogram, if one is named, to its end: where nothing is searched in it, nobody
+/// else does. Throws std::runtime_error where it cannot be read.
+void require_whole_mammogram(const Patient& patient, const std::string& view);
+
 /// What patient.toml says in place of a header.
 HeaderOverrides overrides_of(const ViewSettings& view);
 

@@ -184,7 +184,26 @@ thickness_mm = 45
   fs::path patient_folder() const { return data_folder() / "c"; }
   ChainRun chain() const { return {"c", data_folder(), results()}; }
   void expect_nobody_named(const std::string& when);
+  void expect_cut_mammograms_refused() const;
 };
+
+/// A picture that is registered with, a DICOM file whose header is whole and is compressed with:
+/// both without a search, which would read them.
+void CoarsePatient::expect_cut_mammograms_refused() const {
+  const fs::path picture = patient_folder() / "PLANTEDCC.png",
+                 dicom = patient_folder() / "PLANTEDMLO.dcm";
+  fs::resize_file(picture, 93);
+  const CommandResult registered = chain().run_script("run_patient.sh", "register");
+  EXPECT_EQ(registered.exit_code, 1) << registered.text;
+  EXPECT_NE(registered.text.find("register: refused: the cc mammogram"), std::string::npos)
+      << registered.text;
+  write_png_mammogram(picture);
+  fs::resize_file(dicom, fs::file_size(dicom) - 1000);
+  const CommandResult compressed = chain().run_script("run_patient.sh", "compress");
+  EXPECT_EQ(compressed.exit_code, 1) << compressed.text;
+  EXPECT_NE(compressed.text.find("compress: refused: the mlo mammogram"), std::string::npos)
+      << compressed.text;
+}
 
 /// What dicom_export asks for: objects that hang in the patient's study.
 bool may_say(const fs::path& file, const std::string& word) {
@@ -283,6 +302,7 @@ TEST_F(CoarsePatient, IsNamedNowhereAndLosesNothingToKills) {
   EXPECT_EQ(exported.exit_code, 0) << exported.text;
   EXPECT_TRUE(fs::exists(results() / "c" / "dicom" / "mlo_gsps.dcm"));
   expect_nobody_named("with dicom_export");
+  expect_cut_mammograms_refused();
 }
 
 // A refusal names the file on the terminal and not in what is left.
