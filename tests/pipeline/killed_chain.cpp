@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <fstream>
 #include <iostream>
@@ -52,61 +53,52 @@ KilledChain::KilledChain(ChainRun chain, fs::path scratch, std::string name)
       folder_(chain_.results / chain_.patient),
       scratch_(std::move(scratch)),
       faults_(folder_, scratch_, Faults::Keeps::nothing) {
-  begin();
-  for (const char* name : kStages) {
+  fs::remove_all(folder_);
+  fs::create_directories(folder_);
+  for (const char* stage_name : kStages) {
     Stage& stage = stages_.emplace_back();
-    stage.name = name;
+    stage.name = stage_name;
     link_programs(scratch_ / ("bin-" + stage.name), stage.name);
+    copy_over(folder_, before(stage));
     const auto start = Clock::now();
     EXPECT_EQ(run(stage, 0), 0) << stage.name;
     stage.seconds = std::chrono::duration<double>(Clock::now() - start).count();
     stage.steps = faults_.steps();
+    stage.products = chain_.products();
   }
-  expected_ = chain_.products();
+  std::sort(stages_.begin(), stages_.end(),
+            [](const Stage& a, const Stage& b) { return a.seconds < b.seconds; });
 }
 
 void KilledChain::kill_at_steps(long most) {
-  begin();
   for (Stage& stage : stages_) {
     const long others = stage.steps.all - stage.steps.writes;
     const long counted = std::max(1L, most - others);
     stage.every_write = std::max(1L, (stage.steps.writes + counted - 1) / counted);
-    int end = 0;
-    for (long step = 1; (end = run(stage, step)) == 137; ++step) {
+    begin(stage);
+    int exit_code = 0;
+    for (long step = 1; (exit_code = run(stage, step)) == 137; ++step) {
       ++stage.at_steps;
       SCOPED_TRACE("killed at step " + std::to_string(step));
       expect_nothing_half_written(stage);
     }
-    if (end != 0) lose(stage, "ended with exit code " + std::to_string(end));
-    std::cerr << stage.name << ": killed at " << stage.at_steps << " steps\n";
-    show_rows("kills", "patient", rows());
+    end(stage, exit_code);
   }
-  expect_end();
-  show_rows("kills", "patient", rows());
 }
 
 void KilledChain::kill_at_moments(int kills) {
-  const std::vector<std::string> script{MAMMOTWIN_SOURCE_DIR "/pipeline/run_patient.sh"};
-  begin();
   for (Stage& stage : stages_) {
-    copy_over(folder_, scratch_ / "before");
+    begin(stage);
     while (stage.at_moments < kills) {
       const double moment = stage.seconds * static_cast<double>(random_()) / std::mt19937::max();
       SCOPED_TRACE("killed after " + std::to_string(moment) + " s");
-      const bool killed =
-          run_and_kill_after(moment, {script.front(), stage.name}, environment(stage));
+      const bool killed = run_and_kill_after(moment, command(stage), environment(stage));
       stage.at_moments += killed;
       expect_nothing_half_written(stage);
-      if (killed) continue;
-      copy_over(scratch_ / "before", folder_);  // it had come to its end
-      finished_ = finished_in(folder_);
+      if (!killed) begin(stage);  // it had come to its end
     }
-    if (run(stage, 0) != 0) lose(stage, "did not come to its end");
-    std::cerr << stage.name << ": killed at " << kills << " moments\n";
-    show_rows("kills", "patient", rows());
+    end(stage, run(stage, 0));
   }
-  expect_end();
-  show_rows("kills", "patient", rows());
 }
 
 nlohmann::json KilledChain::rows() const {
@@ -132,28 +124,46 @@ nlohmann::json KilledChain::rows() const {
   return rows;
 }
 
+fs::path KilledChain::before(const Stage& stage) const {
+  return scratch_ / ("before-" + stage.name);
+}
+
 std::vector<std::string> KilledChain::environment(const Stage& stage) const {
   std::vector<std::string> entries = chain_.environment();
   entries.push_back("BIN=" + (scratch_ / ("bin-" + stage.name)).string());
   return entries;
 }
 
-int KilledChain::run(const Stage& stage, long kill_at) {
-  return faults_
-      .run({MAMMOTWIN_SOURCE_DIR "/pipeline/run_patient.sh", stage.name}, environment(stage),
-           kill_at, stage.every_write)
-      .exit_code;
+std::vector<std::string> KilledChain::command(const Stage& stage) const {
+  return {MAMMOTWIN_SOURCE_DIR "/pipeline/run_patient.sh", stage.name};
 }
 
-void KilledChain::begin() {
-  fs::remove_all(folder_);
-  fs::create_directories(folder_);
-  finished_.clear();
+int KilledChain::run(const Stage& stage, long kill_at) {
+  return faults_.run(command(stage), environment(stage), kill_at, stage.every_write).exit_code;
+}
+
+void KilledChain::begin(const Stage& stage) {
+  copy_over(before(stage), folder_);
+  finished_ = finished_in(folder_);
+}
+
+void KilledChain::end(Stage& stage, int exit_code) {
+  if (exit_code != 0) lose(stage, "ended with exit code " + std::to_string(exit_code));
+  expect_nothing_half_written(stage);
+  const auto found = chain_.products();
+  for (const auto& [name, bytes] : stage.products)
+    if (!found.count(name)) lose(stage, name + " is missing");
+  for (const auto& entry : fs::directory_iterator(folder_))
+    if (const std::string name = entry.path().filename().string(); name.front() == '.')
+      lose(stage, name + " was left");
+  std::cerr << stage.name << ": killed at " << stage.at_steps << " steps and " << stage.at_moments
+            << " moments\n";
+  show_rows("kills", "patient", rows());
 }
 
 void KilledChain::expect_nothing_half_written(Stage& stage) {
   for (const auto& [name, bytes] : chain_.products())
-    if (name.front() != '.' && (!expected_.count(name) || bytes != expected_.at(name)))
+    if (name.front() != '.' && (!stage.products.count(name) || bytes != stage.products.at(name)))
       lose(stage, name + " is half-written");
   for (const auto& entry : fs::directory_iterator(folder_))
     if (entry.path().extension() == ".json" && entry.path().filename().string().front() != '.' &&
@@ -163,19 +173,6 @@ void KilledChain::expect_nothing_half_written(Stage& stage) {
   for (const auto& [name, time] : finished_)
     if (!now.count(name) || now.at(name) != time) lose(stage, name + " was made again");
   finished_.insert(now.begin(), now.end());
-}
-
-void KilledChain::expect_end() {
-  Stage& last = stages_.back();
-  const CommandResult end = chain_.run_script("run_patient.sh", "patient");
-  if (end.exit_code != 0) lose(last, end.text);
-  expect_nothing_half_written(last);
-  const auto found = chain_.products();
-  for (const auto& [name, bytes] : expected_)
-    if (!found.count(name)) lose(last, name + " is missing");
-  for (const auto& entry : fs::directory_iterator(folder_))
-    if (const std::string name = entry.path().filename().string(); name.front() == '.')
-      lose(last, name + " was left");
 }
 
 void KilledChain::lose(Stage& stage, const std::string& what) const {

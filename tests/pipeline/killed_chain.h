@@ -12,25 +12,24 @@
 
 namespace mammotwin {
 
-/// Kills a patient's chain and goes on with what the kill has left, so that every kill but the
-/// first hits a run that itself goes on from one. After each, nothing may be half-written; at the
-/// end of each chain all products must be those of an undisturbed one, byte for byte, nothing else
-/// may be there, and nothing that was finished may have been made again.
+/// Kills the stages of a patient's chain and goes on with what the kill has left, so that every
+/// kill of a stage but the first hits a run that itself goes on from one. After each, nothing may
+/// be half-written; at the end of a stage all products must be those of an undisturbed chain, byte
+/// for byte, nothing else may be there, and nothing that was finished may have been made again.
 class KilledChain {
  public:
-  /// Runs the chain undisturbed, in an empty results folder. `scratch`: for what this needs;
-  /// `name`: the patient's in the rows for docs/measured (shown_rows.h), written whenever a stage
-  /// has ended.
+  /// Runs the chain undisturbed, in an empty results folder, and keeps what each stage found there.
+  /// `scratch`: for what this needs; `name`: the patient's in the rows for docs/measured
+  /// (shown_rows.h), written whenever a stage has ended, the quickest stage first.
   KilledChain(ChainRun chain, std::filesystem::path scratch, std::string name);
 
-  /// One chain. Each stage is killed before the first step that it takes in the results folder (a
-  /// file opened, written, closed, renamed or removed, an fsync: fault_layer.cpp), begun again and
-  /// killed before the second, and so on until it comes to its end. Where a stage takes more than
-  /// `most` steps, only every n-th of its writes counts.
+  /// Each stage is killed before the first step that it takes in the results folder (a file opened,
+  /// written, closed, renamed or removed, an fsync: fault_layer.cpp), begun again and killed before
+  /// the second, and so on until it comes to its end. Where a stage takes more than `most` steps,
+  /// only every n-th of its writes counts.
   void kill_at_steps(long most);
 
-  /// One chain. Each stage is killed `kills` times after times drawn evenly from 0 to what it
-  /// takes.
+  /// Each stage is killed `kills` times after times drawn evenly from 0 to what it takes.
   void kill_at_moments(int kills);
 
  private:
@@ -40,23 +39,25 @@ class KilledChain {
     double seconds = 0;
     long every_write = 1;
     int at_steps = 0, at_moments = 0, lost = 0;
+    std::map<std::string, std::string> products;  ///< all that are there when it has ended
   };
 
+  std::filesystem::path before(const Stage& stage) const;
+  std::vector<std::string> environment(const Stage& stage) const;
+  std::vector<std::string> command(const Stage& stage) const;
+  int run(const Stage& stage, long kill_at);
+  void begin(const Stage& stage);
+  void end(Stage& stage, int exit_code);
+  void expect_nothing_half_written(Stage& stage);
+  void lose(Stage& stage, const std::string& what) const;
   /// A row a stage and one of all: steps, how often they were killed, what was lost.
   nlohmann::json rows() const;
-  std::vector<std::string> environment(const Stage& stage) const;
-  int run(const Stage& stage, long kill_at);
-  void begin();
-  void expect_nothing_half_written(Stage& stage);
-  void expect_end();
-  void lose(Stage& stage, const std::string& what) const;
 
   ChainRun chain_;
   std::string name_;
   std::filesystem::path folder_, scratch_;
   Faults faults_;
   std::vector<Stage> stages_;
-  std::map<std::string, std::string> expected_;
   std::map<std::string, std::filesystem::file_time_type> finished_;  ///< products with a sidecar
   std::mt19937 random_{1};
 };
