@@ -84,7 +84,8 @@ help:
 	@echo 'make evaluate-niftysim   a breast that NiftySim compressed, node by node: RESULTS/evaluation/niftysim.json'
 	@echo 'make evaluate-victre   a phantom that FEBio compressed, its outline and tissue: RESULTS/evaluation/victre.json'
 	@echo 'make measured          the pages of docs/measured, from what evaluations wrote into RESULTS'
-	@echo 'make bench             times of kernels, linear algebra and whole solves (ten minutes)'
+	@echo 'make bench             times of kernels, linear algebra and whole solves (ten minutes):'
+	@echo '                       RESULTS/evaluation/benchmarks.json'
 	@echo 'make install PREFIX=/usr/local   programs, manual pages, completion, libraries'
 	@echo 'make docs              tutorial, how-tos, theory, reference: build/release/docs/index.html'
 	@echo 'make test              all tests'
@@ -184,7 +185,7 @@ measured: mammotwin-measured
 
 bench: configured_to_test
 	@pipeline/install/build.sh solver_benchmarks
-	@"$$BIN/solver_benchmarks"
+	@"$$BIN/solver_benchmarks" "$$RESULTS/evaluation/benchmarks.json"
 
 verify-results:
 	@pipeline/cohort/verify_patient.sh

@@ -22,7 +22,7 @@ struct CylinderProblem {
             SolidOptions{}),
         dofs(file.mesh),
         state(model.rest()) {
-    for (const auto& [e, face] : faces_at(file.mesh, 2, 0))
+    for (const auto& [e, face] : faces_in_plane(file.mesh, 2, 0))
       for (int i = 0; i < 3; ++i)
         for (int dof : face_dofs(file.mesh, e, face, i)) dofs.prescribe(dof);
     for (const ParameterTie& tie : file.ties)

@@ -15,7 +15,7 @@ void squeeze(benchmark::State& state, const CylinderElements& elements) {
   constexpr double reference_N = 8.515;  // sample_data/gel_cylinder
   state.counters["unknowns"] = f.dof;
   state.counters["iterations"] = f.iterations;
-  state.counters["force_error_%"] = 100 * (f.force_N / reference_N - 1);
+  state.counters["force_error_percent"] = 100 * (f.force_N / reference_N - 1);
   if (!f.usable) state.SkipWithError(f.reason.c_str());
 }
 

@@ -5,8 +5,10 @@
 #include <iostream>
 
 #include "solver/newton/blas_kernels.h"
+#include "tests/benchmarks/case_reporter.h"
 
-/// As the commands do: OpenBLAS reads its core type when it loads, so set it and start again.
+/// solver_benchmarks [benchmarks.json] [--benchmark_filter=...]. As the commands do: OpenBLAS reads
+/// its core type when it loads, so set it and start again.
 int main(int argc, char** argv) {
   const std::string core = mammotwin::blas_core_type();
   if (!core.empty()) {
@@ -16,6 +18,8 @@ int main(int argc, char** argv) {
   mammotwin::use_one_blas_thread();
   std::cerr << "OpenBLAS kernels: " << mammotwin::blas_core_in_use() << "\n";
   benchmark::Initialize(&argc, argv);
-  benchmark::RunSpecifiedBenchmarks();
+  mammotwin::CaseReporter reporter;
+  benchmark::RunSpecifiedBenchmarks(&reporter);
+  if (argc > 1) reporter.write(argv[1]);
   return 0;
 }
