@@ -49,14 +49,6 @@ void check_tilt(const PlateOptions& o) {
     throw std::invalid_argument("plates: the tilt's spring must be positive, its pivot finite");
 }
 
-Eigen::Vector3d on_face(int face, double s, double r) {
-  Eigen::Vector3d xi;
-  xi[face / 2] = face % 2;
-  xi[face_directions(face)[0]] = s;
-  xi[face_directions(face)[1]] = r;
-  return xi;
-}
-
 Eigen::Vector3d interpolate(const std::vector<HermiteMesh::Node>& x,
                             const HermiteMesh::Corners& corners, const HermiteMesh::Weights& w) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
@@ -70,8 +62,8 @@ void for_face_samples(const MeshFile& mesh, Visit visit) {
     for (int face = 0; face < 6; ++face)
       for (int k = 0; k < kSamples1d * kSamples1d; ++k)
         visit(e, mesh.faces[e][face],
-              on_face(face, k % kSamples1d / (kSamples1d - 1.0),
-                      k / kSamples1d / (kSamples1d - 1.0)));
+              point_on_face(face, k % kSamples1d / (kSamples1d - 1.0),
+                            k / kSamples1d / (kSamples1d - 1.0)));
 }
 
 Eigen::Vector3d volume_centroid(const HermiteMesh& mesh) {

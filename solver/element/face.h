@@ -62,4 +62,14 @@ constexpr std::array<int, 2> face_directions(int face) {
                     : std::array<int, 2>{0, 1};
 }
 
+/// Element coordinates of a point of a face, from its coordinates along the face's directions.
+inline Eigen::Vector3d point_on_face(int face, double s, double t) {
+  const auto [d1, d2] = face_directions(face);
+  Eigen::Vector3d xi;
+  xi[face / 2] = face % 2;
+  xi[d1] = s;
+  xi[d2] = t;
+  return xi;
+}
+
 }  // namespace mammotwin

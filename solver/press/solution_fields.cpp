@@ -117,15 +117,6 @@ Means volume_means(const Press& press, const State& state, const BezierMesh& bez
   return means;
 }
 
-Eigen::Vector3d on_face(int face, double s, double t) {
-  Eigen::Vector3d xi;
-  const auto [d1, d2] = face_directions(face);
-  xi[face / 2] = face % 2;
-  xi[d1] = s;
-  xi[d2] = t;
-  return xi;
-}
-
 /// Gap and contact pressure on the faces that may meet a plate.
 Means contact_means(const Press& press, const State& state, const BezierMesh& bezier) {
   const PlateContact& contact = *press.breast().contact;
@@ -139,7 +130,8 @@ Means contact_means(const Press& press, const State& state, const BezierMesh& be
         const Eigen::Vector3d at = face.deformed(x, q).head<3>();
         double pressure = 0;
         for (const Plate& plate : contact.plates) pressure += contact.pressure(plate.gap(at).gap);
-        means.add(e, on_face(number, points[q % contact.points1d], points[q / contact.points1d]),
+        means.add(e,
+                  point_on_face(number, points[q % contact.points1d], points[q / contact.points1d]),
                   face.point(q).area, Eigen::Vector2d(nearest_gap(press, at), pressure));
       }
     }
