@@ -15,9 +15,11 @@ inline void show_rows(const std::string& name, const std::string& key, const nlo
   if (!folder || rows.empty()) return;
   const std::filesystem::path file = std::filesystem::path(folder) / (name + ".json");
   nlohmann::json cases = nlohmann::json::array();
-  if (std::ifstream in(file); in)
-    for (const nlohmann::json& row : nlohmann::json::parse(in).at("cases"))
+  if (std::ifstream in(file); in) {
+    const nlohmann::json before = nlohmann::json::parse(in);
+    for (const nlohmann::json& row : before.at("cases"))
       if (row.at(key) != rows.front().at(key)) cases.push_back(row);
+  }
   cases.insert(cases.end(), rows.begin(), rows.end());
   std::filesystem::create_directories(folder);
   std::ofstream(file) << nlohmann::json{{"cases", cases}}.dump(1) << "\n";
