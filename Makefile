@@ -71,7 +71,7 @@ help:
 	@echo 'make evaluate-tomosynthesis   registers 042 with tomosynthesis of another model: RESULTS/evaluation/tomosynthesis.json'
 	@echo 'make evaluate-real-pairs CASES=folder   patients with lesions marked on mammograms (marks.csv):'
 	@echo '                       RESULTS/evaluation/real_pairs.json'
-	@echo 'make evaluate-what-if  what the sliders of the page say against full solves: RESULTS/evaluation/what_if.json'
+	@echo 'make evaluate-what-if  what the sliders of the page say against full solves: RESULTS/evaluation/what_if.json; VIEWS=cc'
 	@echo 'make evaluate-mammograms CASES=folder   reads mammograms whose landmarks somebody read (landmarks.csv):'
 	@echo '                       RESULTS/evaluation/mammograms.json and a contact sheet beside it'
 	@echo 'make evaluate-mammogram-changes CASES=folder   the same, mirrored, resampled, turned, ...: mammogram_changes.json'
@@ -154,7 +154,7 @@ evaluate-real-pairs: mammotwin-evaluate-real-pairs
 
 evaluate-what-if: mammotwin-evaluate-what-if
 	@"$$BIN/mammotwin-evaluate-what-if" sample_data/042/patient.toml "$$CASES" "$$RESULTS/evaluation/what_if.json" \
-	  $${ONLY:+--only $$ONLY}
+	  $${ONLY:+--only $$ONLY} $${VIEWS:+--views $$VIEWS}
 
 evaluate-mammograms: mammotwin-evaluate-mammograms
 	@"$$BIN/mammotwin-evaluate-mammograms" "$$(test -f "$$CASES/landmarks.csv" && echo "$$CASES" || echo "$$CASES/real_mammograms")" \

@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 struct Arguments {
   fs::path patient, cases, table;
   std::vector<std::string> only = {"Exam_02-left", "Exam_11-right", "mimbcd_6e4da81a"};
-  std::string view = "cc";
+  std::vector<std::string> views = {"cc", "mlo"};
   int states = 6;
 };
 
@@ -23,7 +23,7 @@ void declare(CommandLine& command, Arguments& args) {
   declare_cases(command, args.cases);
   declare_table(command, args.table, "what_if");
   declare_only(command, args.only);
-  command.option("--view", args.view, "the view to press").one_of({"cc", "mlo"});
+  command.option("--views", args.views, "views to press");
   command.option("--states", args.states, "pressed in full, of each breast");
 }
 
@@ -32,8 +32,9 @@ int run(const Arguments& args) {
   const auto breasts =
       breasts_to_press(args.patient, args.cases, args.only, table.folder() / "what_if");
   for (std::size_t n = 0; n < breasts.size(); ++n)
-    add_what_if_rows({breasts[n], args.view, args.states},
-                     [&](const nlohmann::json& row) { table.add(n, row); });
+    for (const std::string& view : args.views)
+      add_what_if_rows({breasts[n], view, args.states},
+                       [&](const nlohmann::json& row) { table.add(n, row); });
   return 0;
 }
 
