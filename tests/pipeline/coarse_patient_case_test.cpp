@@ -292,7 +292,7 @@ TEST_F(CoarsePatient, IsNamedNowhereAndLosesNothingToKills) {
   const char *at_moments = std::getenv("MAMMOTWIN_KILLS"),
              *at_steps = std::getenv("MAMMOTWIN_STEP_KILLS");
   if (at_moments || at_steps) {
-    KilledChain killed(chain(), folder_ / "layer", "coarse");
+    KilledChain killed(chain(), folder_ / "layer", at_moments ? "coarse" : "coarse, at steps");
     if (at_steps) killed.kill_at_steps(std::atol(at_steps));
     if (at_moments) killed.kill_at_moments(per_stage(std::atoi(at_moments)));
   }

@@ -80,7 +80,7 @@ void KilledChain::kill_at_steps(long most) {
     for (long step = 1; (exit_code = run(stage, step)) == 137; ++step) {
       ++stage.at_steps;
       SCOPED_TRACE("killed at step " + std::to_string(step));
-      expect_nothing_half_written(stage);
+      look_after_kill(stage);
     }
     end(stage, exit_code);
   }
@@ -94,7 +94,7 @@ void KilledChain::kill_at_moments(int kills) {
       SCOPED_TRACE("killed after " + std::to_string(moment) + " s");
       const bool killed = run_and_kill_after(moment, command(stage), environment(stage));
       stage.at_moments += killed;
-      expect_nothing_half_written(stage);
+      look_after_kill(stage);
       if (!killed) begin(stage);  // it had come to its end
     }
     end(stage, run(stage, 0));
@@ -113,12 +113,14 @@ nlohmann::json KilledChain::rows() const {
                     {"kills_at_steps", stage.at_steps},
                     {"kills_at_moments", stage.at_moments},
                     {"kills", stage.at_steps + stage.at_moments},
-                    {"lost", stage.lost}});
+                    {"lost", stage.lost},
+                    {"ended", stage.ended}});
   };
   for (const Stage& stage : stages_) {
     add(stage);
     all.steps.all += stage.steps.all, all.steps.writes += stage.steps.writes;
     all.at_steps += stage.at_steps, all.at_moments += stage.at_moments, all.lost += stage.lost;
+    all.ended &= stage.ended;
   }
   add(all);
   return rows;
@@ -147,7 +149,14 @@ void KilledChain::begin(const Stage& stage) {
   finished_ = finished_in(folder_);
 }
 
+void KilledChain::look_after_kill(Stage& stage) {
+  stage.ended = false;
+  expect_nothing_half_written(stage);
+  show_rows("kills", "patient", rows());
+}
+
 void KilledChain::end(Stage& stage, int exit_code) {
+  stage.ended = true;
   if (exit_code != 0) lose(stage, "ended with exit code " + std::to_string(exit_code));
   expect_nothing_half_written(stage);
   const auto found = chain_.products();

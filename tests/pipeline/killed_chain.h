@@ -20,7 +20,7 @@ class KilledChain {
  public:
   /// Runs the chain undisturbed, in an empty results folder, and keeps what each stage found there.
   /// `scratch`: for what this needs; `name`: the patient's in the rows for docs/measured
-  /// (shown_rows.h), written whenever a stage has ended, the quickest stage first.
+  /// (shown_rows.h), written after each kill. The quickest stage comes first.
   KilledChain(ChainRun chain, std::filesystem::path scratch, std::string name);
 
   /// Each stage is killed before the first step that it takes in the results folder (a file opened,
@@ -39,6 +39,7 @@ class KilledChain {
     double seconds = 0;
     long every_write = 1;
     int at_steps = 0, at_moments = 0, lost = 0;
+    bool ended = true;  ///< after the last kill: what it holds has been compared
     std::map<std::string, std::string> products;  ///< all that are there when it has ended
   };
 
@@ -47,6 +48,7 @@ class KilledChain {
   std::vector<std::string> command(const Stage& stage) const;
   int run(const Stage& stage, long kill_at);
   void begin(const Stage& stage);
+  void look_after_kill(Stage& stage);
   void end(Stage& stage, int exit_code);
   void expect_nothing_half_written(Stage& stage);
   void lose(Stage& stage, const std::string& what) const;
