@@ -63,11 +63,12 @@ class VtuTree {
   void check(vtkXMLDataElement* element, double values) const {
     for (const char* count : {"NumberOfPoints", "NumberOfCells", "NumberOfTuples"})
       values = std::max(values, count_of(element, count));
-    if (const char* format = element->GetAttribute("format")) {
+    if (is_array(element)) {
       check_type(element);
       if (values * count_of(element, "NumberOfComponents") > most())
         refuse(element, "asks for more values than the file can hold");
-      check_lengths(element, format);
+      const char* format = element->GetAttribute("format");
+      check_lengths(element, format ? format : "without a format");
       const char* name = element->GetAttribute("Name");
       if (name && std::string(name) == "offsets") check_offsets(element);
     }
@@ -94,6 +95,11 @@ class VtuTree {
     throw std::runtime_error(path_.string() + ": " + name + " is \"" + text + "\"; expected 0 to " +
                              std::to_string(static_cast<long long>(most())) +
                              ", which is what a file of this size can hold: make the file again");
+  }
+
+  static bool is_array(vtkXMLDataElement* element) {
+    const std::string kind = element->GetName();
+    return kind == "DataArray" || kind == "Array" || element->GetAttribute("format");
   }
 
   void check_type(vtkXMLDataElement* element) const {
