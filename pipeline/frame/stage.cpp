@@ -282,6 +282,7 @@ int run(int argc, char** argv, SettingsFile& file, const Stage& stage) {
     remove_partial_leftovers(folder_of(product), product.filename().string());
     const Provenance provenance = plan_provenance(stage, declaration, file, settings, naming);
     if (!common.force && current_sidecar(product, provenance)) {
+      Checkpoint(product, provenance).remove();  // of a run killed when it had nothing else to do
       std::cerr << stage.name << ": " << product.string() << " is up to date\n";
       say_data(stage);
       return 0;

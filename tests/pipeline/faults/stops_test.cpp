@@ -112,6 +112,14 @@ TEST_F(Stops, TwoRunsOfOneProductWaitForEachOther) {
   EXPECT_EQ(hidden(), std::vector<std::string>());
 }
 
+// Killed between its sidecar and the removal of its checkpoint.
+TEST_F(Stops, AFinishedProductLosesItsCheckpoint) {
+  ASSERT_EQ(run_command(stage()).exit_code, 0);
+  std::ofstream(product().parent_path() / ".prone.vtu.checkpoint") << "of a run that was killed";
+  EXPECT_NE(run_command(stage()).text.find("is up to date"), std::string::npos);
+  EXPECT_EQ(hidden(), std::vector<std::string>());
+}
+
 TEST_F(Stops, AClockSetBackMakesNothingOldOrNew) {
   ASSERT_EQ(run_command(stage()).exit_code, 0);
   const auto now = fs::file_time_type::clock::now();
