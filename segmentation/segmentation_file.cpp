@@ -15,6 +15,7 @@
 #include "segmentation/files/write_image_file.h"
 #include "segmentation/lesion/lesion_id.h"
 #include "segmentation/lesion/measure_lesions.h"
+#include "segmentation/mri/read_mri.h"
 
 namespace mammotwin {
 namespace {

@@ -14,6 +14,7 @@
 #include "pipeline/steps/view_problem.h"
 #include "registration/search/what_if.h"
 #include "segmentation/segmentation_file.h"
+#include "solver/press/compress.h"
 
 namespace mammotwin {
 namespace {
