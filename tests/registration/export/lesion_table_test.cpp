@@ -8,17 +8,12 @@
 
 #include "registration/export/predictions_text.h"
 #include "registration/view/breast_position.h"
+#include "tests/file_text.h"
 #include "tests/registration/squeezed_box.h"
 #include "tests/scratch_file.h"
 
 namespace mammotwin {
 namespace {
-
-std::string text_of(const std::filesystem::path& path) {
-  std::ostringstream text;
-  text << std::ifstream(path).rdbuf();
-  return text.str();
-}
 
 TEST(BreastPosition, ReadsTheClockFacingThePatient) {
   const Eigen::Vector3d nipple(0, 0, 0);
