@@ -161,11 +161,20 @@ void Browser::press(const std::string& key) {
              {{"type", type}, {"key", key}, {"code", key}, {"windowsVirtualKeyCode", code}});
 }
 
+/// left, top, width and height of what `selector` finds, scrolled to and no longer moved by the
+/// page.
+json Browser::box_at_rest(const std::string& selector) {
+  return evaluate("(async () => { const e = document.querySelector('" + selector +
+                  "'); const drawn = () => new Promise(requestAnimationFrame);"
+                  " for (let before = '';;) {"
+                  " e.scrollIntoView({block: 'center'}); await drawn(); await drawn();"
+                  " const b = e.getBoundingClientRect(), box = [b.left, b.top, b.width, b.height];"
+                  " if (String(box) === before) return box;"
+                  " before = String(box); } })()");
+}
+
 void Browser::click(const std::string& selector, double right, double down) {
-  const json box =
-      evaluate("(() => { const e = document.querySelector('" + selector +
-               "'); e.scrollIntoView({block: 'center'}); const b = e.getBoundingClientRect();"
-               " return [b.left, b.top, b.width, b.height]; })()");
+  const json box = box_at_rest(selector);
   const double x = box[0].get<double>() + (0.5 + right) * box[2].get<double>();
   const double y = box[1].get<double>() + (0.5 + down) * box[3].get<double>();
   for (const char* type : {"mousePressed", "mouseReleased"})

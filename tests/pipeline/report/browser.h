@@ -46,6 +46,7 @@ class Browser {
                       const nlohmann::json& parameters = nlohmann::json::object());
 
  private:
+  nlohmann::json box_at_rest(const std::string& selector);
   nlohmann::json next_message();
   void note(const nlohmann::json& event);
 

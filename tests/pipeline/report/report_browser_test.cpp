@@ -56,7 +56,9 @@ class ReportInABrowser : public ScratchFolder {
     if (Browser::program().empty()) GTEST_SKIP() << "there is no Chromium (package chromium)";
     browser_.emplace(folder_ / "profile");
     browser_->open(write("report.html", render_page(page_data(results_, "0.1.0"))));
-    ASSERT_TRUE(browser_->wait_until("document.getElementById('planes').dataset.ready"));
+    for (const char* part : {"planes').dataset.ready", "carry').dataset.ready",
+                             "viewer').dataset.lesion"})  // each moves what stands below it
+      ASSERT_TRUE(browser_->wait_until(std::string("document.getElementById('") + part)) << part;
   }
   void TearDown() override { browser_.reset(); }
 
@@ -195,7 +197,6 @@ TEST_F(ReportInABrowser, MovesLesionAndEllipseWithTheSliders) {
 // The page's grids of 4 mm against the mesh itself: an affine map, so that only 0.02 mm steps are
 // lost; at the skin, where nodes outside are carried on, no more.
 TEST_F(ReportInABrowser, CarriesMarksBetweenViewsAndMri) {
-  ASSERT_TRUE(browser_->wait_until("document.getElementById('carry').dataset.ready"));
   const ViewResult& cc = *results_.view("cc");
   const ViewProjection projection(results_.prone->mesh, cc.file.mesh, cc.view, cc.detector);
   const ViewRays rays(results_.prone->mesh, cc.file.mesh, cc.view, cc.detector);
@@ -219,7 +220,6 @@ TEST_F(ReportInABrowser, CarriesMarksBetweenViewsAndMri) {
 }
 
 TEST_F(ReportInABrowser, MarksByAClickOnAViewAndClearsThem) {
-  ASSERT_TRUE(browser_->wait_until("document.getElementById('carry').dataset.ready"));
   const std::string said = "document.getElementById('carry-status').textContent";
   browser_->click(".view[data-view=cc] canvas", -0.2);
   EXPECT_NE(browser_->evaluate(said).get<std::string>().find("Mark on CC"), std::string::npos);
@@ -249,7 +249,6 @@ TEST_F(ReportInABrowser, ZoomsAndWindowsTheViewsAndLetsSwipesScroll) {
 
 TEST_F(ReportInABrowser, PrintsAsksForNothingAndComplainsOfNothing) {
   print_the_stills();
-  ASSERT_TRUE(browser_->wait_until("document.getElementById('viewer').dataset.lesion"));
   for (const std::string& url : browser_->requests())
     EXPECT_TRUE(url.starts_with("file://" + folder_.string()) || url.starts_with("data:") ||
                 url.starts_with("blob:"))
