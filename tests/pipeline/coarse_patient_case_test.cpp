@@ -1,5 +1,6 @@
 // A coarse patient whose headers, files and folders name a person, through the real stages: no
-// output tells who it is, and a run that is killed and begun again ends as an undisturbed one does.
+// output tells who it is, a run that is killed and begun again ends as an undisturbed one does, and
+// after a change only the stages that it concerns run again.
 
 #include <dcmtk/config/osconfig.h>
 #include <dcmtk/dcmdata/dctk.h>
@@ -185,7 +186,21 @@ thickness_mm = 45
   ChainRun chain() const { return {"c", data_folder(), results()}; }
   void expect_nobody_named(const std::string& when);
   void expect_cut_mammograms_refused() const;
+  void expect_another_angle_to_keep_what_it_does_not_change() const;
 };
+
+void CoarsePatient::expect_another_angle_to_keep_what_it_does_not_change() const {
+  const auto before = times_of_change("c");
+  std::ofstream(patient_folder() / "patient.toml", std::ios::app) << "angle_deg = 50\n";
+  const CommandResult result = chain().run_script("run_patient.sh", "patient");
+  ASSERT_EQ(result.exit_code, 0) << result.text;
+  const auto after = times_of_change("c");
+  for (const char* kept : {"segmentation.seg.nrrd", "fractions.nrrd", "mri.nrrd", "prone.vtu",
+                           "prone.exf", "unloaded.vtu", "cc.vtu"})
+    EXPECT_EQ(after.at(kept), before.at(kept)) << kept;
+  for (const char* made_again : {"mlo.vtu", "lesions.csv", "report.html"})
+    EXPECT_NE(after.at(made_again), before.at(made_again)) << made_again;
+}
 
 /// A picture that is registered with, a DICOM file whose header is whole and is compressed with:
 /// both without a search, which would read them.
@@ -297,6 +312,7 @@ TEST_F(CoarsePatient, IsNamedNowhereAndLosesNothingToKills) {
     if (at_moments) killed.kill_at_moments(per_stage(std::atoi(at_moments)));
   }
 
+  expect_another_angle_to_keep_what_it_does_not_change();
   say("dicom_export = true\n");
   const CommandResult exported = chain().run_script("run_patient.sh", "slicer");
   EXPECT_EQ(exported.exit_code, 0) << exported.text;

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -34,6 +35,15 @@ class PatientCase : public ScratchFolder {
   nlohmann::json sidecar(const std::string& name, const std::string& product) const {
     std::ifstream in(results() / name / (product + ".json"));
     return in ? nlohmann::json::parse(in) : nlohmann::json();
+  }
+
+  /// Of every product: what did not run again keeps it.
+  std::map<std::string, std::filesystem::file_time_type> times_of_change(
+      const std::string& name) const {
+    std::map<std::string, std::filesystem::file_time_type> times;
+    for (const auto& entry : std::filesystem::directory_iterator(results() / name))
+      times[entry.path().filename().string()] = std::filesystem::last_write_time(entry.path());
+    return times;
   }
 };
 
