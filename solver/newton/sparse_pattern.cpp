@@ -1,6 +1,8 @@
 #include "solver/newton/sparse_pattern.h"
 
 #include <algorithm>
+#include <map>
+#include <utility>
 
 #include "solver/element/tensor_basis.h"
 #include "solver/newton/model.h"
@@ -33,40 +35,71 @@ std::vector<std::vector<int>> elements_of_equations(const SparsePattern& pattern
   return elements;
 }
 
-void list_rows(const std::vector<std::vector<int>>& elements, SparsePattern& pattern) {
-  const int n = static_cast<int>(elements.size());
-  std::vector<int> seen(n, -1), column_rows;
+/// Columns that lie in the same elements, as those of a node do, meet the same equations.
+struct Neighbours {
+  std::vector<int> group;                   ///< of each column
+  std::vector<std::vector<int>> equations;  ///< of each group, in order
+};
+
+Neighbours find_neighbours(const std::vector<std::vector<int>>& elements,
+                           const SparsePattern& pattern) {
+  Neighbours neighbours;
+  std::vector<int> seen(elements.size(), -1);
+  for (std::size_t column = 0; column < elements.size(); ++column) {
+    if (column == 0 || elements[column] != elements[column - 1]) {
+      const int group = static_cast<int>(neighbours.equations.size());
+      std::vector<int> met;
+      for (int e : elements[column])
+        for (int equation : pattern.equations[e])
+          if (equation >= 0 && std::exchange(seen[equation], group) != group)
+            met.push_back(equation);
+      std::sort(met.begin(), met.end());
+      neighbours.equations.push_back(std::move(met));
+    }
+    neighbours.group.push_back(static_cast<int>(neighbours.equations.size()) - 1);
+  }
+  return neighbours;
+}
+
+int place_of(int equation, const std::vector<int>& sorted) {
+  return static_cast<int>(std::lower_bound(sorted.begin(), sorted.end(), equation) -
+                          sorted.begin());
+}
+
+void list_rows(const Neighbours& neighbours, SparsePattern& pattern) {
+  const int n = static_cast<int>(neighbours.group.size());
   pattern.starts.push_back(0);
   for (int column = 0; column < n; ++column) {
-    column_rows.clear();
-    for (int e : elements[column])
-      for (int row : pattern.equations[e])
-        if (row >= column && seen[row] != column) {
-          seen[row] = column;
-          column_rows.push_back(row);
-        }
-    std::sort(column_rows.begin(), column_rows.end());
-    pattern.rows.insert(pattern.rows.end(), column_rows.begin(), column_rows.end());
+    const std::vector<int>& met = neighbours.equations[neighbours.group[column]];
+    pattern.rows.insert(pattern.rows.end(), met.begin() + place_of(column, met), met.end());
     pattern.starts.push_back(static_cast<int>(pattern.rows.size()));
   }
 }
 
-std::vector<int> element_positions(const SparsePattern& pattern,
+std::vector<int> element_positions(const SparsePattern& pattern, const Neighbours& neighbours,
                                    const std::vector<int>& equations) {
+  // Where the element's equations stand among those that each of its columns meets.
+  std::map<int, std::vector<int>> by_group;
+  std::vector<const std::vector<int>*> places(kUnknowns, nullptr);
+  for (int c = 0; c < kUnknowns; ++c) {
+    if (equations[c] < 0) continue;
+    const int group = neighbours.group[equations[c]];
+    std::vector<int>& place = by_group[group];
+    places[c] = &place;
+    if (!place.empty()) continue;
+    for (int equation : equations) place.push_back(place_of(equation, neighbours.equations[group]));
+  }
   std::vector<int> positions;
   positions.reserve(kUnknowns * (kUnknowns + 1) / 2);
   for (int c = 0; c < kUnknowns; ++c)
     for (int r = c; r < kUnknowns; ++r) {
-      const int row = std::max(equations[r], equations[c]);
-      const int column = std::min(equations[r], equations[c]);
-      if (column < 0) {
+      const auto [column, row] = equations[r] < equations[c] ? std::pair(r, c) : std::pair(c, r);
+      if (equations[column] < 0) {
         positions.push_back(-1);
         continue;
       }
-      const auto first = pattern.rows.begin() + pattern.starts[column];
-      const auto last = pattern.rows.begin() + pattern.starts[column + 1];
-      positions.push_back(
-          static_cast<int>(std::lower_bound(first, last, row) - pattern.rows.begin()));
+      const std::vector<int>& place = *places[column];
+      positions.push_back(pattern.starts[equations[column]] + place[row] - place[column]);
     }
   return positions;
 }
@@ -95,9 +128,10 @@ SparsePattern make_sparse_pattern(const HermiteMesh& mesh, const DofMap& dofs) {
   SparsePattern pattern;
   list_equations(mesh, dofs, pattern);
   const auto elements = elements_of_equations(pattern, dofs.num_equations());
-  list_rows(elements, pattern);
+  const Neighbours neighbours = find_neighbours(elements, pattern);
+  list_rows(neighbours, pattern);
   for (const auto& equations : pattern.equations)
-    pattern.positions.push_back(element_positions(pattern, equations));
+    pattern.positions.push_back(element_positions(pattern, neighbours, equations));
   colour(elements, pattern);
   return pattern;
 }
