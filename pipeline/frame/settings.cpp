@@ -94,6 +94,17 @@ bool checked_flag(const json& value) {
   return value.get<bool>();
 }
 
+/// What a command line's text says where this setting is meant.
+json value_of(const std::string& text, const Setting& setting) {
+  const bool is_text = setting.type == "text" || setting.type == "path" ||
+                       setting.type.find(" | ") != std::string::npos;
+  const bool is_list = setting.type.front() == '[';
+  json value =
+      json::parse(is_list && text.front() != '[' ? "[" + text + "]" : text, nullptr, false);
+  if (is_text || value.is_discarded()) value = text;
+  return value;
+}
+
 }  // namespace
 
 std::string Setting::range_text() const {
@@ -245,6 +256,25 @@ void Settings::label_values(std::string key, std::vector<int>& variable, std::st
       [&variable] { return json(variable); });
 }
 
+void Settings::preset(std::string key, std::string& chosen, std::vector<Preset> presets,
+                      std::string help) {
+  std::vector<std::string> names;
+  for (const Preset& preset : presets) names.push_back(preset.name);
+  presets_[key] = std::move(presets);
+  add_choice(
+      std::move(key), names, std::move(help),
+      [&chosen, names](std::size_t n) { chosen = names[n]; },
+      [&chosen] { return std::optional(chosen); });
+}
+
+void Settings::take_preset(const Preset& preset) {
+  for (const auto& [key, text] : preset.values) {
+    const Setting* setting = find(key);
+    if (!setting) throw std::logic_error("a preset names " + key + ", which is no setting");
+    if (!given_.count(key)) setting->assign(value_of(text, *setting));
+  }
+}
+
 const Setting* Settings::find(const std::string& key) const {
   for (const Setting& s : settings_)
     if (s.key == key) return &s;
@@ -257,7 +287,7 @@ std::vector<std::string> Settings::keys() const {
   return keys;
 }
 
-void Settings::assign(const std::string& where, const std::string& key, const json& value) const {
+void Settings::assign(const std::string& where, const std::string& key, const json& value) {
   const Setting* setting = find(key);
   if (!setting) throw std::logic_error("no setting is called " + key);
   try {
@@ -265,19 +295,17 @@ void Settings::assign(const std::string& where, const std::string& key, const js
   } catch (const BadSetting& e) {
     throw BadSetting(where + " " + e.what());
   }
+  given_.insert(key);
+  if (const auto found = presets_.find(key); found != presets_.end())
+    for (const Preset& preset : found->second)
+      if (value == preset.name) take_preset(preset);
 }
 
 void Settings::assign_text(const std::string& where, const std::string& key,
-                           const std::string& text) const {
+                           const std::string& text) {
   const Setting* setting = find(key);
   if (!setting) throw std::logic_error("no setting is called " + key);
-  const bool is_text = setting->type == "text" || setting->type == "path" ||
-                       setting->type.find(" | ") != std::string::npos;
-  const bool is_list = setting->type.front() == '[';
-  json value =
-      json::parse(is_list && text.front() != '[' ? "[" + text + "]" : text, nullptr, false);
-  if (is_text || value.is_discarded()) value = text;
-  assign(where, key, value);
+  assign(where, key, value_of(text, *setting));
 }
 
 json Settings::parameters(const std::vector<std::string>& prefixes) const {

@@ -5,8 +5,10 @@
 #include <filesystem>
 #include <functional>
 #include <limits>
+#include <map>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <type_traits>
@@ -45,6 +47,12 @@ struct Setting {
   std::string range_text() const;
 };
 
+/// A name for values of other settings, as they are written on a command line.
+struct Preset {
+  std::string name;
+  std::vector<std::pair<std::string, std::string>> values;
+};
+
 /// The table of all settings: declared once, it reads patient.toml, the command line, writes the
 /// help and the parameters of a sidecar. Defaults are the bound variables' values when declared.
 class Settings {
@@ -76,14 +84,18 @@ class Settings {
   void choice(std::string key, std::optional<E>& variable,
               std::vector<std::pair<std::string, E>> names, std::string help);
 
+  /// Names for sets of values of settings, all of the same ones. The values that a user gives
+  /// stand, whether they come before the name or after it.
+  void preset(std::string key, std::string& chosen, std::vector<Preset> presets, std::string help);
+
   const std::vector<Setting>& all() const { return settings_; }
   const Setting* find(const std::string& key) const;
   std::vector<std::string> keys() const;
 
   /// Throws BadSetting: "<where>: <key> is <found>; expected <type and range> (<hint>)".
-  void assign(const std::string& where, const std::string& key, const nlohmann::json& value) const;
+  void assign(const std::string& where, const std::string& key, const nlohmann::json& value);
   /// The same from command-line text.
-  void assign_text(const std::string& where, const std::string& key, const std::string& text) const;
+  void assign_text(const std::string& where, const std::string& key, const std::string& text);
 
   /// {"fit.smoothing": {"value": 1e-8, "unit": "-"}, ...} of the settings under these prefixes.
   nlohmann::json parameters(const std::vector<std::string>& prefixes) const;
@@ -96,7 +108,10 @@ class Settings {
   void add_choice(std::string key, std::vector<std::string> names, std::string help,
                   std::function<void(std::size_t)> choose,
                   std::function<std::optional<std::string>()> chosen);
+  void take_preset(const Preset& preset);
   std::vector<Setting> settings_;
+  std::map<std::string, std::vector<Preset>> presets_;  ///< by the setting that chooses one
+  std::set<std::string> given_;                         ///< keys that a user named
 };
 
 namespace detail {

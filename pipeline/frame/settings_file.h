@@ -28,7 +28,7 @@ class SettingsFile {
   virtual void declare(Settings& settings) = 0;
 
   /// Reads the file. Throws std::runtime_error naming file and key where it cannot serve.
-  virtual void read(const std::filesystem::path& file, const Settings& settings) = 0;
+  virtual void read(const std::filesystem::path& file, Settings& settings) = 0;
 
   /// Every file and folder that is named, there or not.
   virtual std::vector<NamedFile> named_files() const = 0;

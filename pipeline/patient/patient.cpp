@@ -144,7 +144,7 @@ const ViewSettings& Patient::view(const std::string& name) const {
   throw std::logic_error("no view is called " + name);
 }
 
-void Patient::read(const fs::path& file, const Settings& settings) {
+void Patient::read(const fs::path& file, Settings& settings) {
   file_ = file;
   for (const auto& [key, value] : read_toml(file)) {
     if (key.starts_with("lesions."))

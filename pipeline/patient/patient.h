@@ -34,7 +34,7 @@ class Patient : public SettingsFile {
 
   /// Reads patient.toml. Throws std::runtime_error naming file and key where the file is missing,
   /// is not TOML, has an unknown key (the nearest known one is named) or a value out of range.
-  void read(const std::filesystem::path& file, const Settings& settings) override;
+  void read(const std::filesystem::path& file, Settings& settings) override;
 
   /// The patient's folder, as its name: "042"; empty without a patient.toml.
   std::string name() const;

@@ -10,7 +10,7 @@ namespace mammotwin {
 
 namespace {
 
-void assign(const Settings& settings, const std::string& file, const std::string& key,
+void assign(Settings& settings, const std::string& file, const std::string& key,
             const nlohmann::json& value) {
   if (!settings.find(key))
     throw std::runtime_error(file + ": " + key + " is not known; did you mean " +

@@ -82,5 +82,26 @@ TEST_F(SettingsTest, ParametersCarryUnits) {
   EXPECT_EQ(parameters["thickness_mm"]["unit"], "mm");
 }
 
+TEST_F(SettingsTest, APresetLeavesWhatAUserGave) {
+  std::string chosen = "cold";
+  settings_.preset("preset", chosen,
+                   {{"cold", {{"color", "red"}, {"thickness_mm", "40"}, {"on", "false"}}},
+                    {"warm", {{"color", "green"}, {"thickness_mm", "60"}, {"on", "true"}}}},
+                   "sets of values");
+  settings_.assign("", "thickness_mm", 50);  // before the name
+  settings_.assign("", "preset", "warm");
+  EXPECT_EQ(chosen, "warm");
+  EXPECT_EQ(color_, Color::green);
+  EXPECT_EQ(thickness_, 50.0);
+  EXPECT_TRUE(on_);
+  settings_.assign_text("", "on", "true");  // after it
+  settings_.assign_text("", "preset", "cold");
+  EXPECT_EQ(color_, Color::red);
+  EXPECT_EQ(thickness_, 50.0);
+  EXPECT_TRUE(on_);
+  EXPECT_EQ(settings_.parameters({"preset"})["preset"]["value"], "cold");
+  EXPECT_NE(message_of("preset", "hot").find("expected \"cold\" or \"warm\""), std::string::npos);
+}
+
 }  // namespace
 }  // namespace mammotwin
