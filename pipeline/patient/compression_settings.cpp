@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 
+#include "pipeline/patient/tissue_presets.h"
 #include "solver/material/exponential.h"
 #include "solver/material/mooney_rivlin.h"
 #include "solver/material/neo_hookean.h"
@@ -74,6 +75,9 @@ Detector ViewSettings::detector(const std::string& view, Side side) const {
 }
 
 void declare_compression(Settings& s, CompressionSettings& c) {
+  s.preset("materials.preset", c.preset, tissue_presets(),
+           "values for the tissues' laws, stiffness_factor, skin.membrane and the chest wall's "
+           "spring and smoothing, where they are not given");
   declare_law(s, "fat", c.fat);
   declare_law(s, "fibroglandular", c.fibroglandular);
   declare_law(s, "lesion", c.lesion);

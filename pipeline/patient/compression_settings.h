@@ -35,6 +35,7 @@ inline BoundaryOptions on_a_traced_wall() {
 
 /// What patient.toml says of tissue and of what holds it.
 struct CompressionSettings {
+  std::string preset = "neo_hookean_2026";  ///< tissue_presets.h
   LawSettings fat{.c1_kpa = 0.75}, fibroglandular{.c1_kpa = 2.5}, lesion{.c1_kpa = 3.3};
   Mixing mixing = Mixing::geometric;
   double stiffness_factor = 1;    ///< on tissue, skin and springs

@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "pipeline/patient/tissue_presets.h"
 #include "tests/pipeline/scratch_folder.h"
 
 namespace mammotwin {
@@ -158,6 +159,29 @@ TEST_F(PatientTest, KeepsASeriesIdentifierOutOfTheParameters) {
   const auto parameters = settings_.parameters({"mri."});
   EXPECT_EQ(parameters.dump().find("1.2.840.99"), std::string::npos);
   EXPECT_NE(parameters["mri.series"]["value"], nullptr);
+}
+
+TEST_F(PatientTest, TakesAPresetOfTissueAndWhatIsSaidBesides) {
+  const nlohmann::json before = settings_.parameters({"materials.", "compress."});
+  read("[materials]\npreset = \"neo_hookean_2026\"\n");
+  EXPECT_EQ(settings_.parameters({"materials.", "compress."}), before);
+  read("[materials]\nfat.c1_kpa = 0.5\npreset = \"real\"\n");
+  EXPECT_EQ(patient_.compression.fat.c1_kpa, 0.5);
+  EXPECT_EQ(patient_.compression.fat.law, LawName::exponential);
+  EXPECT_EQ(patient_.compression.lesion.law, LawName::exponential);
+  EXPECT_LT(patient_.compression.stiffness_factor, 0.5);
+  EXPECT_EQ(patient_.compression.boundary.wall_smoothing, 20);
+}
+
+// Else a second name would leave behind what only the first one sets.
+TEST(TissuePresets, NameTheSameSettings) {
+  const auto keys_of = [](const Preset& preset) {
+    std::vector<std::string> keys;
+    for (const auto& [key, value] : preset.values) keys.push_back(key);
+    return keys;
+  };
+  for (const Preset& preset : tissue_presets())
+    EXPECT_EQ(keys_of(preset), keys_of(tissue_presets().front())) << preset.name;
 }
 
 }  // namespace
