@@ -29,7 +29,7 @@ override UNLOAD := $(value UNLOAD)
 ifeq ($(RESULTS),)
 $(error RESULTS is empty: name the folder that results go to)
 endif
-export P DATA RESULTS FORCE BIN SEED PATIENTS JOBS ONLY ENGINE CONFIG PREFIX CASES SYNTHETIC CHANGES VIEWS SPOIL OTHERS TABLE UNLOAD
+export P DATA RESULTS FORCE BIN SEED PATIENTS JOBS ONLY ENGINE CONFIG PREFIX CASES SYNTHETIC CHANGES VIEWS SPOIL OTHERS TABLE UNLOAD PRESET PRESS
 unexport MAKEFLAGS MAKEOVERRIDES
 
 .PHONY: help patient segment fit unload compress register report slicer paraview synthesize exam cohort verify-results \
@@ -56,7 +56,8 @@ help:
 	@echo '                       RESULTS/evaluation/fitting.json; ONLY="Exam_02-left Exam_04"'
 	@echo 'make evaluate-other-meshes OTHERS=folder   presses breasts with our meshes and with those of another'
 	@echo '                       program: RESULTS/evaluation/other_meshes.json; VIEWS=cc'
-	@echo 'make evaluate-gravity  lays every breast of CASES on its back: RESULTS/evaluation/gravity.json'
+	@echo 'make evaluate-gravity  lays every breast of CASES on its back: RESULTS/evaluation/gravity.json;'
+	@echo '                       PRESET=real for another materials.preset; PRESS=1 presses them in CC, too'
 	@echo 'make evaluate-unload   takes gravity off every breast of CASES: RESULTS/evaluation/unload.json'
 	@echo 'make evaluate-compression   compresses SYNTHETIC=200 drawn breasts and those of CASES=folder in'
 	@echo '                       both views: RESULTS/evaluation/compression.json; JOBS=2 at a time'
@@ -124,7 +125,8 @@ evaluate-unload: mammotwin-evaluate-unload
 evaluate-gravity: mammotwin-evaluate-gravity
 	@set -f; for option in $$UNLOAD; do set -- "$$@" "--unload=$$option"; done; \
 	  "$$BIN/mammotwin-evaluate-gravity" "$$CASES" "$$RESULTS/evaluation/$${TABLE:-gravity}.json" \
-	  $${JOBS:+--jobs "$$JOBS"} $${ONLY:+--only $$ONLY} "$$@"
+	  $${JOBS:+--jobs "$$JOBS"} $${ONLY:+--only $$ONLY} $${PRESET:+--preset "$$PRESET"} \
+	  $${PRESS:+--population "$$CASES/compressed_outlines"} "$$@"
 
 evaluate-compression: mammotwin-evaluate-compression
 	@"$$BIN/mammotwin-evaluate-compression" "$$RESULTS/evaluation/compression.json" --cases "$$CASES" \

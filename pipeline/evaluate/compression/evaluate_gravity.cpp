@@ -1,5 +1,8 @@
 // evaluate-gravity: lays every breast of a folder of cases on its back, unattended -> one table.
 
+#include <nlohmann/json.hpp>
+#include <optional>
+
 #include "pipeline/evaluate/cases/case_arguments.h"
 #include "pipeline/evaluate/cases/evaluation_table.h"
 #include "pipeline/evaluate/compression/gravity_row.h"
@@ -9,9 +12,12 @@ namespace mammotwin {
 namespace {
 
 namespace fs = std::filesystem;
+using nlohmann::json;
 
 struct Arguments {
   fs::path cases, table;
+  fs::path population;
+  std::string preset;
   std::vector<std::string> only, unload_options;
   int jobs = 2;
 };
@@ -24,6 +30,12 @@ void declare(CommandLine& command, Arguments& args) {
   command.option("--unload", args.unload_options,
                  "options of mammotwin-unload (such as --unload=--stiffness-factor "
                  "--unload=0.4)");
+  command.option("--preset", args.preset, "the tissue's materials.preset");
+  command
+      .option("--population", args.population,
+              "folder with PCAmean.csv, PCA1.csv ...: press each breast in CC, too, to the "
+              "thickness that is typical of its volume")
+      .existing_folder();
 }
 
 std::vector<RealBreast> breasts_asked(const Arguments& args) {
@@ -37,10 +49,17 @@ std::vector<RealBreast> breasts_asked(const Arguments& args) {
 
 int run(const Arguments& args) {
   EvaluationTable table(args.table);
-  const auto breasts = breasts_asked(args);
+  auto breasts = breasts_asked(args);
+  if (!args.preset.empty())
+    for (RealBreast& breast : breasts)
+      breast.patient_toml = "materials.preset = \"" + args.preset + "\"\n" + breast.patient_toml;
+  std::optional<OutlinePopulation> population;
+  if (!args.population.empty()) population.emplace(args.population);
   work_through(breasts.size(), args.jobs, [&](std::size_t n) {
     const fs::path folder = table.folder() / "gravity" / name_and_side(breasts[n]);
-    table.add(n, gravity_row(breasts[n], folder, args.unload_options));
+    json row = gravity_row(breasts[n], folder, args.unload_options);
+    if (population) add_plates(folder, *population, row);
+    table.add(n, std::move(row));
   });
   return 0;
 }

@@ -3,8 +3,8 @@
 #include <cstdio>
 
 #include "pipeline/evaluate/cases/evaluation_table.h"
-#include "pipeline/evaluate/cases/stage_command.h"
 #include "pipeline/evaluate/compression/outline_row.h"
+#include "pipeline/evaluate/compression/typical_press.h"
 #include "pipeline/frame/command_line.h"
 
 namespace mammotwin {
@@ -35,35 +35,6 @@ void declare(CommandLine& command, Arguments& args) {
                "folder outlines beside the table");
 }
 
-constexpr int kMostCpuSeconds = 1800;
-
-/// A breast's view at the thickness to which radiographers press its volume. What lies there
-/// already and is current is kept. Throws std::runtime_error where no such view comes out.
-fs::path pressed_typically(const fs::path& view, const OutlinePopulation& population,
-                           const fs::path& beside) {
-  const fs::path from = fs::absolute(view).parent_path();
-  const fs::path folder = beside / from.filename();
-  fs::create_directories(folder);
-  const json row = outline_row(read_mesh_file(view), population);
-  const fs::path mesh = from / (fs::exists(from / "unloaded.vtu") ? "unloaded.vtu" : "prone.vtu");
-  const fs::path product = folder / "cc.vtu";
-  std::vector<std::string> words{"cc",
-                                 (from / "segmentation.seg.nrrd").string(),
-                                 (from / "fractions.nrrd").string(),
-                                 mesh.string(),
-                                 product.string(),
-                                 "--views-cc-thickness-mm",
-                                 std::to_string(row["typical_thickness_mm"].get<double>())};
-  if (fs::exists(from / "patient.toml"))
-    words.insert(words.end(), {"--patient", (from / "patient.toml").string()});
-  const StageEnd end = run_stage_command("compress", words, folder / "cc.log", kMostCpuSeconds);
-  if (end.exit_code != 0)
-    throw std::runtime_error(view.string() + ": compress ended with code " +
-                             std::to_string(end.exit_code) + "; see " +
-                             (folder / "cc.log").string());
-  return product;
-}
-
 std::string line_of(const json& row) {
   if (row["within_2_sd"].is_null()) return row["name"].get<std::string>() + ": none";
   char line[240];
@@ -86,7 +57,10 @@ int run(const Arguments& args) {
   const fs::path beside = table.folder() / "outlines";
   for (std::size_t n = 0; n < args.views.size(); ++n) {
     const std::string& view = args.views[n];
-    const fs::path path = args.press ? pressed_typically(view, population, beside) : fs::path(view);
+    const fs::path from = fs::absolute(view).parent_path();
+    const fs::path path = args.press
+                              ? press_typically(view, from, population, beside / from.filename())
+                              : fs::path(view);
     json row = outline_row(read_mesh_file(path), population);
     row["name"] = fs::absolute(path).parent_path().filename().string();
     const std::string line = line_of(row);
