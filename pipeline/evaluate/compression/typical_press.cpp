@@ -32,11 +32,12 @@ fs::path press_typically(const fs::path& view, const fs::path& from,
   if (fs::exists(from / "patient.toml"))
     words.insert(words.end(), {"--patient", (from / "patient.toml").string()});
   const StageEnd end = run_stage_command("compress", words, folder / "cc.log", kMostCpuSeconds);
-  if (end.exit_code != 0)
-    throw std::runtime_error(view.string() + ": compress ended with code " +
-                             std::to_string(end.exit_code) + "; see " +
-                             (folder / "cc.log").string());
-  return product;
+  if (end.exit_code == 0) return product;
+  const auto sidecar = stage_sidecar(product);
+  throw std::runtime_error("not pressed to the thickness that is typical: " +
+                           (sidecar.is_object() && !sidecar.at("reasons").empty()
+                                ? sidecar.at("reasons").front().get<std::string>()
+                                : "compress ended with code " + std::to_string(end.exit_code)));
 }
 
 }  // namespace mammotwin
