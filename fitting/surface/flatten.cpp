@@ -4,7 +4,7 @@
 #include <CGAL/Polygon_mesh_processing/measure.h>
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>
-#include <CGAL/Surface_mesh_parameterization/Mean_value_coordinates_parameterizer_3.h>
+#include <CGAL/Surface_mesh_parameterization/Discrete_conformal_map_parameterizer_3.h>
 #include <CGAL/Surface_mesh_parameterization/Square_border_parameterizer_3.h>
 #include <CGAL/Surface_mesh_parameterization/parameterize.h>
 
@@ -26,8 +26,8 @@ using Border = parameterization::Square_border_arc_length_parameterizer_3<Surfac
 // CGAL's default, BiCGSTAB on an incomplete LU, can leave NaN without a word.
 using Solver =
     CGAL::Eigen_solver_traits<Eigen::UmfPackLU<CGAL::Eigen_sparse_matrix<double>::EigenType>>;
-using MeanValue =
-    parameterization::Mean_value_coordinates_parameterizer_3<SurfaceMesh, Border, Solver>;
+using Harmonic =
+    parameterization::Discrete_conformal_map_parameterizer_3<SurfaceMesh, Border, Solver>;
 
 /// Corners in the order (x_min, z_min), (x_max, z_min), (x_max, z_max), (x_min, z_max).
 Eigen::Vector2d corner(const BreastRegion& r, int c) {
@@ -121,7 +121,7 @@ FlatSkin flatten(const TriangleSurface& skin, const BreastRegion& region) {
   const auto vertex = [&](int c) { return Vertex(loop[place[c]]); };
   const Border square(vertex(0), vertex(swapped ? 3 : 1), vertex(2), vertex(swapped ? 1 : 3));
   const OneBlasThread one_thread;  // UMFPACK's last bits depend on the number
-  const auto error = parameterization::parameterize(mesh, MeanValue(square), border, uv);
+  const auto error = parameterization::parameterize(mesh, Harmonic(square), border, uv);
   if (error != parameterization::OK)
     throw std::runtime_error(
         std::string("the skin surface cannot be laid on a square: ") +

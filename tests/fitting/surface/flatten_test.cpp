@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <random>
 
@@ -48,6 +49,40 @@ TEST(Flatten, LaysXAlongUAndZAlongVWhereverTheBorderBegins) {
       EXPECT_EQ(w == 1, flat.uv[v].y() == 1) << "seed " << seed;
     }
   }
+}
+
+/// The hill with a vertex inside split in two: a second one, near by at an angle from x, takes the
+/// triangles on the side of greater x, and two slivers join them.
+TriangleSurface split_hill(double angle) {
+  constexpr double distance = 1e-5;
+  TriangleSurface hill = shuffled_hill(1);
+  const auto vertex = [&](double i, double k) {
+    const auto is_there = [&](const Eigen::Vector3d& x) {
+      return x.x() == hill_region.x_min + i && x.z() == hill_region.z_min + k;
+    };
+    const auto& v = hill.vertices;
+    return static_cast<int>(std::find_if(v.begin(), v.end(), is_there) - v.begin());
+  };
+  const int split = vertex(2, 2), added = static_cast<int>(hill.vertices.size());
+  for (auto& t : hill.triangles) {
+    double x = 0;
+    for (int v : t) x += hill.vertices[v].x() / 3;
+    if (x > hill.vertices[split].x()) std::replace(t.begin(), t.end(), split, added);
+  }
+  const double i = 2 + distance * std::cos(angle), k = 2 + distance * std::sin(angle);
+  hill.triangles.push_back({split, added, vertex(2, 3)});
+  hill.triangles.push_back({split, vertex(2, 1), added});
+  hill.vertices.push_back({hill_region.x_min + i, -0.3 * i * k, hill_region.z_min + k});
+  return hill;
+}
+
+// Contours of label maps are full of slivers, and a micrometre turns their short edges.
+TEST(Flatten, AShortEdgeThatTurnsMovesNothing) {
+  const FlatSkin flat = flatten(split_hill(-1), hill_region);
+  const FlatSkin turned = flatten(split_hill(1), hill_region);
+  // The edge is 1e-5 long and the shorter side of the region 4.
+  for (std::size_t v = 0; v < flat.uv.size(); ++v)
+    EXPECT_LT((turned.uv[v] - flat.uv[v]).norm(), 1e-5) << "vertex " << v;
 }
 
 }  // namespace

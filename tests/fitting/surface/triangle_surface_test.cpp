@@ -73,7 +73,7 @@ TEST(Flatten, RefusesWhatIsNoDisc) {
 }
 
 TEST(Flatten, AFlatSheetKeepsItsProportions) {
-  // Mean-value coordinates reproduce linear maps, and the border by arc length is linear here.
+  // Cotangents reproduce linear maps, and the border by arc length is linear here.
   const TriangleSurface s = cut_to_region(sheet(17));
   const FlatSkin flat = flatten(s, region);
   for (std::size_t v = 0; v < s.vertices.size(); ++v) {
