@@ -17,6 +17,7 @@ constexpr double wall_trust_mm = 10;
 // A nipple is a thousandth of the skin: without weight of its own it is smoothed away by 3 to 6 mm.
 constexpr double nipple_weight = 20;
 constexpr double nipple_width_mm = 10;
+constexpr double smallest_distance_mm = 1e-6;  // whose direction is not rounding
 
 /// Coordinate that is constant along edge 0 to 3 (u = 0, u = 1, v = 0, v = 1).
 int held_coordinate(int edge) { return edge / 2; }
@@ -141,8 +142,13 @@ void FitTarget::add_mesh_to_data(const SkinPatches& patches, double weight,
   out.resize(first + num_mesh_samples());
   tbb::parallel_for(0, num_mesh_samples(), [&](int m) {
     const SkinPatches::Coordinates st = mesh_sample(m);
-    const ClosestPoint::Hit hit = closest_(patches.at(st).x);
-    out[first + m] = {patches.mesh_point(st), hit.normal, hit.x, weight * mesh_shares_[m]};
+    const Eigen::Vector3d x = patches.at(st).x;
+    const ClosestPoint::Hit hit = closest_(x);
+    // Not the triangle's normal where an edge or a corner is nearest: the cost would jump there.
+    const Eigen::Vector3d away = x - hit.x;
+    const double distance = away.norm();
+    const Eigen::Vector3d normal = distance > smallest_distance_mm ? away / distance : hit.normal;
+    out[first + m] = {patches.mesh_point(st), normal, hit.x, weight * mesh_shares_[m]};
   });
 }
 
