@@ -52,6 +52,24 @@ TEST(FitSamples, DataAreSeenAtTheirFeetAcrossTheSkin) {
   EXPECT_NEAR(flat.target.skin_rms(), 2, 1e-9);
 }
 
+// A triangle's normal would leave out how far beside the skin's border the mesh lies.
+TEST(FitSamples, BesideTheBorderTheMeshIsDrawnToItsNearestPlace) {
+  FlatTarget flat({2, 2, 1}, 2);
+  std::vector<HermiteMesh::Node> nodes = flat.box.nodes();
+  for (auto& node : nodes) node(0, 0) += 10;
+  const HermiteMesh beside(nodes, flat.box.elements());
+  const auto samples = flat.target.samples(beside, {});
+  int seen = 0;
+  for (int n = kData + kOnEdges; n < kData + kOnEdges + 4 * 64; ++n) {
+    const Eigen::Vector3d off = beside.position(samples[n].point) - samples[n].target;
+    const double beyond = beside.position(samples[n].point).x() - kSkinSide;
+    if (beyond <= 0) continue;
+    ++seen;
+    EXPECT_NEAR(std::abs(samples[n].normal.dot(off)), std::hypot(beyond, 2), 1e-6);
+  }
+  EXPECT_GT(seen, 10);
+}
+
 // A nipple's weight is 20 and falls as a Gaussian 10 mm wide: 1 + 20 exp(-d² / 200).
 TEST(FitSamples, SkinCountsMoreNearTheNipple) {
   FlatTarget flat({2, 2, 1}, 0);
