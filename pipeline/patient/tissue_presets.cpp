@@ -5,10 +5,11 @@
 namespace mammotwin {
 namespace {
 
-/// What differs between the sets; numbers as they are written in patient.toml.
+/// What differs between the sets, as it is written in patient.toml; by default neo_hookean_2026.
 struct Tissue {
-  std::string law, fat_c1, fibroglandular_c1, lesion_c1, stiffening, factor, membrane, spring,
-      smoothing;
+  std::string law = "neo_hookean";
+  std::string fat_c1 = "0.75", fibroglandular_c1 = "2.5", lesion_c1 = "3.3";
+  std::string stiffening = "1", factor = "1", membrane = "true", spring = "0.08", smoothing = "5";
 };
 
 Preset preset_of(const std::string& name, const Tissue& tissue) {
@@ -34,12 +35,15 @@ Preset preset_of(const std::string& name, const Tissue& tissue) {
 }  // namespace
 
 std::vector<Preset> tissue_presets() {
-  return {
-      preset_of("gel", {"neo_hookean", "3", "3", "3", "1", "1", "false", "0.08", "5"}),
-      preset_of("neo_hookean_2026",
-                {"neo_hookean", "0.75", "2.5", "3.3", "1", "1", "true", "0.08", "5"}),
-      preset_of("real", {"exponential", "0.75", "2.5", "3.3", "1.3", "0.14", "true", "0.04", "20"}),
-  };
+  Tissue gel, real;
+  gel.fat_c1 = gel.fibroglandular_c1 = gel.lesion_c1 = "3";
+  gel.membrane = "false";
+  real.law = "exponential";
+  real.stiffening = "1.3";
+  real.factor = "0.14";
+  real.spring = "0.04";
+  real.smoothing = "20";
+  return {preset_of("gel", gel), preset_of("neo_hookean_2026", {}), preset_of("real", real)};
 }
 
 }  // namespace mammotwin

@@ -173,6 +173,15 @@ TEST_F(PatientTest, TakesAPresetOfTissueAndWhatIsSaidBesides) {
   EXPECT_EQ(patient_.compression.boundary.wall_smoothing, 20);
 }
 
+TEST_F(PatientTest, TakesEveryPresetOfTissue) {
+  for (const Preset& preset : tissue_presets())
+    EXPECT_NO_THROW(settings_.assign("", "materials.preset", preset.name)) << preset.name;
+  settings_.assign("", "materials.preset", "gel");
+  EXPECT_EQ(patient_.compression.lesion.c1_kpa, 3);
+  EXPECT_EQ(patient_.compression.fat.law, LawName::neo_hookean);
+  EXPECT_FALSE(patient_.compression.skin.on);
+}
+
 // Else a second name would leave behind what only the first one sets.
 TEST(TissuePresets, NameTheSameSettings) {
   const auto keys_of = [](const Preset& preset) {
