@@ -72,7 +72,8 @@ json stage_sidecar(const fs::path& product) {
 double run_to_product(const ProductRun& run) {
   std::vector<std::string> arguments = run.inputs;
   arguments.push_back(run.product.string());
-  arguments.insert(arguments.end(), {"--patient", run.patient_toml.string()});
+  if (!run.patient_toml.empty())
+    arguments.insert(arguments.end(), {"--patient", run.patient_toml.string()});
   arguments.insert(arguments.end(), run.options.begin(), run.options.end());
   const fs::path log = fs::path(run.product).replace_extension(".log");
   const StageEnd end = run_stage_command(run.stage, arguments, log, run.most_cpu_seconds);

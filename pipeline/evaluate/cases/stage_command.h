@@ -32,7 +32,8 @@ nlohmann::json stage_sidecar(const std::filesystem::path& product);
 struct ProductRun {
   std::string stage;
   std::vector<std::string> inputs;
-  std::filesystem::path product, patient_toml;  ///< the log goes beside the product
+  std::filesystem::path product;       ///< the log goes beside it
+  std::filesystem::path patient_toml;  ///< empty: the stage's defaults
   std::vector<std::string> options = {};
   int most_cpu_seconds = kMostStageCpuSeconds;
 };

@@ -6,6 +6,7 @@
 #include "pipeline/evaluate/cases/case_arguments.h"
 #include "pipeline/evaluate/cases/evaluation_table.h"
 #include "pipeline/evaluate/compression/gravity_row.h"
+#include "pipeline/evaluate/compression/typical_press.h"
 #include "pipeline/frame/command_line.h"
 
 namespace mammotwin {

@@ -7,9 +7,7 @@
 
 #include "pipeline/evaluate/cases/sorted_figures.h"
 #include "pipeline/evaluate/cases/stage_command.h"
-#include "pipeline/evaluate/compression/outline_row.h"
 #include "pipeline/evaluate/compression/pressed_places.h"
-#include "pipeline/evaluate/compression/typical_press.h"
 #include "pipeline/frame/products.h"
 #include "pipeline/synthesize/options.h"
 #include "registration/carry/point_carrier.h"
@@ -133,36 +131,6 @@ json gravity_row(const RealBreast& breast, const fs::path& folder,
   if (const json sidecar = stage_sidecar(unloaded); sidecar.is_object())
     row["status"] = sidecar.at("status");
   return row;
-}
-
-void add_plates(const fs::path& folder, const OutlinePopulation& population, json& row) {
-  for (const char* key : {"press_status", "thickness_mm", "force_N", "pressure_kpa", "width_ratio"})
-    row[key] = nullptr;
-  const fs::path segmentation = folder / "segmentation.seg.nrrd",
-                 unloaded = folder / "unloaded.vtu";
-  if (!fs::exists(unloaded)) return;
-  try {
-    run_to_product(
-        {"compress",
-         {"cc", segmentation.string(), fractions_beside(segmentation).string(), unloaded.string()},
-         folder / "cc.vtu",
-         folder / "patient.toml"});
-    const fs::path pressed =
-        press_typically(folder / "cc.vtu", folder, population, folder / "typical");
-    const json sidecar = stage_sidecar(pressed), &quality = sidecar.at("quality");
-    const json outline = outline_row(read_mesh_file(pressed), population);
-    constexpr double kPa_per_N_per_cm2 = 10;
-    row["press_status"] = sidecar.at("status");
-    row["thickness_mm"] = quality.at("thickness_mm");
-    row["force_N"] = quality.at("force_N");
-    row["pressure_kpa"] = kPa_per_N_per_cm2 * quality.at("force_N").get<double>() /
-                          quality.at("contact_area_cm2").get<double>();
-    if (outline.at("width_mm").is_number())
-      row["width_ratio"] =
-          outline.at("width_mm").get<double>() / outline.at("population_width_mm").get<double>();
-  } catch (const std::exception& error) {
-    if (row.at("reason").is_null()) row["reason"] = error.what();
-  }
 }
 
 }  // namespace mammotwin

@@ -8,7 +8,6 @@
 
 #include "fitting/mesh/mesh_file.h"
 #include "pipeline/evaluate/cases/real_breasts.h"
-#include "pipeline/evaluate/compression/outline_population.h"
 
 namespace mammotwin {
 
@@ -30,12 +29,5 @@ SupineMoves supine_moves(const MeshFile& unloaded, Side side, const Eigen::Vecto
 /// leaves its figures null and says why.
 nlohmann::json gravity_row(const RealBreast& breast, const std::filesystem::path& folder,
                            const std::vector<std::string>& unload_options);
-
-/// Presses what `gravity_row` left in `folder` in CC to the thickness that is typical of its volume
-/// and adds to the row: `thickness_mm`, `force_N`, `pressure_kpa` (mean over the paddle's contact),
-/// `width_ratio` (to the population's at that thickness), `press_status`. What fails leaves its
-/// figures null and says why where nothing failed before.
-void add_plates(const std::filesystem::path& folder, const OutlinePopulation& population,
-                nlohmann::json& row);
 
 }  // namespace mammotwin

@@ -1,7 +1,6 @@
 #include "pipeline/evaluate/compression/typical_press.h"
 
 #include <nlohmann/json.hpp>
-#include <stdexcept>
 
 #include "fitting/mesh/mesh_file.h"
 #include "pipeline/evaluate/cases/stage_command.h"
@@ -11,33 +10,56 @@ namespace mammotwin {
 namespace {
 
 namespace fs = std::filesystem;
+using nlohmann::json;
 
 constexpr int kMostCpuSeconds = 1800;
+
+/// What mammotwin-compress takes of a breast in this folder.
+std::vector<std::string> inputs_in(const fs::path& from) {
+  const fs::path mesh = from / (fs::exists(from / "unloaded.vtu") ? "unloaded.vtu" : "prone.vtu");
+  return {"cc", (from / "segmentation.seg.nrrd").string(), (from / "fractions.nrrd").string(),
+          mesh.string()};
+}
 
 }  // namespace
 
 fs::path press_typically(const fs::path& view, const fs::path& from,
                          const OutlinePopulation& population, const fs::path& folder) {
   fs::create_directories(folder);
-  const auto row = outline_row(read_mesh_file(view), population);
-  const fs::path mesh = from / (fs::exists(from / "unloaded.vtu") ? "unloaded.vtu" : "prone.vtu");
-  const fs::path product = folder / "cc.vtu";
-  std::vector<std::string> words{"cc",
-                                 (from / "segmentation.seg.nrrd").string(),
-                                 (from / "fractions.nrrd").string(),
-                                 mesh.string(),
-                                 product.string(),
-                                 "--views-cc-thickness-mm",
-                                 std::to_string(row["typical_thickness_mm"].get<double>())};
-  if (fs::exists(from / "patient.toml"))
-    words.insert(words.end(), {"--patient", (from / "patient.toml").string()});
-  const StageEnd end = run_stage_command("compress", words, folder / "cc.log", kMostCpuSeconds);
-  if (end.exit_code == 0) return product;
-  const auto sidecar = stage_sidecar(product);
-  throw std::runtime_error("not pressed to the thickness that is typical: " +
-                           (sidecar.is_object() && !sidecar.at("reasons").empty()
-                                ? sidecar.at("reasons").front().get<std::string>()
-                                : "compress ended with code " + std::to_string(end.exit_code)));
+  const fs::path product = folder / "cc.vtu", toml = from / "patient.toml";
+  const json row = outline_row(read_mesh_file(view), population);
+  run_to_product(
+      {"compress",
+       inputs_in(from),
+       product,
+       fs::exists(toml) ? toml : fs::path(),
+       {"--views-cc-thickness-mm", std::to_string(row.at("typical_thickness_mm").get<double>())},
+       kMostCpuSeconds});
+  return product;
+}
+
+void add_plates(const fs::path& folder, const OutlinePopulation& population, json& row) {
+  for (const char* key : {"press_status", "thickness_mm", "force_N", "pressure_kpa", "width_ratio"})
+    row[key] = nullptr;
+  if (!fs::exists(folder / "unloaded.vtu")) return;
+  try {
+    run_to_product({"compress", inputs_in(folder), folder / "cc.vtu", folder / "patient.toml"});
+    const fs::path pressed =
+        press_typically(folder / "cc.vtu", folder, population, folder / "typical");
+    const json sidecar = stage_sidecar(pressed), &quality = sidecar.at("quality");
+    const json outline = outline_row(read_mesh_file(pressed), population);
+    constexpr double kPa_per_N_per_cm2 = 10;
+    row["press_status"] = sidecar.at("status");
+    row["thickness_mm"] = quality.at("thickness_mm");
+    row["force_N"] = quality.at("force_N");
+    row["pressure_kpa"] = kPa_per_N_per_cm2 * quality.at("force_N").get<double>() /
+                          quality.at("contact_area_cm2").get<double>();
+    if (outline.at("width_mm").is_number())
+      row["width_ratio"] =
+          outline.at("width_mm").get<double>() / outline.at("population_width_mm").get<double>();
+  } catch (const std::exception& error) {
+    if (row.at("reason").is_null()) row["reason"] = error.what();
+  }
 }
 
 }  // namespace mammotwin

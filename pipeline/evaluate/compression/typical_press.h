@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 
 #include "pipeline/evaluate/compression/outline_population.h"
 
@@ -15,5 +16,13 @@ std::filesystem::path press_typically(const std::filesystem::path& view,
                                       const std::filesystem::path& from,
                                       const OutlinePopulation& population,
                                       const std::filesystem::path& folder);
+
+/// Presses an unloaded breast's `folder` (segmentation.seg.nrrd, fractions.nrrd, unloaded.vtu,
+/// patient.toml) in CC to the thickness that is typical of its volume
+/// and adds to the row: `thickness_mm`, `force_N`, `pressure_kpa` (mean over the paddle's contact),
+/// `width_ratio` (to the population's at that thickness), `press_status`. What fails leaves its
+/// figures null and says why in `reason` where nothing failed before.
+void add_plates(const std::filesystem::path& folder, const OutlinePopulation& population,
+                nlohmann::json& row);
 
 }  // namespace mammotwin
