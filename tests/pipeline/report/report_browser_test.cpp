@@ -56,9 +56,10 @@ class ReportInABrowser : public ScratchFolder {
     if (Browser::program().empty()) GTEST_SKIP() << "there is no Chromium (package chromium)";
     browser_.emplace(folder_ / "profile");
     browser_->open(write("report.html", render_page(page_data(results_, "0.1.0"))));
-    for (const char* part : {"planes').dataset.ready", "carry').dataset.ready",
-                             "viewer').dataset.lesion"})  // each moves what stands below it
-      ASSERT_TRUE(browser_->wait_until(std::string("document.getElementById('") + part)) << part;
+    for (const char* ready : {"document.getElementById('planes').dataset.ready",
+                              "document.getElementById('carry').dataset.ready",
+                              "document.getElementById('viewer').dataset.lesion"})
+      ASSERT_TRUE(browser_->wait_until(ready)) << ready;  // each moves what stands below it
   }
   void TearDown() override { browser_.reset(); }
 
