@@ -35,6 +35,12 @@ CompressionOptions soft_options() {
   return options;
 }
 
+Eigen::Vector3d mean_of(const Nodes& nodes) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const HermiteMesh::Node& node : nodes) sum += node.col(0);
+  return sum / static_cast<double>(nodes.size());
+}
+
 }  // namespace
 
 Nodes in_view(const Nodes& nodes, const ViewFrame& frame) {
@@ -74,7 +80,9 @@ CompressedView view_of_plates(const std::string& name, Side side, double angle_d
 }
 
 NearbySolver::NearbySolver(SolvedView base, ProblemAt problem_at)
-    : base_(std::move(base)), problem_at_(std::move(problem_at)) {
+    : base_(std::move(base)),
+      middle_in_lps_(mean_of(base_.result.deformed)),
+      problem_at_(std::move(problem_at)) {
   CompressionResult near = base_.result;
   const double penalty = near.penalty;
   for (const double softer : kSofter) {
@@ -84,6 +92,18 @@ NearbySolver::NearbySolver(SolvedView base, ProblemAt problem_at)
   }
 }
 
+CompressedView NearbySolver::view_at(const ViewState& state, const PlateOptions& plates,
+                                     const CompressionResult& result) const {
+  CompressedView view = view_of_plates(base_.view.name, base_.view.side,
+                                       base_.view.angle_deg + state[kRoll], plates, result);
+  const auto along_edge = [&](const ViewFrame& frame) {
+    return frame.axes.row(1).dot(middle_in_lps_ - frame.origin_in_lps);
+  };
+  const double off = along_edge(view.frame) - along_edge(base_.view.frame);
+  view.frame.origin_in_lps += off * view.frame.axes.row(1).transpose();
+  return view;
+}
+
 std::optional<SolvedView> NearbySolver::solve_from(const CompressionResult& near,
                                                    const ViewState& state) const {
   try {
@@ -91,9 +111,7 @@ std::optional<SolvedView> NearbySolver::solve_from(const CompressionResult& near
     CompressionResult result = compress_from(near, problem, soft_options());
     // A breast that slid out altogether leaves plates without a place.
     if (!result.report.usable() || !std::isfinite(result.plates.paddle_height)) return std::nullopt;
-    const CompressedView view =
-        view_of_plates(base_.view.name, base_.view.side, base_.view.angle_deg + state[kRoll],
-                       problem.plates, result);
+    const CompressedView view = view_at(state, problem.plates, result);
     return SolvedView{std::move(result), view};
   } catch (const std::invalid_argument&) {  // a state in which the problem cannot be posed
     return std::nullopt;
@@ -143,9 +161,8 @@ Nodes NearbySolver::change_between(const NearbyEquilibria& nearby, const ViewSta
                           const PlacedPlates& plates) {
     CompressionResult result;
     result.plates = plates;
-    const CompressedView view = view_of_plates(
-        base_.view.name, base_.view.side, base_.view.angle_deg + state[kRoll], options, result);
-    return in_view(combined(1, soft_base_->result.deformed, share, step.nodes), view.frame);
+    return in_view(combined(1, soft_base_->result.deformed, share, step.nodes),
+                   view_at(state, options, result).frame);
   };
   return combined(1, placed(0.5, to, upper.plates, step.to), -1,
                   placed(-0.5, from, lower.plates, step.from));

@@ -38,6 +38,13 @@ class NearbySolver {
 
   CompressionProblem problem_at(const ViewState& state) const { return problem_at_(state); }
 
+  /// The view of a solution at a state. The breast's middle keeps its place along the plates' edge,
+  /// so that the view is a smooth function of the angle. (`view_of_plates` puts the middle of the
+  /// outline's two ends there, which moves by tenths of a millimetre within a tenth of a degree
+  /// wherever another bump of the skin reaches furthest.)
+  CompressedView view_at(const ViewState& state, const PlateOptions& plates,
+                         const CompressionResult& result) const;
+
   /// The base with the softer contact; empty where that finds no equilibrium.
   const std::optional<SolvedView>& soft_base() const { return soft_base_; }
 
@@ -62,6 +69,7 @@ class NearbySolver {
                        const ViewState& to) const;
 
   SolvedView base_;
+  Eigen::Vector3d middle_in_lps_;  ///< mean of the base's nodes
   ProblemAt problem_at_;
   std::optional<SolvedView> soft_base_;  ///< the base with the softer contact
 };

@@ -170,9 +170,7 @@ class WhatIfRun {
     const CompressionProblem problem = solver_->problem_at(state);
     const CompressionResult result = compress(problem, patient_.compression.options);
     if (!result.report.usable()) return std::nullopt;
-    const CompressedView there = view_of_plates(
-        asked_.view, view_.side, view_.angle_deg + state[kRoll], problem.plates, result);
-    return in_view(result.deformed, there.frame);
+    return in_view(result.deformed, solver_->view_at(state, problem.plates, result).frame);
   }
 
   json row_of(const TimedModel& model) const {

@@ -84,6 +84,30 @@ TEST(NearbySolver, GoesOnWhereTheBreastSlipsBackwards) {
   EXPECT_NEAR(apart(thinner->result.plates), apart(result.plates) - 6, 1e-9);
 }
 
+// However the outline's two ends fall at another angle: plates that say 5 mm more of their middle.
+TEST(NearbySolver, KeepsTheBreastsMiddleInItsPlaceAtEveryAngle) {
+  const NearbySolver solver = dome_solver();
+  const CompressionResult& base = solver.base().result;
+  const auto along_edge = [&](const ViewFrame& frame) {
+    Nodes nodes = in_view(base.deformed, frame);
+    double sum = 0;
+    for (const HermiteMesh::Node& node : nodes) sum += node(1, 0);
+    return sum / static_cast<double>(nodes.size());
+  };
+  for (const double roll : {0.0, 0.1, -10.0}) {
+    const ViewState state = roll * ViewState::Unit(kRoll);
+    PlateOptions plates = dome_at(state).plates;
+    const Eigen::Matrix3d axes = view_axes(Side::left, roll);
+    plates.depth = axes.row(0);
+    plates.up = axes.row(2);
+    CompressionResult result = base;
+    result.plates.lateral_middle += 5;
+    EXPECT_NEAR(along_edge(solver.view_at(state, plates, result).frame),
+                along_edge(solver.base().view.frame), 1e-9)
+        << roll;
+  }
+}
+
 // A thickness more than 2 mm above the base cannot be posed, so its sample is the one at half of
 // the standard deviation of 3 mm. The quadratic still goes through all that was solved.
 TEST(ReducedView, TakesWhatIsFoundNearerToTheBase) {
