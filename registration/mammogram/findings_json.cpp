@@ -28,6 +28,7 @@ json findings_json(const MammogramFindings& f) {
                 {"sd_mm", f.pectoral_sd_mm}};
   return {{"chest_wall", f.chest_wall == ImageEdge::left ? "left" : "right"},
           {"outline_pixels", pixels(f.outline)},
+          {"outline_sd_mm", f.outline_sd_mm},
           {"nipple",
            {{"pixel", pixel(f.nipple)},
             {"sd_mm", f.nipple_sd_mm},

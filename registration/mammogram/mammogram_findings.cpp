@@ -16,6 +16,10 @@ namespace {
 constexpr double kBlur_mm = 1;
 constexpr double kMarkerSd_mm = 3;  // of a marker stuck on the nipple
 constexpr double kSaidSd_mm = 3, kSaidPectoralSd_mm = 3;
+/// Skin is smooth (0.25 in most of 32 real images, by its curvature); a line that is not follows
+/// noise in air or in skin that is hardly seen.
+constexpr double kRagged_mm = 0.45;
+constexpr double kOutlineSd_mm = 1, kRaggedSd_mm = 6;
 constexpr double kUnsureNipple_mm = 5, kUnsurePectoral_mm = 5.6;
 /// A muscle's evidence in a view called CC that makes it doubtful; the least in 16 real MLO is 5.
 constexpr double kObliqueEvidence = 10;
@@ -106,6 +110,10 @@ class Reading {
     for (const Eigen::Vector2d& x : skin_.points)
       found_.outline.push_back(upright_.stored_pixel(x));
     found_.remarks = skin_.remarks;
+    const bool ragged = skin_.roughness_mm > kRagged_mm;
+    found_.outline_sd_mm = ragged ? kRaggedSd_mm : kOutlineSd_mm;
+    if (ragged && !said_.mask)
+      doubt("outline", "the outline is ragged; views.*.outline can say it");
   }
 
   /// Beyond the exposed field an image repeats its border: an end of the skin there is none.
@@ -149,6 +157,7 @@ class Reading {
     for (const Eigen::Vector2d& x : skin_.points)
       found_.outline.push_back(upright_.stored_pixel(x));
     mask_ = mask_within(skin_.points, upright_);
+    found_.outline_sd_mm = kOutlineSd_mm;
   }
 
   void read_pectoral() {

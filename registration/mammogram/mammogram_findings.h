@@ -23,6 +23,7 @@ const char* name_of(NippleEvidence evidence);
 struct MammogramFindings {
   ImageEdge chest_wall = ImageEdge::left;
   std::vector<Eigen::Vector2d> outline;  ///< skin line, from top to bottom, about 0.4 mm apart
+  double outline_sd_mm = 0;              ///< across it
 
   Eigen::Vector2d nipple = Eigen::Vector2d::Zero();
   double nipple_sd_mm = 0;  ///< of its distance, of all places that are possible
@@ -38,7 +39,8 @@ struct MammogramFindings {
   std::vector<Eigen::Vector2d> pectoral_curve;  ///< as it was followed, as far as it is seen
   double pectoral_sd_mm = 0;                    ///< across it
 
-  std::vector<std::string> unsure;  ///< of "nipple", "pectoral", "view": what nobody should rely on
+  /// Of "outline", "nipple", "pectoral", "view": what nobody should rely on.
+  std::vector<std::string> unsure;
   std::vector<std::string> remarks;  ///< what was cut off, missed or doubted, and what to do
 };
 
@@ -53,9 +55,10 @@ struct SaidFindings {
 /// Finds outline, nipple and, in an oblique view, the pectoral edge of a mammogram in which the
 /// breast is bright on dark air and touches one vertical edge.
 ///
-/// A nipple with a standard deviation of more than 5 mm, and a pectoral edge with one of more than
-/// 5.6 mm or none at all, are named in `unsure`; so is the view where a CC shows the muscle of an
-/// MLO or an MLO shows none. Throws std::runtime_error with what to do if no such breast is there.
+/// An outline that is ragged, a nipple with a standard deviation of more than 5 mm, and a pectoral
+/// edge with one of more than 5.6 mm or none at all, are named in `unsure`; so is the view where a
+/// CC shows the muscle of an MLO or an MLO shows none. Throws std::runtime_error with what to do if
+/// no such breast is there.
 MammogramFindings find_breast(const MammogramImage& image, double pixel_mm, bool oblique,
                               const SaidFindings& said = {});
 

@@ -97,11 +97,19 @@ Scored scored(const Line& line, const EdgeResponse& response, const UprightImage
   return s;
 }
 
+/// A line begins in the breast below the rows that a turned or collimated image leaves empty.
+bool begins_in_breast(const Line& line, const EdgeResponse& response) {
+  constexpr double kEmpty_mm = 15;
+  for (double row = kReach_mm; row < kEmpty_mm; row += kStep_mm)
+    if (response.breast(line.at(row))) return true;
+  return false;
+}
+
 std::vector<Scored> all_lines(const EdgeResponse& response, const UprightImage& image) {
   std::vector<Scored> lines;
   for (double angle = kLeastAngle; angle <= kMostAngle; angle += kAngleStep)
     for (double top = kLeastTop_mm; top < image.depth_mm(); top += kTopStep_mm)
-      if (response.breast({top, kReach_mm}))
+      if (begins_in_breast(Line{top, std::tan(angle * M_PI / 180)}, response))
         lines.push_back(scored({top, std::tan(angle * M_PI / 180)}, response, image));
   return lines;
 }

@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "registration/mammogram/mammogram_masks.h"
+#include "segmentation/image/order_statistics.h"
 
 namespace mammotwin {
 namespace {
@@ -12,11 +13,13 @@ using Points = std::vector<Eigen::Vector2d>;
 
 constexpr double kValley_mm = 3, kHollow_mm = 4;
 constexpr double kLeastSkin_mm = 30;
+constexpr double kEdge_mm = 2;  // of the image: dark lines along an edge are no air
 
 /// The longest part of a closed border that is off the image's edges, in pixels.
-Points free_part(const Points& border, const MammogramImage& mask) {
+Points free_part(const Points& border, const MammogramImage& mask, double pixel_mm) {
+  const double edge = kEdge_mm / pixel_mm;
   const auto free = [&](const Eigen::Vector2d& x) {
-    return x.x() > 0 && x.y() > 0 && x.y() < mask.rows - 1;
+    return x.x() > edge && x.y() > edge && x.y() < mask.rows - 1 - edge;
   };
   const std::size_t n = border.size();
   const auto held = std::find_if_not(border.begin(), border.end(), free);
@@ -56,11 +59,13 @@ double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
 
-/// The point that lies deepest behind a chord from any point after the tip to the line's end;
-/// `end` where nothing lies 4 mm behind: there a breast is convex.
+/// The point that lies deepest behind a chord from any point after the tip to the line's end, which
+/// is farther from it than a nipple reaches; `end` where nothing lies 4 mm behind: there a breast
+/// is convex.
 long hollow(const Points& line, long tip, long end, int step) {
-  constexpr double kNear_mm = 40;  // of the line's end: farther out it is the nipple's flank
-  constexpr int kStride = 4;       // of the points that chords begin at
+  constexpr double kNear_mm = 40;    // of the line's end: farther out it is the nipple's flank
+  constexpr double kNipple_mm = 30;  // a nipple that stands out 10 mm makes a hollow so wide
+  constexpr int kStride = 4;         // of the points that chords begin at
   const Eigen::Vector2d last = line[end - step];
   long deepest = end;
   double most = kHollow_mm;
@@ -68,7 +73,9 @@ long hollow(const Points& line, long tip, long end, int step) {
     const Eigen::Vector2d chord = last - line[a];
     for (long i = a; i != end && chord.norm() > kHollow_mm; i += step) {
       const double behind = step * cross(chord, line[i] - line[a]) / chord.norm();
-      if (behind < most || (line[i] - last).norm() > kNear_mm) continue;
+      if (behind < most || (line[i] - last).norm() > kNear_mm ||
+          (line[i] - line[a]).norm() < kNipple_mm)
+        continue;
       most = behind;
       deepest = i;
     }
@@ -76,12 +83,31 @@ long hollow(const Points& line, long tip, long end, int step) {
   return deepest;
 }
 
+/// Spread of a line about its running mean over 15 mm, across the line, by quantiles that a nipple
+/// does not move.
+double roughness(const Points& line) {
+  constexpr double kSmooth_mm = 15, kSdOfMad = 1.4826;
+  std::vector<double> along{0};
+  for (std::size_t n = 1; n < line.size(); ++n)
+    along.push_back(along.back() + (line[n] - line[n - 1]).norm());
+  std::vector<double> off;
+  std::size_t first = 0, last = 0;
+  Eigen::Vector2d sum(0, 0);
+  for (std::size_t n = 0; n < line.size(); ++n) {
+    for (; last < line.size() && along[last] < along[n] + kSmooth_mm / 2; ++last) sum += line[last];
+    for (; along[first] < along[n] - kSmooth_mm / 2; ++first) sum -= line[first];
+    const double count = static_cast<double>(last - first);
+    off.push_back((line[n] - sum / count).norm());
+  }
+  return kSdOfMad * median(off);
+}
+
 }  // namespace
 
 SkinLine skin_line(const MammogramImage& mask, double pixel_mm, bool oblique) {
   Points border;
   for (const auto& [column, row] : longest_border(mask)) border.emplace_back(column, row);
-  Points line = free_part(border, mask);
+  Points line = free_part(border, mask, pixel_mm);
   if (line.size() * pixel_mm < kLeastSkin_mm)
     throw std::runtime_error("no skin line is seen: the bright region ends at the image's edges");
   for (Eigen::Vector2d& x : line) x = (x + Eigen::Vector2d(0.5, 0.5)) * pixel_mm;
@@ -101,6 +127,7 @@ SkinLine skin_line(const MammogramImage& mask, double pixel_mm, bool oblique) {
     before =
         cut(hollow(line, tip, before, -1), before, "a fold at the breast's upper end is cut off");
   skin.points.assign(line.begin() + before + 1, line.begin() + last);
+  skin.roughness_mm = roughness(skin.points);
   return skin;
 }
 

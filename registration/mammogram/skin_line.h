@@ -12,6 +12,7 @@ namespace mammotwin {
 struct SkinLine {
   std::vector<Eigen::Vector2d> points;  ///< about a pixel apart
   std::vector<std::string> remarks;     ///< what was cut off, and why
+  double roughness_mm = 0;              ///< spread of the points about their mean over 15 mm
 };
 
 /// Follows the border of an upright mask (chest wall left) where it is not the image's own. It ends

@@ -74,6 +74,7 @@ ViewEvidence view_evidence(const MammogramImage& image, const MammogramFindings&
       evidence.outline.push_back(whole.back());
   }
   if (evidence.outline.size() < 2) throw std::runtime_error("the mammogram shows no outline");
+  evidence.outline_sd_mm = std::max(kOutlineSd_mm, findings.outline_sd_mm);
   evidence.nipple = detector.detector_from_image(findings.nipple);
   evidence.nipple_sd_mm = std::max(kLeastNipple_mm, findings.nipple_sd_mm);
   evidence.grid = density_grid(whole);
@@ -114,8 +115,8 @@ Eigen::VectorXd ViewMatch::residuals(const ViewState& z, bool with_pattern) cons
   const RayDistances found = silhouette_.at(view_, z, detector_, centre_);
   for (int ray = 0; ray < kRays; ++ray) {
     if (!seen_[ray] || !found[ray]) continue;
-    r[ray] =
-        std::sqrt(piece(*seen_[ray])) * huber((*found[ray] - *seen_[ray]) / kOutlineSd_mm, kHuber);
+    r[ray] = std::sqrt(piece(*seen_[ray])) *
+             huber((*found[ray] - *seen_[ray]) / evidence_.outline_sd_mm, kHuber);
   }
   if (evidence_.nipple) {
     const Eigen::Vector2d miss =

@@ -8,9 +8,16 @@
 
 namespace mammotwin {
 
+/// What a search takes for the standard deviation of a model's outline, and of patterns of the same
+/// breast, which are normalised; the latter correlate as 1 - sd^2 / 2 where the breast is in place.
+inline constexpr double kOutlineSd_mm = 2, kPatternSd = 0.7;
+inline constexpr double kCorrelationInPlace = 1 - kPatternSd * kPatternSd / 2;
+inline constexpr double kPatternPiece_mm = 15;  ///< square of pattern that is one observation
+
 /// What a mammogram shows of the breast, on the detector [mm].
 struct ViewEvidence {
   std::vector<Eigen::Vector2d> outline;  ///< (u, v), without what lies on the image's border
+  double outline_sd_mm = kOutlineSd_mm;
   std::optional<Eigen::Vector2d> nipple;
   double nipple_sd_mm = 3;
   DensityGrid grid;
@@ -21,12 +28,6 @@ struct ViewEvidence {
 /// that says. Throws std::logic_error without a pixel grid.
 ViewEvidence view_evidence(const MammogramImage& image, const MammogramFindings& findings,
                            const Detector& detector);
-
-/// What a search takes for the standard deviation of a model's outline, and of patterns of the same
-/// breast, which are normalised; the latter correlate as 1 - sd^2 / 2 where the breast is in place.
-inline constexpr double kOutlineSd_mm = 2, kPatternSd = 0.7;
-inline constexpr double kCorrelationInPlace = 1 - kPatternSd * kPatternSd / 2;
-inline constexpr double kPatternPiece_mm = 15;  ///< square of pattern that is one observation
 
 struct MatchFigures {
   double outline_rms_mm = 0;

@@ -91,19 +91,20 @@ ChangedMammogram shown_by(const MammogramImage& image, double pixel_mm,
 }
 
 /// About the middle of the image's chest-wall edge; columns that the turn leaves empty at that edge
-/// are cut off.
+/// are cut off, and elsewhere the nearest pixel goes on: an image has no slanted black border.
 ChangedMammogram turned(const MammogramImage& image, double pixel_mm, ImageEdge wall, double deg) {
   const double angle = deg * M_PI / 180;
   const Eigen::Matrix2d turn = Eigen::Rotation2Dd(angle).toRotationMatrix();
   const Point middle(wall == ImageEdge::left ? 0 : image.columns - 1, (image.rows - 1) / 2.);
   const int cut = static_cast<int>(std::ceil(std::abs(std::sin(angle)) * image.rows / 2));
   const int first = wall == ImageEdge::left ? cut : 0;
-  const float air = darkest(image);
+  const Point last(image.columns - 1, image.rows - 1);
   MammogramImage to{image.columns - cut, image.rows, {}};
   for (int row = 0; row < to.rows; ++row)
-    for (int column = 0; column < to.columns; ++column)
-      to.grey.push_back(std::round(
-          bilinear(image, middle + turn.transpose() * (Point(column + first, row) - middle), air)));
+    for (int column = 0; column < to.columns; ++column) {
+      const Point from = middle + turn.transpose() * (Point(column + first, row) - middle);
+      to.grey.push_back(std::round(bilinear(image, from.cwiseMax(0).cwiseMin(last), 0)));
+    }
   return {std::move(to), pixel_mm,
           [=](const Point& x) -> Point { return middle + turn * (x - middle) - Point(first, 0); }};
 }
@@ -173,6 +174,10 @@ double moved_by(const std::vector<Point>& line, const std::vector<Point>& other,
   return *at;
 }
 
+bool shows(const MammogramImage& image, const Point& x) {
+  return x.x() >= 0 && x.y() >= 0 && x.x() < image.columns && x.y() < image.rows;
+}
+
 bool says(const std::vector<std::string>& unsure, const char* what) {
   return std::find(unsure.begin(), unsure.end(), what) != unsure.end();
 }
@@ -216,6 +221,10 @@ json change_row(const MammogramFindings& first, const MammogramFindings& after,
     for (const Point& x : line) to.push_back(changed.changed_from_first(x));
     return to;
   };
+  const auto seen = [&](std::vector<Point> line) {
+    std::erase_if(line, [&](const Point& x) { return !shows(changed.image, x); });
+    return line;
+  };
   const auto sure = [&](const char* what) {
     return !says(first.unsure, what) && !says(after.unsure, what);
   };
@@ -230,13 +239,13 @@ json change_row(const MammogramFindings& first, const MammogramFindings& after,
       (changed.changed_from_first(first.nipple) - after.nipple).norm() * changed.pixel_mm;
   row["outline_p95_mm"] = outline;
   row["nipple_mm"] = nipple;
-  if (outline > kOutline_mm) row["moved"].push_back("outline");
+  if (sure("outline") && outline > kOutline_mm) row["moved"].push_back("outline");
   if (sure("nipple") && nipple > std::min(first.nipple_sd_mm, after.nipple_sd_mm))
     row["moved"].push_back("nipple");
   row["held"] = row["moved"].empty();
   if (!first.pectoral || !after.pectoral) return row;
-  const double pectoral =
-      moved_by(moved(first.pectoral_curve), coarse(after.pectoral_curve), changed.pixel_mm, 0);
+  const double pectoral = moved_by(seen(moved(first.pectoral_curve)), coarse(after.pectoral_curve),
+                                   changed.pixel_mm, 0);
   row["pectoral_mm"] = pectoral;
   row["pectoral_sd_mm"] = first.pectoral_sd_mm;
   row["pectoral_sd_after_mm"] = after.pectoral_sd_mm;

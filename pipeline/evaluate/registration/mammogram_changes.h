@@ -28,9 +28,9 @@ struct MammogramChange {
 std::vector<MammogramChange> mammogram_changes();
 
 /// How far findings moved [mm]: outline_p95_mm (without the outer 15 mm of it), nipple_mm,
-/// pectoral_mm, their standard deviations before and after, what either was unsure of, and
-/// `moved`: what both are sure of and moved by more than its standard deviation (an outline: by
-/// more than 3 mm).
+/// pectoral_mm (as far as the changed image shows it), their standard deviations before and after,
+/// what either was unsure of, and `moved`: what both are sure of and moved by more than its
+/// standard deviation (an outline: by more than 3 mm).
 nlohmann::json change_row(const MammogramFindings& first, const MammogramFindings& after,
                           const ChangedMammogram& changed);
 

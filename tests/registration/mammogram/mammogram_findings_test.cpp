@@ -91,6 +91,47 @@ TEST(MammogramFindings, ThinWhiteBorderChangesNothing) {
   }
 }
 
+TEST(MammogramFindings, DarkLinesAlongTheEdgesAreNoAir) {
+  MammogramImage image = drawn({.muscle = true});
+  for (int row = 0; row < image.rows; ++row)
+    for (int column = 0; column < image.columns; ++column)
+      if (std::min(column, row) < 3) image.at(column, row) = 0;  // 1.2 mm at chest wall and top
+  const MammogramFindings found = find_breast(image, kPixel_mm, true);
+  EXPECT_FALSE(unsure(found, "outline"));
+  for (const Eigen::Vector2d& x : found.outline) EXPECT_GT(std::min(x.x(), x.y()), 4.5);
+  EXPECT_LT(found.outline.back().x(), 20);  // from the top all the way to the chest wall
+}
+
+TEST(MammogramFindings, NippleNearTheLowerEndIsNoFold) {
+  MammogramImage image = drawn({});
+  const Eigen::Vector2d nipple(148, 622);  // on the skin near its lower end
+  for (int row = 0; row < image.rows; ++row)
+    for (int column = 0; column < image.columns; ++column)
+      if ((Eigen::Vector2d(column, row) - nipple).norm() < 17) image.at(column, row) = 80;
+  const MammogramFindings found = find_breast(image, kPixel_mm, false);
+  EXPECT_LT(found.outline.back().x(), 20) << "cut off at the nipple";
+  EXPECT_GT(found.outline.back().y(), 640);
+}
+
+TEST(MammogramFindings, RaggedOutlineIsUnsureAndWeighsLess) {
+  MammogramImage image = drawn({});
+  std::mt19937 random(3);
+  std::uniform_int_distribution<int> depth(-10, 10), length(8, 14);
+  for (int row = 0, end = 0, off = 0; row < image.rows; ++row) {
+    if (row == end) {
+      off = depth(random);
+      end += length(random);
+    }
+    for (int column = 0; column < 400; ++column)
+      image.at(column, row) = std::hypot((column + off) / 300.0, (row - 330) / 320.0) < 1 ? 80 : 0;
+  }
+  const MammogramFindings ragged = find_breast(image, kPixel_mm, false);
+  const MammogramFindings smooth = find_breast(drawn({}), kPixel_mm, false);
+  EXPECT_TRUE(unsure(ragged, "outline"));
+  EXPECT_FALSE(unsure(smooth, "outline"));
+  EXPECT_GT(ragged.outline_sd_mm, 4 * smooth.outline_sd_mm);
+}
+
 TEST(MammogramFindings, NippleInProfileIsFoundAndSure) {
   const MammogramFindings found = find_breast(drawn({.nipple = true}), kPixel_mm, false);
   EXPECT_EQ(found.evidence, NippleEvidence::profile);
@@ -130,6 +171,19 @@ TEST(MammogramFindings, PectoralEdgeOfADrawnMuscle) {
     // A step without noise is as clear over the reach of 3 mm to either side.
     EXPECT_NEAR(x.x(), 150 * (1 - x.y() / 400), 15) << x.y();  // 6 mm
   }
+}
+
+TEST(MammogramFindings, PectoralEdgeBelowRowsThatATurnLeftEmpty) {
+  MammogramImage image = drawn({.muscle = true});
+  for (int row = 0; row < 25; ++row)  // 10 mm at the chest wall, none 250 columns from it
+    for (int column = 0; column < image.columns; ++column)
+      if (row < 25 - column / 10) image.at(column, row) = 0;
+  const MammogramFindings found = find_breast(image, kPixel_mm, true);
+  ASSERT_TRUE(found.pectoral.has_value());
+  for (const Eigen::Vector2d& x : found.pectoral_curve)
+    if (x.y() > 40 && x.y() < 360) {
+      EXPECT_NEAR(x.x(), 150 * (1 - x.y() / 400), 15) << x.y();
+    }
 }
 
 TEST(MammogramFindings, MuscleInAViewCalledCcIsDoubtAndItsAbsenceInAnMloToo) {
