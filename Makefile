@@ -15,6 +15,7 @@ override ONLY := $(value ONLY)
 override FORCE := $(value FORCE)
 override SEED := $(value SEED)
 override PRESS := $(value PRESS)
+override AXE := $(value AXE)
 override ENGINE := $(value ENGINE)
 override CONFIG := $(value CONFIG)
 override PREFIX := $(value PREFIX)
@@ -29,12 +30,12 @@ override UNLOAD := $(value UNLOAD)
 ifeq ($(RESULTS),)
 $(error RESULTS is empty: name the folder that results go to)
 endif
-export P DATA RESULTS FORCE BIN SEED PATIENTS JOBS ONLY ENGINE CONFIG PREFIX CASES SYNTHETIC CHANGES VIEWS SPOIL OTHERS TABLE UNLOAD PRESET PRESS
+export P DATA RESULTS FORCE BIN SEED PATIENTS JOBS ONLY ENGINE CONFIG PREFIX CASES SYNTHETIC CHANGES VIEWS SPOIL OTHERS TABLE UNLOAD PRESET PRESS AXE
 unexport MAKEFLAGS MAKEOVERRIDES
 
 .PHONY: help patient segment fit unload compress register report slicer paraview synthesize exam cohort verify-results \
         evaluate-segmentation evaluate-fitting evaluate-compression evaluate-unload evaluate-gravity evaluate-registration \
-        evaluate-stability evaluate-stabilisation evaluate-other-meshes evaluate-what-if evaluate-outlines evaluate-mammograms evaluate-mammogram-changes evaluate-tomosynthesis evaluate-real-pairs evaluate-niftysim evaluate-victre measured validate bench chain programs configured \
+        evaluate-stability evaluate-stabilisation evaluate-other-meshes evaluate-what-if evaluate-page evaluate-outlines evaluate-mammograms evaluate-mammogram-changes evaluate-tomosynthesis evaluate-real-pairs evaluate-niftysim evaluate-victre measured validate bench chain programs configured \
         configured_to_test install docs test clean
 .NOTPARALLEL:  # ninja itself uses all cores
 .DEFAULT_GOAL := help
@@ -73,6 +74,8 @@ help:
 	@echo 'make evaluate-real-pairs CASES=folder   patients with lesions marked on mammograms (marks.csv):'
 	@echo '                       RESULTS/evaluation/real_pairs.json'
 	@echo 'make evaluate-what-if  what the sliders of the page say against full solves: RESULTS/evaluation/what_if.json; VIEWS=cc'
+	@echo 'make evaluate-page     opens the pages of RESULTS in Chromium and moves their sliders: RESULTS/evaluation/page.json;'
+	@echo '                       AXE=axe.min.js: checked by axe-core (npm), too'
 	@echo 'make evaluate-mammograms CASES=folder   reads mammograms whose landmarks somebody read (landmarks.csv):'
 	@echo '                       RESULTS/evaluation/mammograms.json and a contact sheet beside it'
 	@echo 'make evaluate-mammogram-changes CASES=folder   the same, mirrored, resampled, turned, ...: mammogram_changes.json'
@@ -157,6 +160,9 @@ evaluate-real-pairs: mammotwin-evaluate-real-pairs
 evaluate-what-if: mammotwin-evaluate-what-if
 	@"$$BIN/mammotwin-evaluate-what-if" sample_data/042/patient.toml "$$CASES" "$$RESULTS/evaluation/what_if.json" \
 	  $${ONLY:+--only $$ONLY} $${VIEWS:+--views $$VIEWS}
+
+evaluate-page: mammotwin-evaluate-page
+	@"$$BIN/mammotwin-evaluate-page" "$$RESULTS/evaluation/page.json" $${AXE:+--axe "$$AXE"} $$(find -L "$$RESULTS" -maxdepth 2 -name report.html | sort)
 
 evaluate-mammograms: mammotwin-evaluate-mammograms
 	@"$$BIN/mammotwin-evaluate-mammograms" "$$(test -f "$$CASES/landmarks.csv" && echo "$$CASES" || echo "$$CASES/real_mammograms")" \

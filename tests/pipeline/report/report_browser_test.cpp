@@ -2,10 +2,10 @@
 
 #include <sstream>
 
+#include "pipeline/evaluate/page/browser.h"
 #include "pipeline/report/page_data.h"
 #include "pipeline/report/page_template.h"
 #include "registration/carry/ray_curve.h"
-#include "tests/pipeline/report/browser.h"
 #include "tests/pipeline/report/report_fake_results.h"
 #include "tests/pipeline/scratch_folder.h"
 

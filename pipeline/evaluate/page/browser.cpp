@@ -1,4 +1,4 @@
-#include "tests/pipeline/report/browser.h"
+#include "pipeline/evaluate/page/browser.h"
 
 #include <fcntl.h>
 #include <poll.h>
@@ -6,9 +6,13 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
+#include <cctype>
 #include <chrono>
+#include <fstream>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <stdexcept>
 #include <thread>
 
@@ -34,8 +38,42 @@ constexpr int kPatience_ms = 60000;  // a machine under load draws slowly withou
   _exit(127);
 }
 
+std::vector<std::string> command_line(const std::filesystem::path& profile,
+                                      Browser::Graphics graphics) {
+  std::vector<std::string> words{Browser::program(),
+                                 "--headless=new",
+                                 "--no-sandbox",
+                                 "--no-first-run",
+                                 "--disable-background-networking",
+                                 "--disable-component-update",
+                                 "--window-size=1280,900",
+                                 "--remote-debugging-pipe",
+                                 "--user-data-dir=" + profile.string(),
+                                 "about:blank"};
+  if (graphics == Browser::Graphics::none)
+    words.insert(words.begin() + 1, "--disable-gpu");
+  else
+    words.insert(words.begin() + 1, {"--use-angle=swiftshader", "--enable-unsafe-swiftshader"});
+  return words;
+}
+
 std::string plain_text(const json& value) {
   return value.is_string() ? value.get<std::string>() : value.dump();
+}
+
+/// CPU seconds of a process and of its children that ended, if it is of this group (proc(5)).
+double cpu_in_group(const std::filesystem::path& process, pid_t group) {
+  std::ifstream file(process / "stat");
+  std::string text;
+  std::getline(file, text);
+  std::istringstream fields(text.substr(std::min(text.rfind(')') + 1, text.size())));
+  std::vector<std::string> values;
+  for (std::string value; fields >> value;) values.push_back(value);
+  constexpr std::size_t kGroup = 2, kUserTicks = 11, kTimes = 4;
+  if (values.size() < kUserTicks + kTimes || std::stol(values[kGroup]) != group) return 0;
+  double ticks = 0;
+  for (std::size_t n = kUserTicks; n < kUserTicks + kTimes; ++n) ticks += std::stod(values[n]);
+  return ticks / static_cast<double>(sysconf(_SC_CLK_TCK));
 }
 
 }  // namespace
@@ -46,18 +84,13 @@ std::string Browser::program() {
   return "";
 }
 
-Browser::Browser(const std::filesystem::path& profile) {
+Browser::Browser(const std::filesystem::path& profile, Graphics graphics) {
   std::array<int, 2> commands{}, answers{};
   if (pipe2(commands.data(), O_CLOEXEC) != 0 || pipe2(answers.data(), O_CLOEXEC) != 0)
     throw std::runtime_error("pipe");
   process_ = fork();
   if (process_ < 0) throw std::runtime_error("fork");
-  if (process_ == 0)
-    become({program(), "--headless=new", "--no-sandbox", "--use-angle=swiftshader",
-            "--enable-unsafe-swiftshader", "--no-first-run", "--disable-background-networking",
-            "--disable-component-update", "--window-size=1280,900", "--remote-debugging-pipe",
-            "--user-data-dir=" + profile.string(), "about:blank"},
-           commands[0], answers[1]);
+  if (process_ == 0) become(command_line(profile, graphics), commands[0], answers[1]);
   close(commands[0]);
   close(answers[1]);
   to_ = commands[1];
@@ -75,6 +108,14 @@ Browser::~Browser() {
   waitpid(process_, nullptr, 0);
   close(to_);
   close(from_);
+}
+
+double Browser::cpu_seconds() const {
+  double seconds = 0;
+  for (const auto& entry : std::filesystem::directory_iterator("/proc"))
+    if (std::isdigit(static_cast<unsigned char>(entry.path().filename().string().front())))
+      seconds += cpu_in_group(entry.path(), process_);
+  return seconds;
 }
 
 json Browser::next_message() {

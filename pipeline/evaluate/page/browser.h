@@ -15,9 +15,13 @@ class Browser {
   /// Where Chromium is; empty where it is not installed.
   static std::string program();
 
+  /// What it draws with: a graphics card that a program stands in for, slowly, or, as on a computer
+  /// that has none, itself and without WebGL.
+  enum class Graphics { emulated, none };
+
   /// Starts it with an empty page; `profile` is a folder for its own files.
   /// Throws std::runtime_error where it does not start.
-  explicit Browser(const std::filesystem::path& profile);
+  explicit Browser(const std::filesystem::path& profile, Graphics graphics = Graphics::emulated);
   ~Browser();
   Browser(const Browser&) = delete;
   Browser& operator=(const Browser&) = delete;
@@ -41,6 +45,9 @@ class Browser {
   /// What the page asked for besides itself, and what it complained of, so far.
   const std::vector<std::string>& requests() const { return requests_; }
   const std::vector<std::string>& complaints() const { return complaints_; }
+
+  /// Of all its processes since it started, user and system.
+  double cpu_seconds() const;
 
   nlohmann::json call(const std::string& method,
                       const nlohmann::json& parameters = nlohmann::json::object());
