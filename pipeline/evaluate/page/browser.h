@@ -15,13 +15,9 @@ class Browser {
   /// Where Chromium is; empty where it is not installed.
   static std::string program();
 
-  /// What it draws with: a graphics card that a program stands in for, slowly, or, as on a computer
-  /// that has none, itself and without WebGL.
-  enum class Graphics { emulated, none };
-
   /// Starts it with an empty page; `profile` is a folder for its own files.
   /// Throws std::runtime_error where it does not start.
-  explicit Browser(const std::filesystem::path& profile, Graphics graphics = Graphics::emulated);
+  explicit Browser(const std::filesystem::path& profile);
   ~Browser();
   Browser(const Browser&) = delete;
   Browser& operator=(const Browser&) = delete;

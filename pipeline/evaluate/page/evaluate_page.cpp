@@ -114,7 +114,7 @@ json row_of(const Arguments& args, const fs::path& page, int run, const fs::path
        {"frames_a_second", "script_ms", "cpu_ms_a_frame", "cores_had", "axe_violations"})
     row[key] = nullptr;
   fs::remove_all(profile);
-  Browser browser(profile, Browser::Graphics::none);
+  Browser browser(profile);
   add_opening(browser, page, row);
   add_frames(browser, row);
   if (args.axe) add_violations(browser, *args.axe, row);
