@@ -57,6 +57,16 @@ class BadInput : public PatientCase {
       EXPECT_NE(result.text.find(part), std::string::npos) << "no \"" << part << "\" in\n"
                                                            << result.text;
     EXPECT_FALSE(fs::exists(results() / name / "lesions.csv"));
+    expect_no_absolute_path(name);
+  }
+  /// In what is kept of a run.
+  void expect_no_absolute_path(const std::string& name) {
+    if (!fs::exists(results() / name)) return;
+    for (const auto& entry : fs::directory_iterator(results() / name)) {
+      if (entry.path().extension() != ".json") continue;
+      const std::string text = text_of(entry.path());
+      EXPECT_EQ(text.find(results().parent_path().string()), std::string::npos) << text;
+    }
   }
 };
 

@@ -29,6 +29,8 @@ class Patient042 : public PatientCase {
   void expect_sane_unloading();
   void expect_true_unloaded_shape();
   void expect_sane_compression(const std::string& view);
+  void expect_marks_carried();
+  void expect_read_in_python();
   void expect_nothing_runs_again();
 };
 
@@ -89,6 +91,29 @@ void Patient042::expect_true_unloaded_shape() {
   RecordProperty("rms_mm", std::to_string(std::sqrt(squares / count)));
 }
 
+void Patient042::expect_marks_carried() {
+  const auto mark = [&](const std::string& v) {
+    return run_command(
+        {MAMMOTWIN_BIN "/mammotwin-mark", (results() / "042").string(), "--mm", "--cc", "25", v});
+  };
+  EXPECT_NE(mark("0").text.find("other_view_ellipse"), std::string::npos);
+  const CommandResult beside = mark("300");
+  EXPECT_EQ(beside.exit_code, 1);
+  EXPECT_NE(beside.text.find("the mark on cc lies off the breast"), std::string::npos)
+      << beside.text;
+}
+
+/// Debian's Python, for it has these packages.
+void Patient042::expect_read_in_python() {
+  const std::string python = "/usr/bin/python3";
+  if (run_command({python, "-c", "import pandas, vtk"}).exit_code != 0) return;
+  const CommandResult read =
+      run_command({python, MAMMOTWIN_SOURCE_DIR "/examples/load.py", (results() / "042").string()});
+  EXPECT_EQ(read.exit_code, 0) << read.text;
+  for (const char* part : {"L2  mlo", "CC: ok", "label 11: 2.1 ml", "cc.vtu: "})
+    EXPECT_NE(read.text.find(part), std::string::npos) << "no " << part << " in\n" << read.text;
+}
+
 void Patient042::expect_nothing_runs_again() {
   const auto before = times_of_change("042");
   const CommandResult again = run("patient", "042");
@@ -114,6 +139,8 @@ TEST_F(Patient042, FromMriToLesionPositions) {
   for (const char* row : {"042,L1,cc,", "042,L1,mlo,", "042,L2,cc,", "042,L2,mlo,"})
     EXPECT_NE(table.find(row), std::string::npos) << table;
 
+  expect_marks_carried();
+  expect_read_in_python();
   expect_nothing_runs_again();
 }
 

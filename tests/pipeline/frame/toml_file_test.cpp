@@ -22,6 +22,7 @@ TEST_F(TomlFileTest, NamesFileLineAndColumnOfASyntaxError) {
   const auto file = write("patient.toml", "side = \"left\"\nmri = = 3\n");
   const std::string message = message_of([&] { read_toml(file); });
   EXPECT_NE(message.find("patient.toml: line 2"), std::string::npos) << message;
+  EXPECT_EQ(message.find("http"), std::string::npos) << message;  // pages move
 }
 
 TEST_F(TomlFileTest, NamesAFileThatIsMissing) {
