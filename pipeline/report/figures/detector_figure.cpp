@@ -186,9 +186,8 @@ Panel::Pieces chain(const std::vector<Eigen::Vector2d>& pixels, const Detector& 
 /// deviation.
 void draw_findings(Panel& panel, const RealMammogram& real) {
   const MammogramFindings& found = *real.findings;
-  const Stroke thin{palette::fat, kFinding_pt};
-  panel.pieces(chain(found.outline, real.detector), thin);
-  panel.pieces(chain(found.pectoral_curve, real.detector), {palette::muscle, kFinding_pt});
+  panel.edged_pieces(chain(found.outline, real.detector), palette::fat, kFinding_pt);
+  panel.edged_pieces(chain(found.pectoral_curve, real.detector), palette::muscle, kFinding_pt);
   const Eigen::Vector2d nipple = real.detector.detector_from_image(found.nipple);
   constexpr int kCorners = 60;
   Panel::Pieces ring;
@@ -197,7 +196,7 @@ void draw_findings(Panel& panel, const RealMammogram& real) {
     return on_plane(nipple + found.nipple_sd_mm * Eigen::Vector2d(std::cos(t), std::sin(t)));
   };
   for (int n = 0; n < kCorners; ++n) ring.push_back({at(n), at(n + 1)});
-  panel.pieces(ring, thin);
+  panel.edged_pieces(ring, palette::fat, kFinding_pt);
 }
 
 /// What the picture of a view consists of, before its background is chosen.
