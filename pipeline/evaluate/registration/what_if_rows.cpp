@@ -23,6 +23,7 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 
 constexpr int kStateSeed = 28;
+constexpr std::size_t kSeenPoints = 200;
 
 double cpu_so_far() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
@@ -57,17 +58,37 @@ void put(const Distances& off, const std::string& what, json& row) {
   row["lesion_" + what + "max_mm"] = off.lesions.back();
 }
 
-/// Where material points are seen when a view's nodes stand so.
+/// Evenly from the breast's volume as it was imaged, always the same.
+std::vector<MeshPoint> drawn_points(const HermiteMesh& prone) {
+  constexpr int kDrawn = 4000;
+  std::mt19937 random(kStateSeed);
+  const auto share = [&] { return random() / 4294967296.0; };
+  std::vector<MeshPoint> drawn;
+  std::vector<double> volumes;  // a unit of xi's
+  for (int n = 0; n < kDrawn; ++n) {
+    const int element = static_cast<int>(share() * prone.num_elements());
+    drawn.push_back({element, {share(), share(), share()}});
+    volumes.push_back(prone.jacobian(drawn.back()).determinant());
+  }
+  const double largest = *std::max_element(volumes.begin(), volumes.end());
+  std::vector<MeshPoint> kept;
+  for (int n = 0; n < kDrawn; ++n)
+    if (share() * largest < volumes[n]) kept.push_back(drawn[n]);
+  return kept;
+}
+
+/// Where material points are seen when a view's nodes stand so: lesions, and tissue that the base
+/// has in front of the detector's edge.
 class Seen {
  public:
-  Seen(const MeshFile& pressed, const FollowedPoints& followed, const Nodes& base)
+  Seen(const MeshFile& pressed, const std::vector<Eigen::Vector3d>& lesions_in_prone,
+       const Nodes& base)
       : elements_(pressed.mesh.elements()) {
-    const InverseMap prone(prone_file(pressed).mesh);
-    for (const Eigen::Vector3d& x : followed.lesions) lesions_.push_back(prone.nearest(x));
-    for (const Eigen::Vector3d& x : followed.tissue) {
-      const MeshPoint point = prone.nearest(x);
-      if (HermiteMesh(base, elements_).position(point).x() > 0) tissue_.push_back(point);
-    }
+    const HermiteMesh prone = prone_file(pressed).mesh, seen(base, elements_);
+    const InverseMap inverse(prone);
+    for (const Eigen::Vector3d& x : lesions_in_prone) lesions_.push_back(inverse.nearest(x));
+    for (const MeshPoint& point : drawn_points(prone))
+      if (tissue_.size() < kSeenPoints && seen.position(point).x() > 0) tissue_.push_back(point);
   }
 
   void compare(const Nodes& a, const Nodes& b, Distances& off) const {
@@ -136,8 +157,12 @@ class WhatIfRun {
     solver_ = nearby_solver(patient_, view_, file_, tissue_of(file_, segmentation.fractions));
     if (!solver_) throw std::runtime_error(product_.string() + ": holds no solution to go on from");
     models_.push_back(timed("slopes", [&] { return linear_view(*solver_, what_if_ranges()); }));
-    models_.push_back(timed("quadratic", [&] { return solve_what_if(*solver_); }));
-    seen_.emplace(file_, FollowedPoints(labels, asked.folder / "prone.vtu"), base());
+    models_.push_back(timed("quadratic", [&] {
+      std::vector<int> numbers;
+      for (const WhatIf& varied : kWhatIf) numbers.push_back(varied.number);
+      return reduce_view(*solver_, what_if_ranges(), numbers);
+    }));
+    seen_.emplace(file_, FollowedPoints(labels, asked.folder / "prone.vtu").lesions, base());
   }
 
   void compare_at(const ViewState& z) {
