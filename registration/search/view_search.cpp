@@ -45,13 +45,6 @@ ViewUncertainty uncertainty(const ReducedView& reduced, const ViewState& z,
   return result;
 }
 
-/// About the state as it was computed: from the search's secants, or of their own.
-WhatIfShapes shapes_unsearched(const SearchInput& input, const ReducedView& reduced) {
-  if (!input.solver) return {};
-  return what_if_shapes(input.evidence ? reduced : solve_what_if(*input.solver), ViewState::Zero(),
-                        input.view.frame);
-}
-
 AffineBaseline baseline_of(const SearchInput& input, const CompressedView& view,
                            const Eigen::Vector3d& nipple_in_lps) {
   return placed_baseline(input.file, view, view.thickness_mm, nipple_in_lps, input.detector,
@@ -74,7 +67,7 @@ SearchedView unmatched(const SearchInput& input, const ReducedView& reduced, con
   result.uncertainty.covariance = edge.covariance;
   if (!input.evidence) result.uncertainty.covariance(kShiftLateral, kShiftLateral) = 0;
   result.uncertainty.discrepancy_mm = kUncorrectedSd_mm;
-  result.what_if = shapes_unsearched(input, reduced);
+  if (input.solver) result.what_if = what_if_shapes(reduced, ViewState::Zero(), input.view.frame);
   result.failed_solves = reduced.failed_solves;
   return result;
 }

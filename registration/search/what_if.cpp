@@ -8,12 +8,6 @@ ViewState what_if_ranges() {
   return range;
 }
 
-ReducedView solve_what_if(const NearbySolver& solver) {
-  std::vector<int> numbers;
-  for (const WhatIf& varied : kWhatIf) numbers.push_back(varied.number);
-  return reduce_view(solver, what_if_ranges(), numbers);
-}
-
 WhatIfShapes what_if_shapes(const ReducedView& reduced, const ViewState& z,
                             const ViewFrame& frame) {
   WhatIfShapes shapes;

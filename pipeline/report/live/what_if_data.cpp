@@ -142,13 +142,13 @@ bool slips_or_rolls(const PatientResults& results, const std::string& view) {
 }  // namespace
 
 std::string what_if_words() {
-  return "By solves at the ends of each slider. On four breasts, all sliders moved at once, tissue "
-         "lay " +
+  return "By the model's slopes where it was computed. In " + std::to_string(kWhatIfViews) +
+         " views of other breasts, all sliders moved at once, tissue lay " +
          word::mm(kWhatIfMedian.best_mm) + " to " + word::mm(kWhatIfMedian.worst_mm) +
          " mm in the median and " + word::mm(kWhatIfP95.best_mm) + " to " +
          word::mm(kWhatIfP95.worst_mm) +
-         " mm in 95 % from where full solves put it, worst on one that slips and rolls between the "
-         "plates; a view that swings or rolls beyond its limit has no sliders.";
+         " mm in 95 % from where full solves put it; a view that swings or rolls beyond its limit "
+         "has no sliders.";
 }
 
 json what_if_data(const PatientResults& results, const ViewResult& view) {
