@@ -6,13 +6,14 @@ namespace mammotwin {
 
 namespace {
 
+// Gauss-Legendre with 4 points is exact for the squares of cubics.
+constexpr std::array<double, 4> x = {0.06943184420297371, 0.33000947820757187, 0.66999052179242813,
+                                     0.93056815579702629};
+constexpr std::array<double, 4> w = {0.17392742256872693, 0.32607257743127307, 0.32607257743127307,
+                                     0.17392742256872693};
+
 /// ∫ Σᵢⱼ (∂²/∂uᵢ∂uⱼ)² of the basis over one of n₁ n₂ n₃ equal elements.
 Eigen::Matrix<double, 64, 64> second_derivative_matrix(const Eigen::Vector3i& n) {
-  // Gauss-Legendre with 4 points is exact for the squares of cubics' derivatives.
-  constexpr std::array<double, 4> x = {0.06943184420297371, 0.33000947820757187,
-                                       0.66999052179242813, 0.93056815579702629};
-  constexpr std::array<double, 4> w = {0.17392742256872693, 0.32607257743127307,
-                                       0.32607257743127307, 0.17392742256872693};
   Eigen::Matrix<double, 64, 64> m = Eigen::Matrix<double, 64, 64>::Zero();
   for (int q = 0; q < 64; ++q)
     for (int i = 0; i < 3; ++i)
@@ -27,6 +28,30 @@ Eigen::Matrix<double, 64, 64> second_derivative_matrix(const Eigen::Vector3i& n)
   return m / n.prod();
 }
 
+// In u, of which an element is a seventh by default. Without bends in the tether, a nipple's skin
+// has many minima: data of 1 mm leave its cross-derivatives free.
+constexpr double tethered_bends = 0.04;
+
+/// ∫ of squared values and bends of the basis over the skin's face of one of n₁ n₂ equal elements.
+Eigen::Matrix<double, 64, 64> skin_matrix(const Eigen::Vector3i& n) {
+  Eigen::Matrix<double, 64, 64> m = Eigen::Matrix<double, 64, 64>::Zero();
+  for (int q = 0; q < 16; ++q) {
+    const Eigen::Vector3d at(x[q % 4], x[q / 4], 1);
+    const BasisRow row = basis_row(at);
+    m += w[q % 4] * w[q / 4] * row.transpose() * row;
+    for (int i = 0; i < 2; ++i)
+      for (int j = 0; j < 2; ++j) {
+        std::array<int, 3> order = {0, 0, 0};
+        ++order[i];
+        ++order[j];
+        const double scale = tethered_bends * tethered_bends * n[i] * n[j];
+        const BasisRow bend = scale * basis_row(at, order);
+        m += w[q % 4] * w[q / 4] * bend.transpose() * bend;
+      }
+  }
+  return m / (n.x() * n.y());
+}
+
 Eigen::Vector3d mean_position(const HermiteMesh& mesh) {
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   for (const HermiteMesh::Node& node : mesh.nodes()) mean += node.col(0) / mesh.num_nodes();
@@ -39,9 +64,22 @@ FitModel::FitModel(const Slab& slab, const HermiteMesh& start)
     : corners_(start.elements()),
       origin_(mean_position(start)),
       second_derivatives_(second_derivative_matrix(slab.elements)),
+      tether_(skin_matrix(slab.elements)),
+      tethered_to_(slab.elements.x() * slab.elements.y(), ElementShape::Zero()),
       shape_energy_(slab, start),
       shapes_(corners_.size()),
       samples_(corners_.size()) {}
+
+void FitModel::tether(double weight, const std::vector<HermiteMesh::Node>& to) {
+  tether_weight_ = weight;
+  for (std::size_t face = 0; face < tethered_to_.size(); ++face)
+    tethered_to_[face] = element_shape(to, corners_[first_at_skin() + face], origin_);
+}
+
+ElementShape FitModel::strayed(int e) const {
+  return e < first_at_skin() ? ElementShape::Zero().eval()
+                             : (shapes_[e] - tethered_to_[e - first_at_skin()]).eval();
+}
 
 void FitModel::move_to(const std::vector<HermiteMesh::Node>& nodes,
                        const std::vector<PlaneSample>& samples) {
@@ -58,7 +96,9 @@ void FitModel::move_to(const std::vector<HermiteMesh::Node>& nodes,
 double FitModel::cost(int e) const {
   const ElementShape& x = shapes_[e];
   const double bending = (x * second_derivatives_).cwiseProduct(x).sum();
-  return samples_[e].cost(x.reshaped()) + smoothing_weight_ / 2 * bending +
+  const ElementShape moved = strayed(e);
+  return tether_weight_ / 2 * (moved * tether_).cwiseProduct(moved).sum() +
+         samples_[e].cost(x.reshaped()) + smoothing_weight_ / 2 * bending +
          shape_weight_ * shape_energy_.cost(x, e);
 }
 
@@ -66,11 +106,13 @@ ElementQuadratic FitModel::quadratic(int e) const {
   const ElementShape& x = shapes_[e];
   ElementQuadratic result;
   shape_energy_.add(x, e, shape_weight_, result);
-  const ElementShape bending = smoothing_weight_ * x * second_derivatives_;
-  result.gradient += bending.reshaped();
+  const double tether = e < first_at_skin() ? 0 : tether_weight_;
+  const ElementShape pull =
+      smoothing_weight_ * x * second_derivatives_ + tether * strayed(e) * tether_;
+  result.gradient += pull.reshaped();
   for (int c = 0; c < 3; ++c)
     result.hessian(Eigen::seqN(c, 64, 3), Eigen::seqN(c, 64, 3)) +=
-        smoothing_weight_ * second_derivatives_;
+        smoothing_weight_ * second_derivatives_ + tether * tether_;
   samples_[e].add(x.reshaped(), result);
   return result;
 }

@@ -14,7 +14,7 @@ constexpr double wanted_scaled_jacobian = 0.15;
 constexpr double wanted_determinant = 0.03;  // of the mean
 // A step of length r in the trust region's measure changes the model's cost by about r², and costs
 // are of order 1: the first region holds every step that is wanted, the last one none that counts.
-constexpr double first_radius = 4, last_radius = 0.02;
+constexpr double first_radius = 4;
 constexpr double regrown = 4;  // times the radius where a call of Ceres ended, for the next one
 constexpr double least_regrown = 0.32;  // so four halvings at least are tried before it ends
 // So many halvings of the trust region before one step: elements about to fold hold the mesh.
@@ -41,8 +41,8 @@ class StagedFit::Watch : public ceres::IterationCallback {
     const bool stuck = std::exchange(refusals_, 0) >= refusals_when_stuck;
     if (stage_.demand == MeshDemand::proved_in_shape)
       fit_.point_.demand(stage_.demand, fit_.mesh());
-    emphasised_ =
-        stuck && stage_.demand == MeshDemand::proved && fit_.emphasise_poor(stuck_emphasis);
+    emphasised_ = stuck && stage_.demand == MeshDemand::proved && !stage_.steep &&
+                  fit_.emphasise_poor(stuck_emphasis);
     const bool done =
         emphasised_ || steps_ == stage_.max_steps || (stage_.until_proved && fit_.proved());
     return done ? ceres::SOLVER_TERMINATE_SUCCESSFULLY : ceres::SOLVER_CONTINUE;
@@ -90,7 +90,7 @@ bool StagedFit::proved() const { return proved_valid(mesh()); }
 
 void StagedFit::restart() {
   nodes_ = start_.nodes();
-  point_.model().shape_energy().forget_emphasis();
+  forget_emphasis();
   target_.forget_feet();
   radius_ = first_radius;
 }
@@ -98,7 +98,7 @@ void StagedFit::restart() {
 ceres::Solver::Options StagedFit::options(const FitStage& stage) const {
   ceres::Solver::Options options = FitProblem::options();
   options.initial_trust_region_radius = radius_;
-  options.min_trust_region_radius = last_radius;
+  options.min_trust_region_radius = stage.last_radius;
   options.function_tolerance = stage.least_gain;
   options.max_num_iterations = iterations_left_;
   return options;
@@ -108,6 +108,9 @@ void StagedFit::run(const FitStage& stage) {
   target_.weigh_mesh(mesh());
   point_.set_weights({.all = stage.data_weight});
   point_.model().weigh(stage.shape_weight, stage.smoothing);
+  point_.model().shape_energy().steepen(stage.steep);
+  point_.model().shape_energy().take_gauss_newton(stage.gauss_newton);
+  point_.model().tether(stage.tether, nodes_);
   for (FitStage rest = stage; rest.max_steps > 0 && iterations_left_ > 0;) {
     point_.demand(stage.demand, mesh());
     Watch watch(*this, rest);
@@ -117,9 +120,9 @@ void StagedFit::run(const FitStage& stage) {
     report_.solver_reports.push_back(stage.name + "\n" + summary.FullReport());
     radius_ = std::clamp(regrown * summary.iterations.back().trust_region_radius, least_regrown,
                          first_radius);
-    const bool stuck = summary.iterations.back().trust_region_radius <= last_radius;
-    if (!watch.emphasised() &&
-        !(stuck && stage.demand == MeshDemand::proved && emphasise_poor(stuck_emphasis)))
+    const bool stuck = summary.iterations.back().trust_region_radius <= stage.last_radius;
+    if (!watch.emphasised() && !(stuck && !stage.steep && stage.demand == MeshDemand::proved &&
+                                 emphasise_poor(stuck_emphasis)))
       break;
     rest.max_steps -= watch.steps();
   }

@@ -38,7 +38,12 @@ struct FoldoverEnergy {
   Gradient gradient(const Eigen::Matrix3d& F) const;
 
   /// 2 JᵀJ with the residuals' Jacobian J: the Hessian of Gauss and Newton, positive semidefinite.
+  /// It leads out of folds, where that without curvature ends.
   Hessian gauss_newton(const Eigen::Matrix3d& F) const;
+  /// ∂²e/∂F∂F + curvature ∂e/∂F ⊗ ∂e/∂F without the eigenvectors along which it is not convex: by
+  /// the singular values, as of every isotropic energy (Smith, de Goes and Kim, "Analytic
+  /// eigensystems for isotropic distortion energies", ACM Trans. Graph. 38(1), 2019).
+  Hessian convex_hessian(const Eigen::Matrix3d& F, double curvature = 0) const;
 };
 
 }  // namespace mammotwin

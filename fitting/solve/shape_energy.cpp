@@ -15,7 +15,23 @@ std::vector<double> lobatto_points() {
   return {0, 0.5 - s, 0.5, 0.5 + s, 1};
 }
 
-std::vector<double> even_points() { return {0, 0.125, 0.25, 0.375, 0.5, 0.625, 0.75, 0.875, 1}; }
+/// What e counts, steep or not, with its derivatives by e.
+struct Growth {
+  double value, slope, curvature;
+
+  Growth(double e, bool steep) : value(e), slope(1), curvature(0) {
+    if (!steep) return;
+    const double cube = std::pow(e / ShapeEnergy::bad, 3);
+    value += e * cube, slope += 4 * cube, curvature = 12 * cube / e;
+  }
+};
+
+/// 0 to 1, both of them.
+std::vector<double> even_points(int count) {
+  std::vector<double> points;
+  for (int i = 0; i < count; ++i) points.push_back(i / (count - 1.0));
+  return points;
+}
 
 /// Mean over elements of the length of the line ξ = const through the element's centre.
 Eigen::Vector3d mean_lengths(const HermiteMesh& mesh) {
@@ -72,10 +88,11 @@ std::vector<Eigen::Vector3d> stretches(const Slab& slab, const HermiteMesh& star
 ShapeEnergy::ShapeEnergy(const Slab& slab, const HermiteMesh& start)
     : emphasis_(start.num_elements(), 0),
       grids_{TensorHessian(lobatto_points(), mean_lengths(start)),
-             TensorHessian(even_points(), mean_lengths(start))} {
+             TensorHessian(even_points(6), mean_lengths(start)),
+             TensorHessian(even_points(9), mean_lengths(start))} {
   const Eigen::Vector3d lengths = mean_lengths(start);
-  for (int emphasised : {0, 1})
-    gradients_[emphasised] = gradient_matrix(grids_[emphasised], lengths);
+  for (std::size_t g = 0; g < grids_.size(); ++g)
+    gradients_[g] = gradient_matrix(grids_[g], lengths);
   stretch_ = stretches(slab, start, lengths.z());
 }
 
@@ -108,7 +125,7 @@ void ShapeEnergy::renew_epsilon(const std::vector<ElementShape>& elements) {
 double ShapeEnergy::cost(const ElementShape& x, int element) const {
   const Gradients F = gradients_of(x, element);
   double sum = 0;
-  for (int q = 0; q < F.cols() / 3; ++q) sum += energy_.value(at(F, q));
+  for (int q = 0; q < F.cols() / 3; ++q) sum += Growth(energy_.value(at(F, q)), steep_).value;
   return point_weight(element) * sum;
 }
 
@@ -122,9 +139,14 @@ void ShapeEnergy::add(const ElementShape& x, int element, double weight,
   std::vector<double> tangents(grid.num_entries());
   for (int q = 0; q < grid.num_points(); ++q) {
     const Eigen::Matrix3d Fq = at(F, q);
+    const Growth by_e(energy_.value(Fq), steep_);
+    const FoldoverEnergy::Gradient e_by_F = energy_.gradient(Fq);
     const Eigen::Matrix3d stress_q =
-        scale * energy_.gradient(Fq).reshaped(3, 3) * stretch.asDiagonal();
-    const FoldoverEnergy::Hessian tangent = scale * energy_.gauss_newton(Fq);
+        scale * by_e.slope * e_by_F.reshaped(3, 3) * stretch.asDiagonal();
+    const FoldoverEnergy::Hessian tangent =
+        scale * by_e.slope *
+        (gauss_newton_ ? energy_.gauss_newton(Fq)
+                       : energy_.convex_hessian(Fq, by_e.curvature / by_e.slope));
     for (int i = 0; i < 3; ++i) {
       stress.col(i * grid.num_points() + q) = stress_q.col(i);
       for (int j = 0; j < 3; ++j) {

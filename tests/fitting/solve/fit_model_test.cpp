@@ -44,27 +44,32 @@ TEST(FitModel, GradientMatchesDifferencesInEveryParameter) {
   FitModel model(graded, mesh);
   model.weigh(1, 1e-6);
   model.shape_energy().emphasise(3);
+  model.tether(0.03, distorted_mesh(slab.elements, 0.5).nodes());
   std::vector<HermiteMesh::Node> nodes = mesh.nodes();
-  for (int e = 0; e < 4; ++e) {
-    model.move_to(nodes, samples);
-    const ElementVector gradient = model.quadratic(e).gradient;
-    for (int p = 0; p < element_size; ++p) {
-      double& x = nodes[mesh.corners(e)[p / 24]].data()[p % 24];
-      const double expected = difference(x, 1e-5, [&] {
-        model.move_to(nodes, samples);
-        return model.cost(e);
-      });
-      // Costs of order 1 lose 1e-16 / h = 1e-11 to rounding.
-      EXPECT_NEAR(gradient[p], expected, 1e-8) << "element " << e << ", parameter " << p;
+  for (bool steep : {false, true}) {
+    model.shape_energy().steepen(steep);
+    for (int e = 2; e < 4; ++e) {
+      model.move_to(nodes, samples);
+      const ElementVector gradient = model.quadratic(e).gradient;
+      for (int p = 0; p < element_size; ++p) {
+        double& x = nodes[mesh.corners(e)[p / 24]].data()[p % 24];
+        const double expected = difference(x, 1e-5, [&] {
+          model.move_to(nodes, samples);
+          return model.cost(e);
+        });
+        // Costs of order 1 lose 1e-16 / h = 1e-11 to rounding.
+        EXPECT_NEAR(gradient[p], expected, 1e-8) << "element " << e << ", parameter " << p;
+      }
     }
   }
 }
 
-TEST(FitModel, OfSamplesAndSmoothingTheHessianIsExact) {
+TEST(FitModel, OfSamplesSmoothingAndTetherTheHessianIsExact) {
   const HermiteMesh mesh = distorted_mesh(slab.elements, 1.5);
   const std::vector<PlaneSample> samples = some_samples(mesh);
   FitModel model(slab, mesh);
   model.weigh(0, 1e-6);
+  model.tether(0.03, distorted_mesh(slab.elements, 0.5).nodes());
   std::vector<HermiteMesh::Node> nodes = mesh.nodes();
   model.move_to(nodes, samples);
   const ElementMatrix hessian = model.quadratic(1).hessian;
@@ -93,7 +98,7 @@ Eigen::MatrixXd scaled_gradient(const Eigen::Vector3d& xi, double length) {
 }
 
 // One cube of 10 mm, whose wanted lengths are its own: F is ∂x/∂ξ over 10 mm.
-TEST(FitModel, OfTheEnergyTheHessianIsTheSumOfItsPointsGaussNewtonHessians) {
+TEST(FitModel, OfTheEnergyTheHessianIsTheSumOfItsPoints) {
   const Slab one{{1, 1, 1}};
   const HermiteMesh cube = distorted_mesh(one.elements, 0), bent = distorted_mesh(one.elements, 2);
   const double s = std::sqrt(3.0 / 7) / 2;
@@ -103,6 +108,7 @@ TEST(FitModel, OfTheEnergyTheHessianIsTheSumOfItsPointsGaussNewtonHessians) {
     FitModel model(one, cube);
     model.weigh(0.7, 0);
     for (int i = 0; i < emphasis; ++i) model.shape_energy().emphasise(0);
+    model.shape_energy().take_gauss_newton(emphasis == 1);
     model.move_to(bent.nodes(), {});
     const double weight = 0.7 * std::pow(4, emphasis) / std::pow(points.size(), 3);
     ElementMatrix expected = ElementMatrix::Zero(element_size, element_size);
@@ -112,7 +118,9 @@ TEST(FitModel, OfTheEnergyTheHessianIsTheSumOfItsPointsGaussNewtonHessians) {
           const Eigen::MatrixXd g = scaled_gradient({a, b, c}, 10);
           const Eigen::Matrix3d F = bent.jacobian({0, {a, b, c}}) / 10;
           ASSERT_GT(F.determinant(), 0);
-          expected += weight * g.transpose() * FoldoverEnergy{1e-3}.gauss_newton(F) * g;
+          const FoldoverEnergy e{1e-3};
+          expected += weight * g.transpose() *
+                      (emphasis == 1 ? e.gauss_newton(F) : e.convex_hessian(F)) * g;
         }
     EXPECT_LT((model.quadratic(0).hessian - expected).norm(), 1e-12 * expected.norm());
   }

@@ -3,6 +3,7 @@
 #include <ceres/jet.h>
 #include <gtest/gtest.h>
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <cmath>
 #include <random>
@@ -79,6 +80,44 @@ TEST(FoldoverEnergy, GaussNewtonHessianIsThatOfItsResiduals) {
     const Differentiated by(e, F);
     const FoldoverEnergy::Hessian expected = 2 * by.jacobian.transpose() * by.jacobian;
     EXPECT_LT((e.gauss_newton(F) - expected).norm(), 1e-12 * expected.norm());
+  }
+}
+
+/// The Hessian by differences of the gradient, its negative eigenvalues set to 0.
+FoldoverEnergy::Hessian convex_by_differences(const FoldoverEnergy& e, const Eigen::Matrix3d& F,
+                                              double curvature) {
+  constexpr double h = 1e-6;
+  FoldoverEnergy::Hessian hessian;
+  for (int p = 0; p < 9; ++p) {
+    Eigen::Matrix3d up = F, down = F;
+    up.data()[p] += h;
+    down.data()[p] -= h;
+    hessian.col(p) = (e.gradient(up) - e.gradient(down)) / (2 * h);
+  }
+  hessian += curvature * e.gradient(F) * e.gradient(F).transpose();
+  const Eigen::SelfAdjointEigenSolver<FoldoverEnergy::Hessian> modes(
+      (hessian + hessian.transpose()) / 2);
+  return modes.eigenvectors() * modes.eigenvalues().cwiseMax(0).asDiagonal() *
+         modes.eigenvectors().transpose();
+}
+
+TEST(FoldoverEnergy, ConvexHessianIsTheHessianWithoutItsNegativeEigenvalues) {
+  const FoldoverEnergy e = FoldoverEnergy::for_smallest(-0.5);
+  for (const auto& F : examples())
+    for (double curvature : {0.0, 2.0}) {
+      const FoldoverEnergy::Hessian expected = convex_by_differences(e, F, curvature);
+      // Differences of 1e-6 leave (1e-6)² of third derivatives, and 1e-16 / 1e-6 of rounding.
+      EXPECT_LT((e.convex_hessian(F, curvature) - expected).norm(), 1e-7 * expected.norm());
+    }
+}
+
+// All singular values equal, and two of them: the eigenvectors are not unique there.
+TEST(FoldoverEnergy, ConvexHessianDoesNotMindEqualSingularValues) {
+  const FoldoverEnergy e{1e-3};
+  for (double third : {1.0, 0.5}) {
+    const Eigen::Matrix3d F = Eigen::Vector3d(1, 1, third).asDiagonal();
+    const FoldoverEnergy::Hessian expected = convex_by_differences(e, F, 0);
+    EXPECT_LT((e.convex_hessian(F) - expected).norm(), 1e-7 * expected.norm());
   }
 }
 
