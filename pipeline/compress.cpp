@@ -115,9 +115,8 @@ Outcome run(const Arguments& args, const Patient& patient, StageRun& stage) {
       compress_with_checkpoints(problem, patient.compression.options, stage);
   SidewaysEscape escape;
   if (result.report.usable()) {
-    const CompressedView pressed =
-        view_of_plates(args.view, side, view.angle(), problem.plates, result);
-    escape = escape_of(mesh, segmentation, result, pressed);
+    CompressedView pressed = view_of_plates(args.view, side, view.angle(), problem.plates, result);
+    escape = pressed.escape = escape_of(mesh, segmentation, result, pressed);
     write_mesh_file(stage.products.write_main(), compressed_file(mesh, result, pressed));
   }
   Outcome outcome = judge_compression(result.report, escape, view.angle(), !view.thickness_mm);

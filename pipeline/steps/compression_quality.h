@@ -1,7 +1,7 @@
 #pragma once
 
 #include "pipeline/frame/outcome.h"
-#include "pipeline/steps/sideways_escape.h"
+#include "registration/view/sideways_escape.h"
 #include "solver/press/compression_result.h"
 
 namespace mammotwin {

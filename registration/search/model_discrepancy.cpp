@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "registration/search/search_verdict.h"
 
@@ -17,6 +18,11 @@ double root_beyond(double squared, double expected) {
 }
 
 }  // namespace
+
+double uncorrected_sd_mm(const SidewaysEscape& escape, double thickness_mm) {
+  const double rolled_mm = std::sin(escape.roll_deg * std::numbers::pi / 180) * thickness_mm / 2;
+  return std::hypot(kUncorrectedSd_mm, escape.swing_mm, rolled_mm);
+}
 
 ModelDiscrepancy model_discrepancy(const MatchFigures& left) {
   ModelDiscrepancy d;

@@ -37,4 +37,8 @@ ModelDiscrepancy model_discrepancy(const MatchFigures& left);
 /// sd^2) / 2).
 inline constexpr double kUncorrectedSd_mm = 6.2;
 
+/// Of a prediction that no mammogram corrects [mm]: kUncorrectedSd_mm, and as far as the nipple
+/// swung and a roll moved what lies at a plate, for a radiographer lets no breast escape sideways.
+double uncorrected_sd_mm(const SidewaysEscape& escape, double thickness_mm);
+
 }  // namespace mammotwin

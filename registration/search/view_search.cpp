@@ -66,7 +66,7 @@ SearchedView unmatched(const SearchInput& input, const ReducedView& reduced, con
   result.uncertainty.sd = edge.sd;
   result.uncertainty.covariance = edge.covariance;
   if (!input.evidence) result.uncertainty.covariance(kShiftLateral, kShiftLateral) = 0;
-  result.uncertainty.discrepancy_mm = kUncorrectedSd_mm;
+  result.uncertainty.discrepancy_mm = uncorrected_sd_mm(input.view.escape, input.view.thickness_mm);
   if (input.solver) result.what_if = what_if_shapes(reduced, ViewState::Zero(), input.view.frame);
   result.failed_solves = reduced.failed_solves;
   return result;

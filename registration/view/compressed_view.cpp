@@ -35,6 +35,8 @@ void write_view(const CompressedView& view, Metadata& metadata) {
                                     view.frame.origin_in_lps.end()};
   const Eigen::Matrix3d columns = view.frame.axes.transpose();
   metadata["view_axes"] = {columns.data(), columns.data() + columns.size()};
+  metadata["view_swing_mm"] = {view.escape.swing_mm};
+  metadata["view_roll_deg"] = {view.escape.roll_deg};
   if (view.turn_deg != 0) metadata["view_turn_deg"] = {view.turn_deg};
 }
 
@@ -48,6 +50,8 @@ CompressedView compressed_view(const std::string& name, const std::string& file,
   view.frame.origin_in_lps = Eigen::Vector3d(entry(metadata, file, "view_origin_lps_mm", 3).data());
   view.frame.axes =
       Eigen::Matrix<double, 3, 3, Eigen::RowMajor>(entry(metadata, file, "view_axes", 9).data());
+  view.escape.swing_mm = entry(metadata, file, "view_swing_mm", 1)[0];
+  view.escape.roll_deg = entry(metadata, file, "view_roll_deg", 1)[0];
   if (metadata.contains("view_turn_deg"))
     view.turn_deg = entry(metadata, file, "view_turn_deg", 1)[0];
   const double difference =

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "registration/view/sideways_escape.h"
 #include "registration/view/view_frame.h"
 
 namespace mammotwin {
@@ -16,6 +17,7 @@ struct CompressedView {
   double thickness_mm = 0;  ///< measured extent of the compressed breast along the beam
   ViewFrame frame;
   double turn_deg = 0;  ///< of the detector about the beam, from lateral towards depth
+  SidewaysEscape escape{};
 };
 
 /// Axes of the view: those of its angle, turned.
@@ -25,8 +27,8 @@ Eigen::Matrix3d axes_of(Side side, double angle_deg, double turn_deg);
 void write_view(const CompressedView& view, std::map<std::string, std::vector<double>>& metadata);
 
 /// What `compress` wrote beside the mesh: view_side (0 left, 1 right), view_angle_deg,
-/// thickness_mm, view_origin_lps_mm (3), view_axes (9: depth, lateral, height)
-/// and, where the detector is turned, view_turn_deg.
+/// thickness_mm, view_origin_lps_mm (3), view_axes (9: depth, lateral, height),
+/// view_swing_mm, view_roll_deg and, where the detector is turned, view_turn_deg.
 /// Throws std::runtime_error naming `file` and the entry that is missing or contradicts the angle.
 CompressedView compressed_view(const std::string& name, const std::string& file,
                                const std::map<std::string, std::vector<double>>& metadata);

@@ -96,11 +96,15 @@ TEST(CompressedView, IsReadFromTheFieldsOfTheMeshFile) {
       {"view_angle_deg", {45}},
       {"thickness_mm", {made.thickness_mm}},
       {"view_origin_lps_mm", {o.x(), o.y(), o.z()}},
+      {"view_swing_mm", {-7}},
+      {"view_roll_deg", {3}},
       {"view_axes", axes}};
   const CompressedView read = compressed_view("mlo", "mlo.vtu", fields);
   EXPECT_EQ(read.frame.axes, made.frame.axes);
   EXPECT_EQ(read.frame.origin_in_lps, o);
   EXPECT_EQ(read.side, Side::right);
+  EXPECT_EQ(read.escape.swing_mm, -7);
+  EXPECT_EQ(read.escape.roll_deg, 3);
 
   fields["view_angle_deg"] = {40};
   EXPECT_THROW(compressed_view("mlo", "mlo.vtu", fields), std::runtime_error);

@@ -1,4 +1,4 @@
-#include "pipeline/steps/sideways_escape.h"
+#include "registration/view/sideways_escape.h"
 
 #include <gtest/gtest.h>
 
@@ -6,8 +6,6 @@
 #include <numbers>
 
 #include "fitting/mesh/block_mesh.h"
-#include "pipeline/steps/compression_quality.h"
-#include "pipeline/steps/quality_limits.h"
 
 namespace mammotwin {
 namespace {
@@ -51,20 +49,6 @@ TEST(SidewaysEscape, LeavesOutWhatIsBehindTheEdges) {
   far.origin_in_lps = {0, -200, 0};
   const Eigen::Matrix3d turn(Eigen::AngleAxisd(0.5, Eigen::Vector3d::UnitY()));
   EXPECT_EQ(sideways_escape(kBlock, mapped(kBlock, turn, {0, 0, 0}), kFront, far).roll_deg, 0);
-}
-
-TEST(SidewaysEscape, BeyondItsLimitsIsToBeLookedAt) {
-  CompressionReport report;
-  report.status = CompressionStatus::converged;
-  report.thickness_mm = report.target_thickness_mm = 50;
-  report.free_thickness_mm = 100;
-  report.J_within_half = 1;
-  const auto status = [&](double swing, double roll) {
-    return judge_compression(report, {swing, roll}, 0, false).status;
-  };
-  EXPECT_EQ(status(-limits::swing_mm + 0.1, limits::roll_deg - 0.1), Status::ok);
-  EXPECT_EQ(status(-limits::swing_mm - 0.1, 0), Status::look);
-  EXPECT_EQ(status(0, limits::roll_deg + 0.1), Status::look);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "pipeline/steps/sideways_escape.h"
+#include "registration/view/sideways_escape.h"
 
 #include <Eigen/LU>
 #include <Eigen/SVD>
