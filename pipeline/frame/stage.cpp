@@ -279,7 +279,8 @@ int run(int argc, char** argv, SettingsFile& file, const Stage& stage) {
     const ProductLock lock(product, [&] {
       std::cerr << stage.name << ": another run makes " << product.string() << "; waiting for it\n";
     });
-    remove_partial_leftovers(folder_of(product), product.filename().string());
+    for (const fs::path& written : {product, sidecar_path(product)})
+      remove_partial_leftovers(folder_of(product), written.filename().string());
     const Provenance provenance = plan_provenance(stage, declaration, file, settings, naming);
     if (!common.force && current_sidecar(product, provenance)) {
       Checkpoint(product, provenance).remove();  // of a run killed when it had nothing else to do

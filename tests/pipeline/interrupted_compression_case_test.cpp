@@ -99,6 +99,16 @@ TEST_F(InterruptedCompression, GivesTheSameBitForBitWhenItIsRunAgain) {
   EXPECT_GT(resumed, 0);
 }
 
+// Killed after its product, the same as before, and before its sidecar: the old one still holds.
+TEST_F(InterruptedCompression, AnUpToDateRunTakesAwayWhatAKilledOneLeft) {
+  ASSERT_EQ(run_command(command()).exit_code, 0);
+  write(".partial-99999999-cc.vtu.json-0123456789abcdef", "half");
+  write(".partial-99999999-cc.vtu-0123456789abcdef", "half");
+  const CommandResult again = run_command(command());
+  EXPECT_NE(again.text.find("is up to date"), std::string::npos) << again.text;
+  EXPECT_TRUE(leaves_nothing_behind());
+}
+
 TEST_F(InterruptedCompression, BeginsAnewWhereTheCheckpointIsDamaged) {
   write(".cc.vtu.checkpoint", "damaged");
   const CommandResult run = run_command(command());
