@@ -13,7 +13,7 @@ struct WhatIf {
 };
 
 inline constexpr std::array<WhatIf, 4> kWhatIf = {
-    {{kThickness, 3}, {kRoll, 3}, {kStiffnessRatio, 0.45}, {kClearance, 3}}};
+    {{kThickness, 2}, {kRoll, 2}, {kStiffnessRatio, 0.3}, {kClearance, 2}}};
 
 /// How far tissue lies from where full solves put it on the detector [mm], in these ranges: in the
 /// best and the worst of so many views of `make evaluate-what-if` (docs/measured/what_if.md; a test
@@ -21,8 +21,8 @@ inline constexpr std::array<WhatIf, 4> kWhatIf = {
 struct WhatIfError {
   double best_mm, worst_mm;
 };
-inline constexpr WhatIfError kWhatIfMedian{0.6, 1.2}, kWhatIfP95{0.9, 2.0};
-inline constexpr int kWhatIfViews = 3;
+inline constexpr WhatIfError kWhatIfMedian{0.3, 0.8}, kWhatIfP95{0.7, 1.6};
+inline constexpr int kWhatIfViews = 8;
 
 /// The ranges as a state; 0 for numbers that are not varied.
 ViewState what_if_ranges();
