@@ -17,7 +17,7 @@ constexpr double grading_width = 0.12;
 constexpr double stiff = 10;      // shape weight that straightens what the data folds
 constexpr int most_emphasis = 4;  // beyond 4⁴ times its energy an element outweighs the skin
 // A fit that stops early ends where rounding takes it: with 20 steps, a gain of 3e-4 and no tether,
-// nodes of 042 ended up to 18 mm apart for skins 1e-9 mm apart.
+// nodes of 042 ended up to 18 mm apart for skins 0.4 um apart.
 constexpr double converged = 1e-5;  // gain of a step, of the cost
 constexpr int most_steps = 60;
 constexpr double tether = 0.005;  // [mm²] a mm² of skin, beside 1 and 0.5 for distances to it
@@ -31,7 +31,7 @@ bool lacks_shape(const HermiteMesh& mesh) {
 
 /// From the start to a mesh that is proved valid. Where the data folds it, the data waits.
 bool untangle(StagedFit& fit) {
-  // Of 10 breasts looked at 7 were valid after 3 steps, the others not after 6 either.
+  // Of 29 breasts looked at 21 were valid after 3 steps.
   const FitStage approach{.name = "approach", .shape_weight = stiff, .max_steps = 3};
   fit.run(approach);
   if (fit.proved())

@@ -16,8 +16,8 @@ namespace {
 constexpr double kBlur_mm = 1;
 constexpr double kMarkerSd_mm = 3;  // of a marker stuck on the nipple
 constexpr double kSaidSd_mm = 3, kSaidPectoralSd_mm = 3;
-/// Skin is smooth (0.25 in most of 32 real images, by its curvature); a line that is not follows
-/// noise in air or in skin that is hardly seen.
+/// Skin is smooth (under 0.3 in most of 32 real images, by its curvature); a line that is not
+/// follows noise in air or in skin that is hardly seen.
 constexpr double kRagged_mm = 0.45;
 constexpr double kOutlineSd_mm = 1, kRaggedSd_mm = 6;
 constexpr double kUnsureNipple_mm = 5, kUnsurePectoral_mm = 5.6;

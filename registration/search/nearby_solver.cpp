@@ -80,9 +80,7 @@ CompressedView view_of_plates(const std::string& name, Side side, double angle_d
 }
 
 NearbySolver::NearbySolver(SolvedView base, ProblemAt problem_at)
-    : base_(std::move(base)),
-      middle_in_lps_(mean_of(base_.result.deformed)),
-      problem_at_(std::move(problem_at)) {
+    : base_(std::move(base)), problem_at_(std::move(problem_at)) {
   CompressionResult near = base_.result;
   const double penalty = near.penalty;
   for (const double softer : kSofter) {
@@ -96,8 +94,9 @@ CompressedView NearbySolver::view_at(const ViewState& state, const PlateOptions&
                                      const CompressionResult& result) const {
   CompressedView view = view_of_plates(base_.view.name, base_.view.side,
                                        base_.view.angle_deg + state[kRoll], plates, result);
+  const Eigen::Vector3d middle = mean_of(base_.result.deformed);
   const auto along_edge = [&](const ViewFrame& frame) {
-    return frame.axes.row(1).dot(middle_in_lps_ - frame.origin_in_lps);
+    return frame.axes.row(1).dot(middle - frame.origin_in_lps);
   };
   const double off = along_edge(view.frame) - along_edge(base_.view.frame);
   view.frame.origin_in_lps += off * view.frame.axes.row(1).transpose();

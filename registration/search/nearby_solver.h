@@ -69,7 +69,6 @@ class NearbySolver {
                        const ViewState& to) const;
 
   SolvedView base_;
-  Eigen::Vector3d middle_in_lps_;  ///< mean of the base's nodes
   ProblemAt problem_at_;
   std::optional<SolvedView> soft_base_;  ///< the base with the softer contact
 };

@@ -142,8 +142,11 @@ bool slips_or_rolls(const PatientResults& results, const std::string& view) {
 }  // namespace
 
 std::string what_if_words() {
-  return "By the model's slopes where it was computed. In " + std::to_string(kWhatIfViews) +
-         " views of other breasts, all sliders moved at once, tissue lay " +
+  return "By the model's slopes where it was computed; on a mammogram by the secants of its "
+         "search. "
+         "Of slopes: in " +
+         std::to_string(kWhatIfViews) +
+         " views that were looked at, all sliders moved at once, tissue lay " +
          word::mm(kWhatIfMedian.best_mm) + " to " + word::mm(kWhatIfMedian.worst_mm) +
          " mm in the median and " + word::mm(kWhatIfP95.best_mm) + " to " +
          word::mm(kWhatIfP95.worst_mm) +
