@@ -13,7 +13,7 @@ constexpr double kNearBalance =
 constexpr double kEquilibrium = 1e-4;  // of the flow: nearer, unstable states are left downhill
 // of the flow: nearer, potentials that hold something fixed follow the state. Farther off, points
 // stand deep in a plate, and friction of such pressures would hold all that touches.
-constexpr double kFollow = 0.2;
+constexpr double kFollow = 1;
 constexpr int kMostFalls = 5;
 constexpr double kFirstDamping = 0.4;  // shift after a step that no part of lowered the merit
 
