@@ -82,6 +82,9 @@ CompressedView view_of_plates(const std::string& name, Side side, double angle_d
 NearbySolver::NearbySolver(SolvedView base, ProblemAt problem_at)
     : base_(std::move(base)), problem_at_(std::move(problem_at)) {
   CompressionResult near = base_.result;
+  // At a softer penalty they would press points that left their plate long since: a breast near
+  // the brink of slipping backwards slid out altogether.
+  near.multipliers.clear();
   const double penalty = near.penalty;
   for (const double softer : kSofter) {
     near.penalty = softer * penalty;

@@ -14,15 +14,15 @@ void add_face(const Face& face, const SolidElement::Coefficients& x, const Plate
   for (int q = 0; q < face.num_points(); ++q) {
     const auto y = face.deformed(x, q);
     const Gap gap = contact.plates[plate].gap(y.head<3>());
-    if (gap.gap >= kTouching) continue;
     const SurfacePoint& point = face.point(q);
+    if (gap.gap >= kTouching && contact.pressure(gap.gap, point, plate) == 0) continue;
     const double stretch =
         y.segment<3>(3).cross(y.segment<3>(6)).norm() / point.A1.cross(point.A2).norm();
-    Eigen::Vector3d force = contact.pressure(gap.gap) * point.area * gap.normal;
+    Eigen::Vector3d force = contact.pressure(gap.gap, point, plate) * point.area * gap.normal;
     if (friction) force += point.area * friction->traction(y.head<3>(), point, plate);
     figures.force += force;
     figures.moment += y.head<3>().cross(force);
-    figures.area += stretch * point.area;
+    if (gap.gap < kTouching) figures.area += stretch * point.area;
     figures.penetration = std::max(figures.penetration, -gap.gap);
   }
 }
@@ -39,6 +39,23 @@ ContactFigures contact_figures(const Model& model, const State& state, const Pla
         add_face(face, x, contact, plate, friction, figures);
   }
   return figures;
+}
+
+std::vector<double> contact_pressures(const Model& model, const State& state,
+                                      const PlateContact& contact, const FaceList& faces) {
+  const std::size_t plates = contact.plates.size();
+  std::vector<double> pressures(model.num_surface_points() * plates, 0);
+  for (const auto& [e, number] : faces) {
+    const auto x = model.coefficients(state.x, e);
+    for (const Face& face : model.faces(e)) {
+      if (face.face() != number || face.points1d() != contact.points1d) continue;
+      for (int q = 0; q < face.num_points(); ++q)
+        for (std::size_t p = 0; p < plates; ++p)
+          pressures[face.point(q).index * plates + p] = contact.pressure(
+              contact.plates[p].gap(face.deformed(x, q).head<3>()).gap, face.point(q), p);
+    }
+  }
+  return pressures;
 }
 
 }  // namespace mammotwin

@@ -22,4 +22,8 @@ ContactFigures contact_figures(const Model& model, const State& state, const Pla
                                int plate, const FaceList& faces,
                                const PlateFriction* friction = nullptr);
 
+/// What the plates press each surface point with, as PlateContact::multipliers has it [kPa].
+std::vector<double> contact_pressures(const Model& model, const State& state,
+                                      const PlateContact& contact, const FaceList& faces);
+
 }  // namespace mammotwin

@@ -32,8 +32,6 @@ NewtonReport resettle(Newton& newton, PlateContact& contact, NewtonOptions optio
 
 /// Raises the penalty further until the largest penetration is at most `gap_tolerance` [mm] or a
 /// stiffer one finds no equilibrium; the last good state and penalty stay.
-/// Multipliers (augmented Lagrangian) were tried instead: on coarse faces that cannot follow a
-/// plate's rounding they grow without closing the gap.
 NewtonReport close_gap(Newton& newton, PlateContact& contact, double gap_tolerance,
                        const std::function<double(const State&)>& penetration,
                        const NewtonOptions& options, State& state);

@@ -2,12 +2,12 @@
 
 namespace mammotwin {
 
-bool PlateContact::respond(const Eigen::Matrix<double, 9, 1>& y, const SurfacePoint&, int order,
-                           SurfaceResponse& response) const {
+bool PlateContact::respond(const Eigen::Matrix<double, 9, 1>& y, const SurfacePoint& point,
+                           int order, SurfaceResponse& response) const {
   bool touches = false;
-  for (const Plate& plate : plates) {
-    const Gap gap = plate.gap(y.head<3>());
-    const double t = pressure(gap.gap);
+  for (std::size_t p = 0; p < plates.size(); ++p) {
+    const Gap gap = plates[p].gap(y.head<3>());
+    const double t = pressure(gap.gap, point, p);
     if (t == 0) continue;
     if (!touches) {
       response.energy = 0;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <vector>
 
 #include "solver/contact/plate.h"
@@ -8,14 +10,18 @@
 
 namespace mammotwin {
 
-/// Frictionless penalty contact with rigid plates (paper, eq. 8), per reference area:
+/// Frictionless contact with rigid plates, a penalty (paper, eq. 8) augmented by multipliers λ, per
+/// reference area:
 ///
-///     energy = Σ_plates t²/(2ε),   pressure t = ⟨−ε gap⟩
+///     energy = Σ_plates t²/(2ε),   pressure t = ⟨λ − ε gap⟩
 ///
-/// with the exact tangent (normal and curvature of the plate) unless `with_curvature` is off. Far
-/// from equilibrium, just after ε was raised, t is the violation's and not the tissue's, and its
-/// product with an edge's curvature makes the tangent indefinite at J = 1. The driver moves the
-/// plates and continues ε (penalty_continuation.h).
+/// λ is what a point is pressed with before it is inside. Fixed while Newton solves, it leaves a
+/// potential like any other; where it is the pressure, the gap is closed at whatever ε (Simo,
+/// Laursen, Computers & Structures 42 (1992), section 2). Without λ this is the penalty alone. In
+/// both cases with the exact tangent (normal and curvature of the plate) unless `with_curvature` is
+/// off. Far from equilibrium, just after ε was raised, t is the violation's and not the tissue's,
+/// and its product with an edge's curvature makes the tangent indefinite at J = 1. The driver moves
+/// the plates and continues ε (penalty_continuation.h).
 class PlateContact : public SurfacePotential {
  public:
   std::vector<Plate> plates;
@@ -24,7 +30,14 @@ class PlateContact : public SurfacePotential {
   bool with_curvature = true;  ///< t ∂²gap/∂x² in the tangent
   Following follow;            ///< friction's; empty: no friction, or frozen
 
-  double pressure(double gap) const { return gap < 0 ? -penalty * gap : 0; }  ///< t [kPa]
+  std::vector<double> multipliers;  ///< λ by surface point, then plate [kPa]; empty: 0
+
+  /// t of a surface point with a plate [kPa].
+  double pressure(double gap, const SurfacePoint& point, std::size_t plate) const {
+    const double multiplier =
+        multipliers.empty() ? 0 : multipliers[point.index * plates.size() + plate];
+    return std::max(0.0, multiplier - penalty * gap);
+  }
 
   Slots slots() const override { return kPosition; }
   bool respond(const Eigen::Matrix<double, 9, 1>& y, const SurfacePoint& point, int order,

@@ -248,15 +248,16 @@ LoadSteppingReport Compression::close_plates(State& state) {
 }
 
 CompressionResult Compression::result_at(const State& state) const {
-  return {
-      state.x, good_.found, state.pressure, press_.placed(), press_.penalty(), press_.holds(state),
-      {},      report_};
+  return {state.x,          good_.found,          state.pressure,      press_.placed(),
+          press_.penalty(), press_.multipliers(), press_.holds(state), {},
+          report_};
 }
 
 CompressionResult Compression::run() {
   const auto start = std::chrono::steady_clock::now();
   State state;
-  if (!begin(state)) return {state.x, state.x, state.pressure, press_.placed(), 0, {}, {}, report_};
+  if (!begin(state))
+    return {state.x, state.x, state.pressure, press_.placed(), 0, {}, {}, {}, report_};
   const LoadSteppingReport load = close_plates(state);
   measure_compression(press_, state, report_);
   judge(load, state);
@@ -281,6 +282,7 @@ CompressionResult Compression::run_from(const CompressionResult& near) {
   press_.move_paddle(press_.placed().support_height + problem_.plates.thickness + apart -
                          near.report.target_thickness_mm,
                      good_.tilt);
+  press_.set_multipliers(near.multipliers);
   press_.hold_by_friction(near.holds, state);
   NewtonReport newton = press_.squeeze(state, near.penalty);
   if (newton.usable()) newton = then(newton, press_.resettle(state));

@@ -96,13 +96,14 @@ void measure_compression(const Press& press, const State& state, CompressionRepo
 
 double force_from_energy(Press& press, const State& state) {
   press.breast().contact->follow = {};
-  constexpr double nudge = 1e-3;  // [mm]: small beside penetrations, so that contact stays
+  constexpr double nudge = 1e-3;    // [mm]: small beside penetrations, so that contact stays
+  constexpr double balance = 1e-5;  // residual: the energy errs by its square
   const PlacedPlates placed = press.placed();
   double energy[2];
   for (int side = 0; side < 2; ++side) {
     State nudged = state;
     press.move_paddle(placed.paddle_height + (side ? nudge : -nudge), placed.paddle_tilt);
-    const NewtonReport report = press.resettle(nudged);
+    const NewtonReport report = press.resettle(nudged, balance);
     energy[side] = report.usable() ? press.newton().balance(nudged).energy
                                    : std::numeric_limits<double>::quiet_NaN();
   }

@@ -47,12 +47,13 @@ struct CompressionReport {
 };
 
 struct CompressionResult {
-  std::vector<HermiteMesh::Node> deformed;   ///< at the last good step
-  std::vector<HermiteMesh::Node> found;      ///< as the plates found the breast: at rest
-  std::vector<double> pressure;              ///< 8 an element (State::pressure)
-  PlacedPlates plates;                       ///< where they ended
-  double penalty = 0;                        ///< of contact in the end [kPa/mm]
-  std::vector<PlateFriction::Hold> holds;    ///< of friction in the end; empty without
+  std::vector<HermiteMesh::Node> deformed;  ///< at the last good step
+  std::vector<HermiteMesh::Node> found;     ///< as the plates found the breast: at rest
+  std::vector<double> pressure;             ///< 8 an element (State::pressure)
+  PlacedPlates plates;                      ///< where they ended
+  double penalty = 0;                       ///< of contact in the end [kPa/mm]
+  std::vector<double> multipliers;          ///< of contact (PlateContact::multipliers); empty: none
+  std::vector<PlateFriction::Hold> holds;   ///< of friction in the end; empty without
   std::map<std::string, PointField> fields;  ///< press/solution_fields.h; empty if not usable
   CompressionReport report;
 };

@@ -30,15 +30,23 @@ struct Place {
   State state;
   PlacedPlates plates;
   double penalty = 0;
+  std::vector<double> multipliers;
   bool loose = true;
 };
 
-constexpr double kLoosely = 1e-3;  // residual of rounds; the last state is settled
-constexpr double kLeastGrowth = 1.5, kMostGrowth = 10;  // of the penalty in a round
-constexpr double kNearly = 0.09;  // [mm]: an error with which a breast still counts as compressed
-constexpr double kFar = 1;        // [mm]: stiff contact does not follow a paddle that moves by more
+constexpr double kLoosely = 1e-2;  // residual of rounds
+// Residual of the last state: under a thousandth of a mm. Below it friction's points can change
+// between sticking and sliding for thirty iterations, and nothing else does.
+constexpr double kSettled = 1e-5;
+// Of the penalty in a round. Multipliers close contact at any, but points that a face cannot carry
+// out of a plate's edge sooner at a stiffer one; 3 and more bring chatter.
+constexpr double kLeastGrowth = 1.5, kMostGrowth = 2;
+constexpr double kComesOut = 0.75;  // of what is inside a plate, in such a round
+constexpr double kNearly = 0.09;    // [mm]: an error with which a breast still counts as compressed
+constexpr double kFar = 1;  // [mm]: stiff contact does not follow a paddle that moves by more
 
-/// Rounds that each raise the penalty, move the paddle, or do both.
+/// Rounds that each close contact further, move the paddle, or do both. Contact is closed by
+/// multipliers that take over the pressures of the round before, at a penalty that grows a little.
 class Finish {
  public:
   Finish(Press& press, double penalty) : press_(press), penalty_(penalty) {}
@@ -57,6 +65,7 @@ class Finish {
   };
   Errors errors(const State& state) const;
   void remember(const Errors& now, const State& state);
+  Place here(const State& state) const;
   void go_back_to(const Place& place, State& state);
   bool better(State& state, const std::function<NewtonReport(State&)>& attempt);
   double move_for(const Errors& now, double growth);
@@ -67,7 +76,7 @@ class Finish {
   const double penalty_;
   NewtonReport total_;
   ThicknessSecant secant_;
-  bool grew_ = false;       ///< the last round raised the penalty
+  bool grew_ = false;       ///< the last round closed contact further
   bool from_soft_ = false;  ///< the next round starts from the load steps' penalty again
   bool loose_ = true;       ///< the state is in balance to kLoosely only
   Place best_;
@@ -92,21 +101,26 @@ Finish::Errors Finish::errors(const State& state) const {
 
 void Finish::remember(const Errors& now, const State& state) {
   if (!(now.closed() || now.near_enough()) || now.largest >= best_error_) return;
-  best_ = {state, press_.placed(), press_.penalty(), loose_};
+  best_ = here(state);
   best_error_ = now.largest;
+}
+
+Place Finish::here(const State& state) const {
+  return {state, press_.placed(), press_.penalty(), press_.multipliers(), loose_};
 }
 
 void Finish::go_back_to(const Place& place, State& state) {
   state = place.state;
   press_.put(place.plates);
   press_.set_penalty(place.penalty);
+  press_.set_multipliers(place.multipliers);
   press_.track_friction(state);
   loose_ = place.loose;
 }
 
-/// Keeps what `attempt` does to the state, plates and penalty only if it succeeds.
+/// Keeps what `attempt` does to the state, plates and contact only if it succeeds.
 bool Finish::better(State& state, const std::function<NewtonReport(State&)>& attempt) {
-  const Place before{state, press_.placed(), press_.penalty(), loose_};
+  const Place before = here(state);
   const NewtonReport report = attempt(state);
   total_ = then(total_, report);
   if (report.usable())
@@ -116,15 +130,16 @@ bool Finish::better(State& state, const std::function<NewtonReport(State&)>& att
   return report.usable();
 }
 
-/// The paddle's way for what a penalty `growth` times as stiff will not correct by itself [mm].
+/// The paddle's way for what contact that closes further (growth > 1) will not correct by itself
+/// [mm].
 double Finish::move_for(const Errors& now, double growth) {
-  if (growth > 1 || grew_) secant_ = {};  // stiffer contact changes the thickness, too
+  if (growth > 1 || grew_) secant_ = {};  // contact that closes changes the thickness, too
   grew_ = growth > 1;
-  const double left = now.thickness <= 0
-                          ? now.thickness
-                          : std::max(0.0, now.thickness - now.inside * (1 - 1 / growth));
+  const double left =
+      now.thickness <= 0 ? now.thickness
+                         : std::max(0.0, now.thickness - (growth > 1 ? kComesOut * now.inside : 0));
   if (std::abs(left) <= press_.options().thickness_tolerance) return 0;
-  return secant_.move(left, loose_ || from_soft_ ? std::abs(now.thickness) : kFar);
+  return secant_.move(left, growth > 1 || from_soft_ ? std::abs(now.thickness) : kFar);
 }
 
 bool Finish::improve(const Errors& now, double growth, State& state) {
@@ -134,7 +149,11 @@ bool Finish::improve(const Errors& now, double growth, State& state) {
       press_.move_paddle(press_.placed().paddle_height + move,
                          press_.placed().paddle_tilt - (now.leans ? now.tilt / kTiltSlope : 0));
     loose_ = true;
-    if (from_soft_ || std::abs(move) > kFar) return press_.squeeze(trial, penalty_);
+    if (from_soft_ || std::abs(move) > kFar) {
+      press_.set_multipliers({});
+      return press_.squeeze(trial, penalty_);
+    }
+    if (growth > 1) press_.set_multipliers(press_.pressures(trial));
     press_.set_penalty(press_.penalty() * growth);
     return press_.resettle(trial, kLoosely);
   });
@@ -144,7 +163,7 @@ void Finish::settle(State& state) {
   if (!loose_) return;
   better(state, [&](State& trial) {
     loose_ = false;
-    return press_.resettle(trial);
+    return press_.resettle(trial, kSettled);
   });
 }
 
@@ -157,7 +176,7 @@ NewtonReport Finish::run(State& state) {
   double most_growth = kMostGrowth;
   for (int round = 0, closed = 0; round < most_rounds; ++round) {
     Errors now = errors(state);
-    if (now.closed() && loose_) {
+    if (now.closed() && !now.off && loose_) {
       settle(state);
       now = errors(state);
     }

@@ -50,6 +50,14 @@ double Press::penetration(const State& state) const {
   return std::max(figures(state, kSupport).penetration, figures(state, kPaddle).penetration);
 }
 
+void Press::set_multipliers(std::vector<double> all) {
+  mammotwin::set_multipliers(breast_, std::move(all));
+}
+
+std::vector<double> Press::pressures(const State& state) const {
+  return contact_pressures(*breast_.model, state, *breast_.contact, breast_.contact_faces);
+}
+
 double Press::paddle_force(const State& state) const {
   return -problem_.plates.up.dot(figures(state, kPaddle).force) * kNewtonPerMilli;
 }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "solver/contact/contact_figures.h"
 #include "solver/contact/penalty_continuation.h"
 #include "solver/newton/newton.h"
@@ -33,6 +35,13 @@ class Press {
   Newton& newton() { return newton_; }
   double penalty() const { return breast_.contact->penalty; }  ///< [kPa/mm]
   void set_penalty(double penalty) { breast_.contact->penalty = penalty; }
+  const std::vector<double>& multipliers() const { return breast_.contact->multipliers; }
+  /// Throws std::invalid_argument unless there are none or one for each point and plate.
+  void set_multipliers(std::vector<double> all);
+
+  /// Of every surface point, then plate [kPa]: the multipliers that hold a state without help of
+  /// the penalty.
+  std::vector<double> pressures(const State& state) const;
 
   void put(const PlacedPlates& placed);
   void move_paddle(double height, double tilt);  ///< up · x [mm], [deg]

@@ -1,5 +1,9 @@
 #include "solver/press/pressed_breast.h"
 
+#include <stdexcept>
+#include <string>
+#include <utility>
+
 namespace mammotwin {
 
 namespace {
@@ -33,6 +37,15 @@ PressedBreast make_pressed_breast(const CompressionProblem& problem, const Solid
   add_contact(problem, breast);
   add_friction(problem, breast);
   return breast;
+}
+
+void set_multipliers(PressedBreast& breast, std::vector<double> multipliers) {
+  const std::size_t points = breast.model->num_surface_points() * breast.contact->plates.size();
+  if (!multipliers.empty() && multipliers.size() != points)
+    throw std::invalid_argument("contact has " + std::to_string(multipliers.size()) +
+                                " multipliers; expected " + std::to_string(points) +
+                                ": they belong to another mesh");
+  breast.contact->multipliers = std::move(multipliers);
 }
 
 void hold_by_friction(PressedBreast& breast, const std::vector<PlateFriction::Hold>& holds,

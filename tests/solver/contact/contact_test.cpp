@@ -66,6 +66,25 @@ TEST(PlateContact, PushesOnlyWhatIsInside) {
   EXPECT_NEAR((response.gradient.head<3>() + 0.7 * paddle().normal).norm(), 0, 1e-12);
 }
 
+// λ 2, 7 kPa/mm: a point is pressed from 2/7 mm off the plate on, at the plate with λ.
+TEST(PlateContact, MultipliersPressWhatIsNotYetInside) {
+  PlateContact contact;
+  contact.plates = {paddle()};
+  contact.penalty = 7;
+  contact.multipliers = {2};
+  SurfaceResponse response;
+  Eigen::Matrix<double, 9, 1> y = Eigen::Matrix<double, 9, 1>::Zero();
+  y.head<3>() = at(paddle(), 0.3, -5, 0);
+  EXPECT_FALSE(contact.respond(y, {}, 2, response));
+  for (const double above : {0.1, 0.0, -0.1}) {
+    y.head<3>() = at(paddle(), above, -5, 0);
+    ASSERT_TRUE(contact.respond(y, {}, 2, response));
+    const double pressure = 2 - 7 * above;
+    EXPECT_NEAR(response.energy, pressure * pressure / 14, 1e-12);
+    EXPECT_NEAR((response.gradient.head<3>() + pressure * paddle().normal).norm(), 0, 1e-12);
+  }
+}
+
 // A trough 1 mm deep across a block of 20 mm, z = 10 − c x (20 − x), that touches a plate at its
 // rims: its gap is under c (100 − t²) but in the middle 2t mm of it, and so at 95 % of the area for
 // t = 0.5. The points' areas there are 0.5 mm wide: good to 0.005 mm.
