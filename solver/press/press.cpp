@@ -16,6 +16,7 @@ constexpr double kNearlyClosed = 0.5;  // [mm] penetration that a load step may 
 
 PenaltyOptions penalties_of_steps() {
   PenaltyOptions penalties;
+  penalties.first = 10;  // soft enough for a breast at rest: tissue comes in by some 2 mm
   penalties.newton = loosened({}, kStepTolerance);
   return penalties;
 }
