@@ -49,8 +49,9 @@ struct NewtonReport {
 /// the shape is then one down the condensed energy, which every accepted step lowers (Armijo), at
 /// full length or, where the volume errs, bent back to the volume that it was to have (second-order
 /// correction, Nocedal and Wright, section 18.3), else cut. With friction, which has no energy, a
-/// step is also taken that lowers the norm of the residual. A matrix that is not positive definite
-/// is stabilised, then shifted by the μ-weighted Laplacian until it is.
+/// step is also taken that lowers the norm of the residual; where many come no nearer to balance, a
+/// solve ends in its nearest state. A matrix that is not positive definite is stabilised, then
+/// shifted by the μ-weighted Laplacian until it is.
 class Newton {
  public:
   Newton(const Model& model, const DofMap& dofs);

@@ -70,7 +70,7 @@ class Finish {
   bool better(State& state, const std::function<NewtonReport(State&)>& attempt);
   double move_for(const Errors& now, double growth);
   bool improve(const Errors& now, double growth, State& state);
-  void settle(State& state);
+  bool settle(State& state);
 
   Press& press_;
   const double penalty_;
@@ -159,9 +159,9 @@ bool Finish::improve(const Errors& now, double growth, State& state) {
   });
 }
 
-void Finish::settle(State& state) {
-  if (!loose_) return;
-  better(state, [&](State& trial) {
+/// False where the state finds no balance, or none that is stable, with contact as it is.
+bool Finish::settle(State& state) {
+  return !loose_ || better(state, [&](State& trial) {
     loose_ = false;
     return press_.resettle(trial, kSettled);
   });
@@ -173,17 +173,21 @@ NewtonReport Finish::run(State& state) {
   constexpr double headroom = 1.2, slowness = 1.5;
   // Skin between contact points snaps from one place to another, and the extent with it.
   constexpr int patience = 4;
+  // At another penalty points do not circle, or settle into a minimum.
+  constexpr int most_unsettled = 2;
   double most_growth = kMostGrowth;
+  int unsettled = 0;
   for (int round = 0, closed = 0; round < most_rounds; ++round) {
     Errors now = errors(state);
+    bool settled = true;
     if (now.closed() && !now.off && loose_) {
-      settle(state);
+      settled = settle(state);
       now = errors(state);
     }
-    if (now.closed() && !now.off) return total_;
+    if (now.closed() && !now.off && (settled || ++unsettled > most_unsettled)) return total_;
     remember(now, state);
     if (now.closed() && ++closed >= patience && best_error_ <= kNearly) break;
-    const double growth = now.excess <= 1 ? 1
+    const double growth = now.excess <= 1 ? (settled ? 1 : kLeastGrowth)
                                           : std::clamp(std::pow(headroom * now.excess, slowness),
                                                        kLeastGrowth, most_growth);
     const bool good = improve(now, growth, state);

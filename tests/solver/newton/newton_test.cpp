@@ -64,6 +64,28 @@ struct Block {
   }
 };
 
+// A weight that changes its sign whenever a step was taken, as a point does that turns from
+// sticking to sliding and back: each step balances what is no longer there.
+TEST(Newton, EndsWhereIterationsCircle) {
+  constexpr double weight = 0.05;  // [mN/mm^3]
+  Block block;
+  hold_plane(block.mesh, 2, block.size.z(), block.dofs);
+  block.dofs.number(block.mesh);
+  double sign = 1;
+  NewtonOptions options;
+  options.following.refresh = [&](const State&) {
+    block.model.set_body_force(
+        [&](const Eigen::Vector3d&) { return Eigen::Vector3d(0, 0, sign * weight); });
+  };
+  options.following.step = [&](const State&, const State&) { sign = -sign; };
+  State state = block.model.rest();
+  Newton newton(block.model, block.dofs);
+  const NewtonReport report = newton.solve(state, options);
+  EXPECT_FALSE(report.usable());
+  EXPECT_NE(report.reason.find("circle"), std::string::npos) << report.reason;
+  EXPECT_LT(report.iterations, 40);  // of 120
+}
+
 // Exact homogeneous state: Newton takes no step from it and few from rest.
 TEST(Newton, AxialSqueezeByDisplacementIsTheClosedForm) {
   Block block;
