@@ -163,8 +163,10 @@ void declare_view(Settings& s, const std::string& view, ViewSettings& v) {
   s.path(prefix + "outline", v.outline,
          "the breast's skin line in the mammogram: a mask (PNG of its size) or a contour (text, a "
          "column and a row a line); default: what is found");
-  s.number(prefix + "thickness_mm", v.thickness_mm, {10, 200, "mm", "is it in cm?"},
-           "compressed thickness; default the DICOM mammogram's, else 0.45 of the free extent");
+  s.number(
+      prefix + "thickness_mm", v.thickness_mm, {10, 200, "mm", "is it in cm?"},
+      "compressed thickness; default the DICOM mammogram's, else what is typical of the breast's "
+      "volume");
   s.number(
       prefix + "angle_deg", v.angle_deg, {-90, 90, "deg"},
       "positioner angle: the beam runs from superior-medial to inferior-lateral; default the DICOM "

@@ -5,6 +5,7 @@
 
 #include "pipeline/steps/breast_problem.h"
 #include "pipeline/steps/solution_record.h"
+#include "pipeline/steps/typical_thickness.h"
 #include "registration/view/view_frame.h"
 
 namespace mammotwin {
@@ -60,8 +61,7 @@ PlateOptions plates_of(const Patient& patient, const ViewSettings& view,
   settings.shape_plates(plates);
   if (settings.support_stl) plates.support_mesh = facets(patient.resolve(*settings.support_stl));
   if (settings.paddle_stl) plates.paddle_mesh = facets(patient.resolve(*settings.paddle_stl));
-  plates.thickness =
-      view.thickness_mm.value_or(kDefaultThicknessFraction * free_thickness(mesh, plates));
+  plates.thickness = view.thickness_mm ? *view.thickness_mm : assumed_thickness_mm(mesh, plates);
   return plates;
 }
 

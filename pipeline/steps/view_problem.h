@@ -7,9 +7,6 @@
 
 namespace mammotwin {
 
-/// Of the breast's free extent, where nobody says how thick it was.
-inline constexpr double kDefaultThicknessFraction = 0.45;
-
 /// Plates of a view as patient.toml says; `mesh` is the breast as imaged.
 PlateOptions plates_of(const Patient& patient, const ViewSettings& view,
                        const Eigen::Matrix3d& axes, const MeshFile& mesh);

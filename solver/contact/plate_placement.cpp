@@ -172,6 +172,19 @@ double PlateFrame::extent(const std::vector<HermiteMesh::Node>& x) const {
   return high - low;
 }
 
+double PlateFrame::volume_in_front() const {
+  constexpr int samples = 8;  // of an element along each of its axes
+  const HermiteMesh mesh(reference_, elements_);
+  double volume = 0;
+  for (int e = 0; e < mesh.num_elements(); ++e)
+    for (int n = 0; n < samples * samples * samples; ++n) {
+      const Eigen::Array3d cell(n % samples, n / samples % samples, n / (samples * samples));
+      const MeshPoint p{e, ((cell + 0.5) / samples).matrix()};
+      if (options_.depth.dot(mesh.position(p)) > edge_) volume += mesh.jacobian(p).determinant();
+    }
+  return volume / (samples * samples * samples);
+}
+
 void PlateFrame::find_flat_part() {
   const double r = options_.rounding;
   flat_ = {edge_ + r, edge_ + options_.length - r, lateral_middle_ - options_.width / 2 + r,

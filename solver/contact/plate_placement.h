@@ -61,6 +61,12 @@ class PlateFrame {
   /// Extent along `up` of x between the flat plates [mm].
   double extent(const std::vector<HermiteMesh::Node>& x) const;
 
+  /// Of the mesh's own shape, in front of the plates' edge [mm³].
+  double volume_in_front() const;
+
+  /// That of the mesh's own shape [mm].
+  double free_extent() const { return extent(reference_); }
+
   /// Heights at which the plates just touch the mesh's own shape, edges and all.
   std::pair<double, double> touching_heights() const { return touching_; }
 

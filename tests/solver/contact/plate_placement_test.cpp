@@ -88,5 +88,16 @@ TEST(PlateFrame, RefusesShapesThatAreNone) {
   EXPECT_NE(refusal(o).find("spring"), std::string::npos);
 }
 
+// A block 40 mm deep on a plane wall: all of it but the plates' clearance.
+TEST(PlateFrame, MeasuresTheVolumeInFrontOfThePlatesEdge) {
+  MeshFile block = dome_breast({2, 2, 4});
+  block.mesh = mapped_mesh({2, 2, 4}, [](const Eigen::Vector3d& xi) {
+    return Eigen::Vector3d(100 * xi.x(), -40 * xi.z(), 80 * xi.y());
+  });
+  PlateOptions o = options();
+  o.wall_clearance = 15;
+  EXPECT_NEAR(PlateFrame(block, o).volume_in_front(), 100 * 80 * 25, 1e-6);
+}
+
 }  // namespace
 }  // namespace mammotwin
