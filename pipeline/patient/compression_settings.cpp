@@ -75,9 +75,10 @@ Detector ViewSettings::detector(const std::string& view, Side side) const {
 }
 
 void declare_compression(Settings& s, CompressionSettings& c) {
-  s.preset("materials.preset", c.preset, tissue_presets(),
-           "values for the tissues' laws, stiffness_factor, skin.membrane and the chest wall's "
-           "spring and smoothing, where they are not given");
+  s.preset(
+      "materials.preset", c.preset, tissue_presets(),
+      "values for the tissues' laws, stiffness_factor, skin.membrane, the chest wall's spring and "
+      "smoothing and compress.pull, where they are not given");
   declare_law(s, "fat", c.fat);
   declare_law(s, "fibroglandular", c.fibroglandular);
   declare_law(s, "lesion", c.lesion);
@@ -148,6 +149,9 @@ void declare_compression(Settings& s, CompressionSettings& c) {
            "of that term, what grows with the fourth power; 0: none");
   s.flag("compress.gravity", c.standing_gravity,
          "the breast sags as the patient stands before the plates close");
+  s.number("compress.pull", c.pull, {0, 10},
+           "what draws the breast forward onto the support until the plates hold it, over its "
+           "weight; at 1 it lies as far forward as it hung in the MRI; 0: nothing");
 }
 
 void declare_view(Settings& s, const std::string& view, ViewSettings& v) {

@@ -78,6 +78,9 @@ CompressionProblem view_problem(const Patient& patient, const ViewSettings& view
     problem.gravity = gravity_in_lps(Pose::standing);
     problem.density = patient.gravity.density();
   }
+  if (mesh.configurations.contains("prone"))
+    problem.pull = patient.compression.pull * patient.gravity.density() *
+                   gravity_in_lps(Pose::prone).norm() * problem.plates.depth;
   return problem;
 }
 

@@ -61,6 +61,7 @@ class Compression {
  private:
   bool begin(State& state);
   bool settle(State& state);
+  bool let_go(State& state);
   void place(double fraction);
   NewtonReport balance_tilt(NewtonReport report, State& state);
   NewtonReport equilibrate(double fraction, State& state);
@@ -91,7 +92,7 @@ Compression::Compression(const CompressionProblem& problem, const CompressionOpt
       way_(press_.frame(), problem, options.moving) {
   good_.tilt = problem.plates.paddle_tilt;
   report_.target_thickness_mm = problem.plates.thickness;
-  report_.free_thickness_mm = press_.frame().extent(problem.mesh.mesh.nodes());
+  report_.free_thickness_mm = press_.frame().free_extent();
   report_.dof = press_.breast().dofs->num_equations();
 }
 
@@ -183,16 +184,36 @@ void Compression::judge(const LoadSteppingReport& load, const State& state) {
                      in_mm(problem_.plates.thickness) + ": " + report_.reason;
 }
 
-/// Brings the breast to rest under gravity, the plates away; false where it does not come to rest.
+/// Brings the breast to rest under gravity and pull, the plates away; false where it does not come
+/// to rest.
 bool Compression::settle(State& state) {
   press_.put(way_.start());
   press_.take_plates_away();
-  if (problem_.gravity.isZero()) return true;
-  const LoadSteppingReport load = raise_body_force(press_.breast(), press_.newton(),
-                                                   problem_.density * problem_.gravity, {}, state);
+  const Eigen::Vector3d force = problem_.density * problem_.gravity + problem_.pull;
+  if (force.isZero()) return true;
+  const LoadSteppingReport load =
+      raise_body_force(press_.breast(), press_.newton(), force, {}, state);
   report_.newton_iterations += load.iterations;
   report_.indefinite_matrices += load.indefinite;
   if (!load.complete()) report_.reason = "does not come to rest under gravity: " + load.reason;
+  return load.complete();
+}
+
+/// Ends the pull, the plates held; false where no balance is found without it.
+bool Compression::let_go(State& state) {
+  if (problem_.pull.isZero()) return true;
+  const LoadSteppingReport load = step_load(
+      state, {0.5},
+      [&](double fraction, State& trial) {
+        press_.load(1 - fraction);
+        press_.restore_friction(good_.sticking);
+        return press_.squeeze(trial, good_.penalty, true);
+      },
+      [&](const LoadSteppingReport&, const State& now, const NewtonReport&) {
+        good_.sticking = press_.commit_friction(now);
+      });
+  report_.newton_iterations += load.iterations;
+  report_.indefinite_matrices += load.indefinite;
   return load.complete();
 }
 
@@ -215,9 +236,7 @@ bool Compression::begin(State& state) {
   report_.history = good_.report.history;
   report_.newton_iterations = good_.report.newton_iterations;
   report_.indefinite_matrices = good_.report.indefinite_matrices;
-  if (!problem_.gravity.isZero())
-    press_.breast().model->set_body_force([force = (problem_.density * problem_.gravity).eval()](
-                                              const Eigen::Vector3d&) { return force; });
+  press_.load(1);
   place(good_.reached.fraction);
   press_.set_penalty(good_.penalty);
   press_.restore_friction(good_.sticking);
@@ -240,11 +259,18 @@ LoadSteppingReport Compression::close_plates(State& state) {
   report_.cutbacks = load.cutbacks;
   report_.newton_iterations += load.iterations;
   report_.indefinite_matrices += load.indefinite;
-  if (load.complete() && !lost_)
-    count(finish_compression(press_, good_.penalty, state));
-  else
+  if (!load.complete() || lost_) {
     place(load.reached);
-  return load;
+    return load;
+  }
+  if (let_go(state)) {
+    count(finish_compression(press_, good_.penalty, state));
+    return load;
+  }
+  LoadSteppingReport held = load;
+  held.reached = std::nextafter(1.0, 0.0);
+  held.reason = "the breast does not stay between the plates when nothing pulls it any more";
+  return held;
 }
 
 CompressionResult Compression::result_at(const State& state) const {
@@ -278,6 +304,7 @@ CompressionResult Compression::run_from(const CompressionResult& near) {
   state.pressure = near.pressure;
   good_.found = near.found;
   const double apart = near.plates.paddle_height - near.plates.support_height;
+  press_.load(0);
   place(1);
   press_.move_paddle(press_.placed().support_height + problem_.plates.thickness + apart -
                          near.report.target_thickness_mm,

@@ -32,8 +32,8 @@ double wall_gap(const Press& press, const BreastModel& breast, const State& stat
 }
 
 /// Of the tissue in front of the plates' edges [mm³], in reference volume.
-double volume_in_front(const Press& press, const State& state) {
-  const HermiteMesh shape(state.x, press.problem().mesh.mesh.elements());
+double volume_in_front(const Press& press, const std::vector<HermiteMesh::Node>& nodes) {
+  const HermiteMesh shape(nodes, press.problem().mesh.mesh.elements());
   const auto& t = hermite_table().points;
   double volume = 0;
   for (int e = 0; e < press.model().num_elements(); ++e)
@@ -55,7 +55,7 @@ double J_within_half(const Model& model, const State& state) {
 }
 
 double retained_fraction(const Press& press, const State& state) {
-  return volume_in_front(press, state) / volume_in_front(press, press.model().rest());
+  return volume_in_front(press, state.x) / volume_in_front(press, press.positioned());
 }
 
 /// 95th percentile, of both plates together [mm].

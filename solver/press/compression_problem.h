@@ -13,10 +13,14 @@ struct FrictionOptions {
 };
 
 /// One breast between two plates. The solver knows nothing of views: the plates say which way.
-/// Where gravity is not zero the breast first comes to rest under it, then plates close.
+/// Where gravity or pull is not zero the breast first comes to rest under both, then plates close,
+/// then the pull ends.
 struct CompressionProblem : BreastProblem {
   FrictionOptions friction;
   PlateOptions plates;
+  /// Of the hands that draw the breast onto the support and hold it there until the plates do, on
+  /// the tissue's volume [mN/mm³]. Plates are placed about the imaged breast, which hangs as far.
+  Eigen::Vector3d pull = Eigen::Vector3d::Zero();
 };
 
 enum class Moving {

@@ -17,7 +17,7 @@ std::string in_mm(double length) {
 PlateWay::PlateWay(const PlateFrame& frame, const CompressionProblem& problem, Moving moving)
     : frame_(frame), moving_(moving), tilt_(problem.plates.paddle_tilt) {
   const double thickness = problem.plates.thickness;
-  const double extent = frame.extent(problem.mesh.mesh.nodes());
+  const double extent = frame.free_extent();
   if (!(std::isfinite(thickness) && thickness > 0 && thickness < extent))
     throw std::invalid_argument("thickness is " + in_mm(thickness) +
                                 "; expected between 0 and the breast's own " + in_mm(extent) +

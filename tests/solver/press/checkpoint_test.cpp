@@ -11,7 +11,7 @@ constexpr char kRun[] = "the dome";
 
 struct Case {
   const char* name;
-  double friction, tilt_spring, gravity;
+  double friction, tilt_spring, gravity, pull;
 };
 
 /// Coarse, with plates that move by 3 mm a step, so that there are several steps to stop after.
@@ -21,6 +21,7 @@ CompressionProblem problem_of(const Case& c) {
   problem.friction.coefficient = c.friction;
   problem.plates.tilt_spring = c.tilt_spring;
   problem.gravity = {0, -c.gravity, 0};
+  problem.pull = c.pull * problem.plates.depth;
   return problem;
 }
 
@@ -57,10 +58,11 @@ TEST_P(ResumedCompression, EndsAsTheUninterruptedOneBitForBit) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Plates, ResumedCompression,
-                         testing::Values(Case{"level", 0, PlateOptions::kEndless, 0},
-                                         Case{"friction", 0.1, PlateOptions::kEndless, 0},
-                                         Case{"sprung", 0, 5e6, 0},
-                                         Case{"hanging", 0, PlateOptions::kEndless, 3000}),
+                         testing::Values(Case{"level", 0, PlateOptions::kEndless, 0, 0},
+                                         Case{"friction", 0.1, PlateOptions::kEndless, 0, 0},
+                                         Case{"sprung", 0, 5e6, 0, 0},
+                                         Case{"hanging", 0, PlateOptions::kEndless, 3000, 0},
+                                         Case{"pulled", 0.1, PlateOptions::kEndless, 0, 0.003}),
                          [](const auto& info) { return info.param.name; });
 
 CompressionCheckpoint small_checkpoint() {
@@ -96,7 +98,7 @@ TEST(Checkpoint, OfAnotherRunIsRefused) {
 
 TEST(Checkpoint, OfAnotherMeshIsRefused) {
   const CompressionCheckpoint small = small_checkpoint();
-  EXPECT_THROW(compress(problem_of({"", 0, PlateOptions::kEndless, 0}), {}, {}, {&small, {}}),
+  EXPECT_THROW(compress(problem_of({"", 0, PlateOptions::kEndless, 0, 0}), {}, {}, {&small, {}}),
                std::invalid_argument);
 }
 

@@ -165,24 +165,24 @@ TEST(Compress, RefusesStiffnessThatIsNotPositive) {
 
 /// Plates far from the chest wall, hardly any springs, 0.8 of the thickness: nothing but friction
 /// holds the breast between them.
-CompressionReport loosely_held(double friction) {
+CompressionProblem loosely_held(double friction) {
   CompressionProblem problem = dome_problem(22, false);
   problem.mesh = dome_breast({3, 3, 1});
   problem.boundary.chest_wall_spring = 0.01;
   problem.plates.wall_clearance = 25;
   problem.friction.coefficient = friction;
-  return compress(problem, {}).report;
+  return problem;
 }
 
 TEST(Compress, SaysThatABreastSlippedOutAndDoesNotHoldItByItself) {
-  const CompressionReport lost = loosely_held(0);
+  const CompressionReport lost = compress(loosely_held(0), {}).report;
   EXPECT_FALSE(lost.usable());
   EXPECT_TRUE(lost.slipped_out);
   EXPECT_NE(lost.reason.find("slipped out backwards"), std::string::npos) << lost.reason;
 }
 
 TEST(Compress, FrictionHoldsABreastThatWouldSlipOut) {
-  const CompressionReport held = loosely_held(0.2);
+  const CompressionReport held = compress(loosely_held(0.2), {}).report;
   ASSERT_TRUE(held.usable()) << held.reason;
   EXPECT_NEAR(held.thickness_mm, 22, 0.1);
   EXPECT_GT(held.retained_fraction, 0.5);
@@ -213,6 +213,42 @@ TEST(Compress, GoesOnFromAResultAsFrictionHeldIt) {
   const double with = move_of(whole), without = move_of(forgotten);
   EXPECT_GT(without, 0.03);
   EXPECT_LT(with, 0.1 * without);
+}
+
+/// Drawn forward by so many times its weight while the plates close.
+CompressionProblem pulled(CompressionProblem problem, double weights) {
+  constexpr double weight = 9.81e-3;  // [mN/mm³]
+  problem.pull = weights * weight * problem.plates.depth;
+  return problem;
+}
+
+double largest_move(const CompressionResult& a, const CompressionResult& b) {
+  double move = 0;
+  for (std::size_t i = 0; i < a.deformed.size(); ++i)
+    move = std::max(move, (a.deformed[i] - b.deformed[i]).col(0).norm());
+  return move;
+}
+
+// Nothing pulls at the end: without friction it does not matter that something did.
+TEST(Compress, APullLeavesNoTraceWithoutFriction) {
+  CompressionProblem problem = squeezed_problem();
+  problem.mesh = dome_breast({3, 3, 1});
+  const CompressionResult left = compress(problem, {}), drawn = compress(pulled(problem, 2), {});
+  ASSERT_TRUE(left.report.usable()) << left.report.reason;
+  ASSERT_TRUE(drawn.report.usable()) << drawn.report.reason;
+  EXPECT_LT(largest_move(left, drawn), 0.1);  // the thickness is asked to 0.05 mm
+  EXPECT_NEAR(drawn.report.force_N / left.report.force_N, 1, 5e-3);
+}
+
+TEST(Compress, FrictionKeepsWhatWasPulledForward) {
+  const CompressionProblem problem = pulled(loosely_held(0.5), 5);
+  const CompressionResult left = compress(loosely_held(0.5), {}), drawn = compress(problem, {});
+  ASSERT_TRUE(left.report.usable()) << left.report.reason;
+  ASSERT_TRUE(drawn.report.usable()) << drawn.report.reason;
+  EXPECT_GT(drawn.report.retained_fraction, left.report.retained_fraction + 0.05);
+  const CompressionResult again = compress_from(drawn, problem, {});
+  ASSERT_TRUE(again.report.usable()) << again.report.reason;
+  EXPECT_LT(largest_move(drawn, again), 0.05);
 }
 
 TEST(Compress, SaysHowFarItCameWhereItCannotGoOn) {
