@@ -64,11 +64,19 @@ double find_stiffness(const Patient& patient, StageRun& stage, const BreastProbl
   return factor * record.stiffness_fit->factor;
 }
 
+/// A breast that comes to rest does so in 20 to 80 iterations.
+HangOptions pose_options() {
+  HangOptions options;
+  options.load.smallest_step = 1.0 / 16;
+  options.load.max_iterations = 120;
+  return options;
+}
+
 void hang_in_other_poses(const BreastProblem& unloaded, UnloadingRecord& record) {
   for (const Pose pose : {Pose::standing, Pose::supine}) {
     BreastProblem problem = unloaded;
     problem.gravity = gravity_in_lps(pose);
-    PoseState state{hang(problem, {}), 0};
+    PoseState state{hang(problem, pose_options()), 0};
     state.wall_slide_mm =
         wall_slide(problem.mesh, problem.mesh.mesh.nodes(), state.result.deformed);
     record.poses.emplace(name_of(pose), std::move(state));
@@ -100,15 +108,17 @@ Outcome run(const Arguments& args, const Patient& patient, StageRun& stage) {
   };
   UnloadingRecord record;
   record.imaged = imaged;
+  if (imaged != Pose::none) record.coil = find_coil_plates(prone);
   record.stiffness_factor =
       find_stiffness(patient, stage, problem_with(patient.compression.stiffness_factor), record);
   if (record.stiffness_fit && !record.stiffness_fit->usable()) return judge_unloading(record);
-  const BreastProblem problem = problem_with(record.stiffness_factor);
-  const UnloadResult result = unload(problem, {}, stage.progress);
+  const UnloadResult result = unload(problem_with(record.stiffness_factor), {}, stage.progress);
   record.report = result.report;
-  if (result.report.usable()) {
+  stiffen_as_needed(record);
+  if (record.report.usable()) {
     if (record.imaged != Pose::none)
-      hang_in_other_poses(from_unloaded(problem, result.unloaded), record);
+      hang_in_other_poses(from_unloaded(problem_with(record.stiffness_factor), result.unloaded),
+                          record);
     write_mesh_file(stage.products.write_main(), unloaded_file(prone, result, record));
   }
   return judge_unloading(record);

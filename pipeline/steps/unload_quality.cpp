@@ -27,12 +27,17 @@ json fit_json(const StiffnessFit& fit) {
           {"trials", fit.trials}};
 }
 
+json coil_json(const CoilPlates& coil) {
+  return {{"apart_mm", coil.apart_mm}, {"left_cm2", coil.left_cm2}, {"right_cm2", coil.right_cm2}};
+}
+
 json quality_of(const UnloadingRecord& record) {
   const UnloadReport& r = record.report;
   json quality = {{"gravity", name_of(record.imaged)},
                   {"gravity_factor", r.gravity_fraction},
                   {"stability_margin", r.stability_margin},
                   {"stiffness_factor", record.stiffness_factor},
+                  {"stiffened", record.stiffened},
                   {"sag_max_mm", r.sag_max_mm},
                   {"round_trip_max_mm", r.round_trip_max_mm},
                   {"naive_reversal_error_mm", optional_number(r.naive_reversal_error_mm)},
@@ -40,6 +45,7 @@ json quality_of(const UnloadingRecord& record) {
                   {"stretch_max", r.stretch_max},
                   {"min_J", r.min_J},
                   {"max_J", r.max_J},
+                  {"coil_plates", record.coil ? coil_json(*record.coil) : json()},
                   {"steps", r.steps},
                   {"newton_iterations", r.newton_iterations},
                   {"dof", r.dof}};
@@ -69,6 +75,16 @@ std::string too_soft(const UnloadingRecord& record) {
 
 }  // namespace
 
+void stiffen_as_needed(UnloadingRecord& record) {
+  constexpr double most = 2;
+  UnloadReport& report = record.report;
+  if (report.usable() || !(report.sufficient_stiffness_factor() <= most)) return;
+  record.stiffened = report.sufficient_stiffness_factor();
+  record.stiffness_factor *= record.stiffened;
+  report.converged = true;
+  report.gravity_fraction = 1;
+}
+
 Outcome judge_unloading(const UnloadingRecord& record) {
   Outcome outcome;
   outcome.quality = quality_of(record);
@@ -92,6 +108,16 @@ Outcome judge_unloading(const UnloadingRecord& record) {
         sentence("hanging stretches 5 %% of the breast by more than %.2f; are the stiffnesses too "
                  "low?",
                  record.report.stretch_p95));
+  doubt(record.stiffened > limits::stiffened,
+        sentence("the tissue was taken %.2f times as stiff as set: no softer breast hangs as this "
+                 "one does (is the chest wall right, and is skin where the mesh has it?)",
+                 record.stiffened));
+  if (record.coil)
+    doubt(true,
+          sentence("plates of the coil seem to press the breast flat from both sides, %.0f mm "
+                   "apart (%.0f and %.0f cm2 of its skin are plane and parallel); only "
+                   "gravity is taken off, so it stays as narrow as they made it",
+                   record.coil->apart_mm, record.coil->left_cm2, record.coil->right_cm2));
   for (const auto& [name, pose] : record.poses) {
     const HangReport& r = pose.result.report;
     doubt(!r.usable(), "the breast does not come to rest " + name + ": " + r.reason +

@@ -6,6 +6,7 @@
 
 #include "pipeline/frame/outcome.h"
 #include "pipeline/patient/gravity_settings.h"
+#include "pipeline/steps/coil_plates.h"
 #include "solver/gravity/fit_stiffness.h"
 
 namespace mammotwin {
@@ -20,10 +21,17 @@ struct PoseState {
 struct UnloadingRecord {
   Pose imaged = Pose::prone;
   double stiffness_factor = 1;
+  double stiffened = 1;  ///< of that: what the settings' was raised by, so that the breast hangs
   std::optional<StiffnessFit> stiffness_fit;
   UnloadReport report;
+  std::optional<CoilPlates> coil;
   std::map<std::string, PoseState> poses;  ///< "standing", "supine"
 };
+
+/// Where gravity could be taken off in part only, the shape found is that of tissue stiffer by as
+/// much under all of it: the record then says so, and is usable. A breast that hangs is at least so
+/// stiff, and how soft tissue is, is known least of all. Not beyond twice the stiffness set.
+void stiffen_as_needed(UnloadingRecord& record);
 
 Outcome judge_unloading(const UnloadingRecord& record);
 

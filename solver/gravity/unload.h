@@ -38,7 +38,8 @@ struct UnloadReport {
   bool usable() const { return converged; }
 
   /// All stiffnesses (tissue, skin, springs) times this would do: only the ratio of gravity to
-  /// stiffness counts. Infinite where no part of the gravity worked.
+  /// stiffness counts, and so the shape found is the one of that tissue under all of its weight.
+  /// Infinite where no part of the gravity worked.
   double sufficient_stiffness_factor() const { return 1 / gravity_fraction; }
 };
 

@@ -1,0 +1,63 @@
+#include "pipeline/steps/unload_quality.h"
+
+#include <gtest/gtest.h>
+
+namespace mammotwin {
+namespace {
+
+/// Gravity came off up to that share of it, with tissue at 0.2 of its stiffness.
+UnloadingRecord taken_off(double share) {
+  UnloadingRecord record;
+  record.stiffness_factor = 0.2;
+  record.report.converged = share == 1;
+  record.report.gravity_fraction = share;
+  record.report.reason = share == 1 ? "" : "the imaged shape is not stable under its weight";
+  stiffen_as_needed(record);
+  return record;
+}
+
+TEST(UnloadQuality, TissueThatHangsStaysAsItWasSet) {
+  const UnloadingRecord record = taken_off(1);
+  EXPECT_EQ(record.stiffness_factor, 0.2);
+  EXPECT_EQ(record.stiffened, 1);
+  EXPECT_EQ(judge_unloading(record).status, Status::ok);
+}
+
+TEST(UnloadQuality, TissueALittleTooSoftIsStiffened) {
+  const UnloadingRecord record = taken_off(0.9);
+  EXPECT_DOUBLE_EQ(record.stiffness_factor, 0.2 / 0.9);
+  const Outcome outcome = judge_unloading(record);
+  EXPECT_EQ(outcome.status, Status::ok);
+  EXPECT_EQ(outcome.quality.at("gravity_factor"), 1);
+  EXPECT_DOUBLE_EQ(outcome.quality.at("stiffened"), 1 / 0.9);
+}
+
+TEST(UnloadQuality, TissueFarTooSoftIsDoubted) {
+  const Outcome outcome = judge_unloading(taken_off(0.6));
+  EXPECT_EQ(outcome.status, Status::look);
+  ASSERT_EQ(outcome.reasons.size(), 1u);
+  EXPECT_NE(outcome.reasons[0].find("1.67 times as stiff as set"), std::string::npos)
+      << outcome.reasons[0];
+}
+
+TEST(UnloadQuality, TissueSofterThanHalfOfThatIsNotUnloaded) {
+  for (const double share : {0.4, 0.0}) {
+    const UnloadingRecord record = taken_off(share);
+    EXPECT_EQ(record.stiffness_factor, 0.2);
+    EXPECT_EQ(judge_unloading(record).status, Status::not_converged) << share;
+  }
+}
+
+TEST(UnloadQuality, PlatesOfTheCoilAreSaid) {
+  UnloadingRecord record = taken_off(1);
+  record.coil = CoilPlates{36, 39, 64};
+  const Outcome outcome = judge_unloading(record);
+  EXPECT_EQ(outcome.status, Status::look);
+  ASSERT_EQ(outcome.reasons.size(), 1u);
+  EXPECT_NE(outcome.reasons[0].find("64 mm apart (36 and 39 cm2"), std::string::npos)
+      << outcome.reasons[0];
+  EXPECT_EQ(outcome.quality.at("coil_plates").at("apart_mm"), 64);
+}
+
+}  // namespace
+}  // namespace mammotwin
