@@ -10,6 +10,7 @@ struct Tissue {
   std::string law = "neo_hookean";
   std::string fat_c1 = "0.75", fibroglandular_c1 = "2.5", lesion_c1 = "3.3";
   std::string stiffening = "1", factor = "1", membrane = "true", spring = "0.08", smoothing = "5";
+  std::string pull = "0";
 };
 
 Preset preset_of(const std::string& name, const Tissue& tissue) {
@@ -29,6 +30,7 @@ Preset preset_of(const std::string& name, const Tissue& tissue) {
   add("materials.skin.membrane", tissue.membrane);
   add("compress.chest_wall_spring_kpa_per_mm", tissue.spring);
   add("compress.chest_wall_smoothing_mm", tissue.smoothing);
+  add("compress.pull", tissue.pull);
   return preset;
 }
 
@@ -39,10 +41,11 @@ std::vector<Preset> tissue_presets() {
   gel.fat_c1 = gel.fibroglandular_c1 = gel.lesion_c1 = "3";
   gel.membrane = "false";
   real.law = "exponential";
-  real.stiffening = "1.3";
-  real.factor = "0.14";
+  real.stiffening = "0.8";
+  real.factor = "0.15";
   real.spring = "0.04";
   real.smoothing = "20";
+  real.pull = "2";
   return {preset_of("gel", gel), preset_of("neo_hookean_2026", {}), preset_of("real", real)};
 }
 

@@ -10,7 +10,7 @@ namespace mammotwin {
 /// - `gel`: the paper's silicone, c1 = 3 kPa everywhere, no skin;
 /// - `neo_hookean_2026`: moduli as published from measurements, which are too stiff under gravity;
 /// - `real`: soft under gravity and stiff between plates, on a wall that lets the breast slide.
-///   How it was chosen and what it does: docs/measured/tissue_real.md, tissue_real_pressed.md.
+///   How it was chosen and what it does: docs/measured/tissue_real.md.
 std::vector<Preset> tissue_presets();
 
 }  // namespace mammotwin

@@ -8,9 +8,9 @@
 namespace mammotwin {
 
 /// A breast's CC view at the thickness to which radiographers press its volume in front of the
-/// plates' edge, as `view`, pressed to whatever thickness, has it: `folder`/cc.vtu, by
+/// plates' edge, begun with that of `view`, pressed to whatever thickness: `folder`/cc.vtu, by
 /// mammotwin-compress from segmentation.seg.nrrd, fractions.nrrd, unloaded.vtu or prone.vtu, and
-/// patient.toml (if it is there) in `from`. What lies there already and is current is kept. Throws
+/// patient.toml (if it is there) in `from`. Throws
 /// std::runtime_error where no such view comes out.
 std::filesystem::path press_typically(const std::filesystem::path& view,
                                       const std::filesystem::path& from,
@@ -18,10 +18,10 @@ std::filesystem::path press_typically(const std::filesystem::path& view,
                                       const std::filesystem::path& folder);
 
 /// Presses an unloaded breast's `folder` (segmentation.seg.nrrd, fractions.nrrd, unloaded.vtu,
-/// patient.toml) in CC to the thickness that is typical of its volume
-/// and adds to the row: `thickness_mm`, `force_N`, `pressure_kpa` (mean over the paddle's contact),
-/// `width_ratio` (to the population's at that thickness), `press_status`. What fails leaves its
-/// figures null and says why in `reason` where nothing failed before.
+/// patient.toml) in CC to the thickness that is typical of its volume and adds to the row:
+/// `thickness_mm`, `force_N`, `pressure_kpa` (mean over the paddle's contact), `width_ratio` and
+/// `depth_ratio` (to the population's at that thickness), `retained_fraction`, `press_status`. What
+/// fails leaves its figures null and says why in `reason` where nothing failed before.
 void add_plates(const std::filesystem::path& folder, const OutlinePopulation& population,
                 nlohmann::json& row);
 
