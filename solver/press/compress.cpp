@@ -22,6 +22,9 @@ namespace mammotwin {
 namespace {
 
 constexpr double kStepGrowth = 1.5;
+// Of the longest move: a longer step whose extrapolated state finds no equilibrium is halved, which
+// costs less than pressing softly from the state before.
+constexpr double kHalved = 0.3;
 
 State extrapolated(const State& now, const State& before, double ahead) {
   State then = now;
@@ -118,7 +121,7 @@ NewtonReport Compression::balance_tilt(NewtonReport report, State& state) {
   return report;
 }
 
-/// From the last two steps extrapolated, else from the last.
+/// From the last two steps extrapolated; where a short step fails so, from the last.
 NewtonReport Compression::equilibrate(double fraction, State& state) {
   if (lost_) return {};  // pressing on what is left would tell nothing
   const auto attempt = [&](State& trial, bool near) {
@@ -136,6 +139,8 @@ NewtonReport Compression::equilibrate(double fraction, State& state) {
       state = std::move(trial);
       return tried;
     }
+    const double move = (fraction - good_.reached.fraction) * way_.longest();
+    if (move > kHalved * options_.longest_move) return tried;
   }
   return then(tried, attempt(state, false));
 }
