@@ -103,8 +103,11 @@ std::string summary_cell(const std::vector<const json*>& rows, const MeasuredCol
   return number_text(median_of_sorted(numbers), column) + ", " + number_text(worst, column);
 }
 
+/// A case that came to nothing may have no group.
 std::string group_of(const MeasuredPage& page, const json& row) {
-  return page.group_by ? in_words(value_of(row, *page.group_by)) : "all";
+  if (!page.group_by) return "all";
+  const json value = value_of(row, *page.group_by);
+  return value.is_null() ? "none" : in_words(value);
 }
 
 std::string name_of(const MeasuredPage& page, const json& row) {
