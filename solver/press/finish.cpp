@@ -68,15 +68,15 @@ class Finish {
   Place here(const State& state) const;
   void go_back_to(const Place& place, State& state);
   bool better(State& state, const std::function<NewtonReport(State&)>& attempt);
-  double move_for(const Errors& now, double growth);
-  bool improve(const Errors& now, double growth, State& state);
+  double move_for(const Errors& now, bool closing);
+  bool improve(const Errors& now, bool closing, double growth, State& state);
   bool settle(State& state);
 
   Press& press_;
   const double penalty_;
   NewtonReport total_;
   ThicknessSecant secant_;
-  bool grew_ = false;       ///< the last round closed contact further
+  bool closed_ = false;     ///< the last round closed contact further
   bool from_soft_ = false;  ///< the next round starts from the load steps' penalty again
   bool loose_ = true;       ///< the state is in balance to kLoosely only
   Place best_;
@@ -130,20 +130,19 @@ bool Finish::better(State& state, const std::function<NewtonReport(State&)>& att
   return report.usable();
 }
 
-/// The paddle's way for what contact that closes further (growth > 1) will not correct by itself
-/// [mm].
-double Finish::move_for(const Errors& now, double growth) {
-  if (growth > 1 || grew_) secant_ = {};  // contact that closes changes the thickness, too
-  grew_ = growth > 1;
-  const double left =
-      now.thickness <= 0 ? now.thickness
-                         : std::max(0.0, now.thickness - (growth > 1 ? kComesOut * now.inside : 0));
+/// The paddle's way for what contact that is closing will not correct by itself [mm].
+double Finish::move_for(const Errors& now, bool closing) {
+  if (closing || closed_) secant_ = {};  // contact that closes changes the thickness, too
+  closed_ = closing;
+  const double left = now.thickness <= 0
+                          ? now.thickness
+                          : std::max(0.0, now.thickness - (closing ? kComesOut * now.inside : 0));
   if (std::abs(left) <= press_.options().thickness_tolerance) return 0;
-  return secant_.move(left, growth > 1 || from_soft_ ? std::abs(now.thickness) : kFar);
+  return secant_.move(left, closing || from_soft_ ? std::abs(now.thickness) : kFar);
 }
 
-bool Finish::improve(const Errors& now, double growth, State& state) {
-  const double move = move_for(now, growth);
+bool Finish::improve(const Errors& now, bool closing, double growth, State& state) {
+  const double move = move_for(now, closing);
   return better(state, [&](State& trial) {
     if (move != 0 || now.leans)
       press_.move_paddle(press_.placed().paddle_height + move,
@@ -153,7 +152,7 @@ bool Finish::improve(const Errors& now, double growth, State& state) {
       press_.set_multipliers({});
       return press_.squeeze(trial, penalty_);
     }
-    if (growth > 1) press_.set_multipliers(press_.pressures(trial));
+    if (closing) press_.set_multipliers(press_.pressures(trial));
     press_.set_penalty(press_.penalty() * growth);
     return press_.resettle(trial, kLoosely);
   });
@@ -187,15 +186,16 @@ NewtonReport Finish::run(State& state) {
     if (now.closed() && !now.off && (settled || ++unsettled > most_unsettled)) return total_;
     remember(now, state);
     if (now.closed() && ++closed >= patience && best_error_ <= kNearly) break;
-    const double growth = now.excess <= 1 ? (settled ? 1 : kLeastGrowth)
-                                          : std::clamp(std::pow(headroom * now.excess, slowness),
-                                                       kLeastGrowth, most_growth);
-    const bool good = improve(now, growth, state);
-    const bool stuck = !good && (growth == 1 || most_growth <= kLeastGrowth);
+    const bool closing = now.excess > 1 || !settled;
+    const double growth = closing ? std::clamp(std::pow(headroom * now.excess, slowness),
+                                               std::min(kLeastGrowth, most_growth), most_growth)
+                                  : 1;
+    const bool good = improve(now, closing, growth, state);
+    const bool stuck = !good && growth == 1;
     if (!good && (from_soft_ || (stuck && now.near_enough()))) break;
     from_soft_ = stuck;
     if (good) continue;
-    most_growth = std::max(kLeastGrowth, std::sqrt(most_growth));
+    most_growth = growth > kLeastGrowth ? std::max(kLeastGrowth, std::sqrt(growth)) : 1;
     secant_ = {};
   }
   if (std::isfinite(best_error_)) go_back_to(best_, state);
