@@ -12,7 +12,7 @@ inline constexpr double share_of_sane_J = 0.99;    ///< of points, at least, wit
 /// Mammograms show the nipple at the front and the breast spread, not rolled over.
 inline constexpr double swing_mm = 20;  ///< of the nipple along the plates' edges, either way
 inline constexpr double roll_deg = 20;  ///< of the tissue between the plates
-/// Hanging. With tissue that goes as far as women's from prone to supine, 20 breasts have 1.35
+/// Hanging. With tissue that goes as far as women's from prone to supine, ten breasts have 1.35
 /// to 1.7.
 inline constexpr double stretch_p95 = 1.75;
 inline constexpr double stiffened = 1.25;  ///< of the tissue as set, so that the breast hangs
