@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
+
+#include "solver/newton/nearest.h"
 
 namespace mammotwin {
 
@@ -17,37 +18,10 @@ constexpr double kEquilibrium = 1e-4;  // of the flow: nearer, unstable states a
 constexpr double kFollow = 1;
 constexpr int kMostFalls = 5;
 constexpr double kFirstDamping = 0.4;  // shift after a step that no part of lowered the merit
-// Where something is followed there is no merit that only falls, and points that turn from sticking
-// to sliding and back can go on for ever.
-constexpr int kPatience = 15;        // steps that come no nearer to balance than one before them
-constexpr double kNoticeably = 0.9;  // of a residual: nearer
-
 bool balanced(const Balance& balance, const NewtonOptions& options) {
   return balance.residual.norm() <= options.tolerance * balance.flow &&
          balance.constraint <= options.constraint_tolerance;
 }
-
-/// The state of a solve that was nearest to balance, and how long ago that was.
-class Nearest {
- public:
-  void forget() { residual_ = std::numeric_limits<double>::infinity(); }
-  void note(const State& state, double residual, int iteration) {
-    if (residual > kNoticeably * residual_) return;
-    state_ = state;
-    residual_ = residual;
-    iteration_ = iteration;
-  }
-  bool long_ago(int iteration) const {
-    return std::isfinite(residual_) && iteration - iteration_ >= kPatience;
-  }
-  const State& state() const { return state_; }
-  double residual() const { return residual_; }
-
- private:
-  State state_;
-  double residual_ = std::numeric_limits<double>::infinity();
-  int iteration_ = 0;
-};
 
 bool is_zero(const std::vector<HermiteMesh::Node>& nodes) {
   for (const auto& node : nodes)
