@@ -82,6 +82,7 @@ class Compression {
   const PlateWay way_;
   CompressionCheckpoint good_;  ///< the last good step
   bool lost_ = false;           ///< the breast has slipped out
+  bool stays_ = true;           ///< in balance when the pull has ended
   CompressionReport report_;
 };
 
@@ -176,6 +177,8 @@ void Compression::judge(const LoadSteppingReport& load, const State& state) {
                      " apart (stiffer chest-wall springs or more friction would hold it)";
   else if (!load.complete())
     report_.reason = load.reason;
+  else if (!stays_)
+    report_.reason = "the breast does not stay between the plates when nothing pulls it any more";
   else if (error > std::max(most_error, options_.thickness_tolerance))
     report_.reason = "the thickness stays " + in_mm(error) + " off";
   else if (report_.max_penetration_mm > std::max(most_penetration, options_.gap_tolerance))
@@ -268,14 +271,9 @@ LoadSteppingReport Compression::close_plates(State& state) {
     place(load.reached);
     return load;
   }
-  if (let_go(state)) {
-    count(finish_compression(press_, good_.penalty, state));
-    return load;
-  }
-  LoadSteppingReport held = load;
-  held.reached = std::nextafter(1.0, 0.0);
-  held.reason = "the breast does not stay between the plates when nothing pulls it any more";
-  return held;
+  stays_ = let_go(state);
+  if (stays_) count(finish_compression(press_, good_.penalty, state));
+  return load;
 }
 
 CompressionResult Compression::result_at(const State& state) const {
