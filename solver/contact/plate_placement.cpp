@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -173,16 +174,7 @@ double PlateFrame::extent(const std::vector<HermiteMesh::Node>& x) const {
 }
 
 double PlateFrame::volume_in_front() const {
-  constexpr int samples = 8;  // of an element along each of its axes
-  const HermiteMesh mesh(reference_, elements_);
-  double volume = 0;
-  for (int e = 0; e < mesh.num_elements(); ++e)
-    for (int n = 0; n < samples * samples * samples; ++n) {
-      const Eigen::Array3d cell(n % samples, n / samples % samples, n / (samples * samples));
-      const MeshPoint p{e, ((cell + 0.5) / samples).matrix()};
-      if (options_.depth.dot(mesh.position(p)) > edge_) volume += mesh.jacobian(p).determinant();
-    }
-  return volume / (samples * samples * samples);
+  return mammotwin::volume_in_front(HermiteMesh(reference_, elements_), options_.depth, edge_);
 }
 
 void PlateFrame::find_flat_part() {
@@ -257,6 +249,29 @@ PlacedPlates PlateFrame::place(double support_height, double paddle_height, doub
   placed.paddle_height = paddle_height;
   placed.lateral_middle = lateral_middle_;
   return placed;
+}
+
+double volume_in_front(const HermiteMesh& mesh, const Eigen::Vector3d& depth, double edge) {
+  constexpr int samples = 12;  // of an element along each axis, each standing for its surroundings
+  double volume = 0;
+  for (int n = 0; n < samples * samples * samples; ++n) {
+    const Eigen::Array3d cell(n % samples, n / samples % samples, n / (samples * samples));
+    const Eigen::Vector3d xi = (cell + 0.5) / samples;
+    const HermiteMesh::Weights weights = HermiteMesh::weights(xi);
+    std::array<HermiteMesh::Weights, 3> slopes;
+    for (int i = 0; i < 3; ++i) {
+      std::array<int, 3> orders{};
+      orders[i] = 1;
+      slopes[i] = HermiteMesh::weights(xi, orders);
+    }
+    for (int e = 0; e < mesh.num_elements(); ++e) {
+      if (depth.dot(mesh.interpolate(e, weights)) <= edge) continue;
+      Eigen::Matrix3d J;
+      for (int i = 0; i < 3; ++i) J.col(i) = mesh.interpolate(e, slopes[i]);
+      volume += J.determinant();
+    }
+  }
+  return volume / (samples * samples * samples);
 }
 
 double free_thickness(const MeshFile& mesh, const PlateOptions& options) {

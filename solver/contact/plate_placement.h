@@ -96,6 +96,9 @@ class PlateFrame {
   } flat_;  ///< of both plates, along depth and depth x up [mm]
 };
 
+/// Volume of what lies beyond `edge` [mm] along `depth` [mm³].
+double volume_in_front(const HermiteMesh& mesh, const Eigen::Vector3d& depth, double edge);
+
 /// Extent along `up` of the uncompressed breast where plates so placed would press it [mm].
 double free_thickness(const MeshFile& mesh, const PlateOptions& options);
 

@@ -1,6 +1,5 @@
 #include "pipeline/evaluate/compression/outline_row.h"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -9,6 +8,7 @@
 
 #include "registration/search/silhouette.h"
 #include "registration/view/compressed_view.h"
+#include "solver/contact/plate_placement.h"
 
 namespace mammotwin {
 namespace {
@@ -16,6 +16,7 @@ namespace {
 using nlohmann::json;
 
 constexpr double kMostSd = 2;
+constexpr double kMm3PerMl = 1000;
 
 double angle_deg(int ray) {
   const Eigen::Vector2d d = ray_direction(ray);
@@ -45,34 +46,6 @@ Eigen::Vector2d middle_of(const ReducedView& view) {
   return {0, (low + high) / 2};
 }
 
-constexpr int kSamples =
-    12;  // of an element along each of its axes, each standing for its surroundings
-
-/// Volume of what lies in front of the plates' edge [ml].
-double volume_in_front_ml(const HermiteMesh& mesh, const ViewFrame& frame) {
-  double volume = 0;
-  for (int n = 0; n < kSamples * kSamples * kSamples; ++n) {
-    const Eigen::Vector3d xi =
-        (Eigen::Vector3d(n % kSamples, n / kSamples % kSamples, n / (kSamples * kSamples)).array() +
-         0.5) /
-        kSamples;
-    const HermiteMesh::Weights weights = HermiteMesh::weights(xi);
-    std::array<HermiteMesh::Weights, 3> slopes;
-    for (int i = 0; i < 3; ++i) {
-      std::array<int, 3> orders{};
-      orders[i] = 1;
-      slopes[i] = HermiteMesh::weights(xi, orders);
-    }
-    for (int e = 0; e < mesh.num_elements(); ++e) {
-      if (frame.view_from_lps(mesh.interpolate(e, weights)).x() <= 0) continue;
-      Eigen::Matrix3d J;
-      for (int i = 0; i < 3; ++i) J.col(i) = mesh.interpolate(e, slopes[i]);
-      volume += J.determinant();
-    }
-  }
-  return volume / (1000.0 * kSamples * kSamples * kSamples);
-}
-
 RayDistances outline_of(const MeshFile& file, const CompressedView& geometry) {
   ReducedView view;
   view.elements = file.mesh.elements();
@@ -86,7 +59,9 @@ RayDistances outline_of(const MeshFile& file, const CompressedView& geometry) {
 
 json outline_row(const MeshFile& compressed, const OutlinePopulation& population) {
   const CompressedView view = compressed_view("cc", "the compressed mesh", compressed.metadata);
-  const double volume = volume_in_front_ml(compressed.mesh, view.frame);
+  const Eigen::Vector3d depth = view.frame.axes.row(0);
+  const double volume =
+      volume_in_front(compressed.mesh, depth, depth.dot(view.frame.origin_in_lps)) / kMm3PerMl;
   json row{{"thickness_mm", view.thickness_mm},
            {"volume_ml", volume},
            {"typical_thickness_mm", population.typical_thickness_mm(volume)}};

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "pipeline/evaluate/compression/outline_row.h"
+#include "pipeline/steps/typical_thickness.h"
 #include "registration/view/compressed_view.h"
 #include "tests/registration/squeezed_box.h"
 #include "tests/where.h"
@@ -52,6 +53,9 @@ TEST_F(Outlines, TypicalThicknessIsThatOfTheVolume) {
   EXPECT_NEAR(p.volume_ml(80), 1222, 1);
   for (const double thickness : {35.0, 55.0, 80.0})
     EXPECT_NEAR(p.typical_thickness_mm(p.volume_ml(thickness)), thickness, 0.01);
+  // What is assumed of a breast has the population's volumes as a table.
+  for (const double thickness : {30.0, 45.0, 60.0, 75.0, 90.0})
+    EXPECT_NEAR(typical_thickness_mm(p.volume_ml(thickness)), thickness, 0.3);
   EXPECT_NEAR(p.typical_thickness_mm(100), 30, 0.01);
   EXPECT_NEAR(p.typical_thickness_mm(2000), 90, 0.01);
 }
