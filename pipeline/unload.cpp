@@ -64,7 +64,7 @@ double find_stiffness(const Patient& patient, StageRun& stage, const BreastProbl
   return factor * record.stiffness_fit->factor;
 }
 
-/// A breast that comes to rest does so in 20 to 80 iterations.
+/// Of soft breasts that were not at rest after 120 iterations none was after 400.
 HangOptions pose_options() {
   HangOptions options;
   options.load.smallest_step = 1.0 / 16;
