@@ -71,7 +71,7 @@ Vector3d PlateFriction::slip(const Vector3d& x, const Contact& contact, const Pl
 }
 
 void PlateFriction::track(const Model& model, const State& state,
-                          const std::vector<std::pair<int, int>>& faces) {
+                          const std::vector<std::pair<int, int>>& faces, double share) {
   if (reach_ > 0) return;
   const std::size_t plates = contact_->plates.size();
   history_.resize(model.num_surface_points() * plates);
@@ -81,7 +81,8 @@ void PlateFriction::track(const Model& model, const State& state,
           const Gap gap = contact_->plates[p].gap(x);
           Contact& contact = history_[point.index * plates + p];
           contact.normal = gap.normal.normalized();  // of smoothed facets it is no unit vector
-          contact.pressure = contact_->pressure(gap.gap, point, p);
+          const double pressure = contact_->pressure(gap.gap, point, p);
+          contact.pressure = share * pressure + (1 - share) * contact.pressure;
         }
       });
 }
@@ -234,7 +235,7 @@ bool PlateFriction::circulation(const Eigen::Matrix<double, 9, 1>& y, const Surf
 
 Following following(PlateFriction& friction, const Model& model,
                     const std::vector<std::pair<int, int>>& faces) {
-  return {[&](const State& s) { friction.track(model, s, faces); },
+  return {[&](const State& s, double share) { friction.track(model, s, faces, share); },
           [&](const State& from, const State& to) { friction.step(model, from, to, faces); },
           [&] { friction.align(); }};
 }

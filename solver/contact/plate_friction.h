@@ -58,8 +58,9 @@ class PlateFriction : public SurfacePotential {
   /// Throws std::invalid_argument unless 0 < coefficient <= 1 and slip > 0. slip: δ [mm].
   PlateFriction(std::shared_ptr<const PlateContact> contact, double coefficient, double slip);
 
-  /// Takes pressures and normals from a state.
-  void track(const Model& model, const State& state, const std::vector<std::pair<int, int>>& faces);
+  /// Takes normals from a state, and pressures by a share of what they differ.
+  void track(const Model& model, const State& state, const std::vector<std::pair<int, int>>& faces,
+             double share = 1);
 
   /// Moves each point's w along with a step of the shape.
   void step(const Model& model, const State& from, const State& to,

@@ -102,6 +102,27 @@ bool Newton::is_stable(const State& state) {
   return cholesky_.factor(assembler_.matrix());
 }
 
+/// Brings what is followed up to the state, and the balance with it; false where it is held.
+///
+/// Friction whose pressures follow each step can overshoot for ever. Held, it has an energy, and
+/// each solve is Tresca's. Its pressures then err by about as much as they did, the other way: half
+/// of their change is nearer than all of it.
+bool Newton::refresh(const State& state, Balance& balance, const NewtonOptions& options) {
+  constexpr double half = 0.5;
+  const auto take = [&](double share) {
+    options.following.refresh(state, share);
+    balance = assembler_.balance(state);
+  };
+  if (!held_) {
+    take(1);
+    return true;
+  }
+  if (!balanced(balance, options)) return false;
+  take(half);
+  if (balanced(balance, options)) take(1);
+  return true;
+}
+
 /// Inverse iteration with the shifted factor, of unit length in the metric.
 Eigen::VectorXd Newton::softest_direction() {
   constexpr int rounds = 8;
@@ -190,7 +211,7 @@ Newton::Step Newton::step_of(const Eigen::VectorXd& solution, const State& state
 Newton::Step Newton::solve_step(const State& state, const Balance& balance,
                                 const std::vector<HermiteMesh::Node>& pending) {
   const Eigen::VectorXd& right = assembler_.right_hand_side();
-  if (following_) {
+  if (following_ && !held_) {
     assembler_.take_circulation(state);
     const Step step = step_of(circulated(right), state, balance, pending);
     if (step.slope < 0 || !pending.empty()) return step;
@@ -228,10 +249,10 @@ Newton::Trial Newton::corrected(const Trial& trial, const Step& step, const Bala
 bool Newton::settles(const Trial& trial, const State& state, const Balance& before, double least,
                      const NewtonOptions& options) const {
   constexpr double most_constraint = 1e-3, most_growth = 2;  // of the volume's error
-  if (!following_ || !std::isfinite(trial.merit)) return false;
-  options.following.refresh(trial.state);
+  if (!following_ || held_ || !std::isfinite(trial.merit)) return false;
+  options.following.refresh(trial.state, 1);
   const Balance now = assembler_.balance(trial.state);
-  options.following.refresh(state);
+  options.following.refresh(state, 1);
   return now.residual.norm() / now.flow <= (1 - least) * before.residual.norm() / before.flow &&
          now.constraint <= std::max(most_growth * before.constraint, most_constraint);
 }
@@ -278,7 +299,7 @@ NewtonReport Newton::iterate(State& state, const NewtonOptions& options,
                              std::vector<HermiteMesh::Node> pending) {
   NewtonReport report;
   Balance balance = assembler_.balance(state);
-  following_ = false;
+  following_ = held_ = false;
   const auto stop = [&](const char* reason) {
     return stopped(report, balance, options, pending.empty(), reason);
   };
@@ -289,27 +310,31 @@ NewtonReport Newton::iterate(State& state, const NewtonOptions& options,
   Nearest nearest;
   int falls = 0;
   for (;; ++report.iterations) {
+    bool fresh = false;
     if (options.following && (following_ || balance.residual.norm() <= kFollow * balance.flow)) {
       following_ = true;
-      options.following.refresh(state);
-      balance = assembler_.balance(state);
+      fresh = refresh(state, balance, options);
     }
     report.residual = balance.flow > 0 ? balance.residual.norm() / balance.flow : 0;
     if (!std::isfinite(balance.energy)) {
       report.reason = "an element is inverted";
       return report;
     }
-    if (following_ && pending.empty()) nearest.note(state, report.residual, report.iterations);
-    const bool circles = nearest.long_ago(report.iterations);
-    if (circles) {
+    if (fresh && pending.empty()) nearest.note(state, report.residual, report.iterations);
+    bool good_enough = false;
+    if (nearest.long_ago(report.iterations)) {
       state = nearest.state();
-      options.following.refresh(state);
+      options.following.refresh(state, 1);
       balance = assembler_.balance(state);
-      report.residual = nearest.residual();
+      report.residual = balance.residual.norm() / balance.flow;
       indefinite_ = true;  // not known of this state
-      if (!stop("the iterations circle and come no nearer to balance").converged) return report;
+      good_enough =
+          report.residual <= options.acceptable && balance.constraint <= options.acceptable;
+      if (!good_enough && held_) return stop("the iterations circle and come no nearer to balance");
+      held_ = true;
+      nearest.forget();
     }
-    if (circles || (pending.empty() && balanced(balance, options))) {
+    if (good_enough || (pending.empty() && balanced(balance, options))) {
       const bool minimum = !indefinite_ || options.keep_unstable ||
                            options.tolerance > kEquilibrium || is_stable(state);
       nearest.forget();

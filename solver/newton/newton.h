@@ -49,9 +49,10 @@ struct NewtonReport {
 /// the shape is then one down the condensed energy, which every accepted step lowers (Armijo), at
 /// full length or, where the volume errs, bent back to the volume that it was to have (second-order
 /// correction, Nocedal and Wright, section 18.3), else cut. With friction, which has no energy, a
-/// step is also taken that lowers the norm of the residual; where many come no nearer to balance, a
-/// solve ends in its nearest state. A matrix that is not positive definite is stabilised, then
-/// shifted by the μ-weighted Laplacian until it is.
+/// step is also taken that lowers the norm of the residual; where many come no nearer to balance,
+/// pressures of friction are held until the rest is in balance and then follow by a half, and where
+/// that comes no nearer either, a solve ends in its nearest state. A matrix that is not positive
+/// definite is stabilised, then shifted by the μ-weighted Laplacian until it is.
 class Newton {
  public:
   Newton(const Model& model, const DofMap& dofs);
@@ -86,6 +87,7 @@ class Newton {
                  const std::vector<HermiteMesh::Node>& pending, bool stabilised);
   bool factor_shifted(const State& state, const NewtonOptions& options,
                       const std::vector<HermiteMesh::Node>& pending, NewtonReport& report);
+  bool refresh(const State& state, Balance& balance, const NewtonOptions& options);
   bool fall(State& state, Balance& balance, const NewtonOptions& options, NewtonReport& report);
   Eigen::VectorXd softest_direction();
   Eigen::VectorXd circulated(const Eigen::VectorXd& right_hand_side) const;
@@ -108,6 +110,7 @@ class Newton {
   double damping_ = 0;                 ///< shift that short steps ask for
   bool indefinite_ = false;            ///< the last matrix was not the exact one
   bool following_ = false;             ///< what is followed is refreshed before each step
+  bool held_ = false;                  ///< or, after steps that circled, in balance only
   bool cut_while_indefinite_ = false;  ///< and its step was cut: the next will be no better
 };
 

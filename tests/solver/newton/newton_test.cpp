@@ -64,8 +64,8 @@ struct Block {
   }
 };
 
-// A weight that changes its sign whenever a step was taken, as a point does that turns from
-// sticking to sliding and back: each step balances what is no longer there.
+// A weight that changes its sign whenever it is brought up to the state, as a point does that turns
+// from sticking to sliding and back: each step balances what is no longer there.
 TEST(Newton, EndsWhereIterationsCircle) {
   constexpr double weight = 0.05;  // [mN/mm^3]
   Block block;
@@ -73,17 +73,49 @@ TEST(Newton, EndsWhereIterationsCircle) {
   block.dofs.number(block.mesh);
   double sign = 1;
   NewtonOptions options;
-  options.following.refresh = [&](const State&) {
+  options.following.refresh = [&](const State&, double) {
+    sign = -sign;
     block.model.set_body_force(
         [&](const Eigen::Vector3d&) { return Eigen::Vector3d(0, 0, sign * weight); });
   };
-  options.following.step = [&](const State&, const State&) { sign = -sign; };
   State state = block.model.rest();
   Newton newton(block.model, block.dofs);
   const NewtonReport report = newton.solve(state, options);
   EXPECT_FALSE(report.usable());
   EXPECT_NE(report.reason.find("circle"), std::string::npos) << report.reason;
-  EXPECT_LT(report.iterations, 40);  // of 120
+  EXPECT_LT(report.iterations, 60);  // of 120
+}
+
+// A load that follows the block's middle and pushes it back by 1.3 times as much as it went: taken
+// up to each step it overshoots for ever, held and followed by halves it settles where it balances.
+TEST(Newton, FollowsByHalvesWhatOvershoots) {
+  constexpr double weight = 0.02;  // [mN/mm^3]
+  Block block;
+  hold_plane(block.mesh, 2, block.size.z(), block.dofs);
+  block.dofs.number(block.mesh);
+  const auto middle = [&](const State& state) {
+    return HermiteMesh(state.x, block.mesh.elements()).position({6, {1, 1, 0.5}}).z() -
+           block.mesh.position({6, {1, 1, 0.5}}).z();
+  };
+  const auto pull = [&](double load) {
+    block.model.set_body_force([=](const Eigen::Vector3d&) { return Eigen::Vector3d(0, 0, load); });
+  };
+  Newton newton(block.model, block.dofs);
+  State alone = block.model.rest();
+  pull(weight);
+  ASSERT_TRUE(newton.solve(alone, {}).usable());
+  const double gain = 1.3 * weight / middle(alone);
+  double back = 0;
+  NewtonOptions options;
+  options.following.refresh = [&](const State& state, double share) {
+    back += share * (gain * middle(state) - back);
+    pull(weight - back);
+  };
+  State state = block.model.rest();
+  const NewtonReport report = newton.solve(state, options);
+  ASSERT_TRUE(report.usable()) << report.reason;
+  EXPECT_NEAR(back, gain * middle(state), 1e-6 * back);
+  EXPECT_NEAR(middle(state) / middle(alone), 1 / 2.3, 0.01);
 }
 
 // Exact homogeneous state: Newton takes no step from it and few from rest.
