@@ -2,6 +2,7 @@
 
 #include <iostream>
 
+#include "pipeline/frame/sidecar.h"
 #include "pipeline/frame/stage.h"
 #include "pipeline/patient/patient.h"
 #include "pipeline/steps/dicom_products.h"
@@ -32,8 +33,8 @@ struct Arguments {
 void declare(StageDeclaration& stage, Arguments& args) {
   stage.input("segmentation", args.segmentation, "tissue labels from segment (.seg.nrrd)");
   stage.input("fractions", args.fractions, "tissue fractions from segment (.nrrd)");
-  stage.input("cc", args.cc, "breast compressed in CC (.vtu)");
-  stage.input("mlo", args.mlo, "breast compressed in MLO (.vtu)");
+  stage.input_or_failure("cc", args.cc, "breast compressed in CC (.vtu)");
+  stage.input_or_failure("mlo", args.mlo, "breast compressed in MLO (.vtu)");
   stage.product("lesions", args.lesions, "table of lesions to write (.csv; .mrk.json beside it)");
   for (const char* view : {"cc", "mlo"})
     for (const char* key : {".detector.", ".mammogram", ".nipple_pixel", ".pectoral", ".outline"})
@@ -59,19 +60,26 @@ StagePlan plan(const Arguments& args, const Patient& patient) {
 struct Inputs {
   Segmentation segmentation;
   std::optional<Volume<float>> mri;
-  std::vector<RegisteredView> views;  ///< as compress left them
-  std::vector<std::string> remarks;   ///< on the mammograms' headers
+  std::vector<RegisteredView>
+      views;  ///< as compress left them; one that it did not reach is left out
+  std::vector<std::string> remarks;  ///< on such views, and on the mammograms' headers
 };
 
 Inputs read_inputs(const Arguments& args, const Patient& patient) {
   Inputs inputs{read_segmentation(args.segmentation, args.fractions), {}, {}, {}};
   if (std::filesystem::exists(args.mri())) inputs.mri = read_image_file(args.mri());
   for (const auto& [name, path] : {std::pair("cc", args.cc), std::pair("mlo", args.mlo)}) {
+    if (const auto reasons = reasons_of_failure(path); !reasons.empty()) {
+      inputs.remarks.push_back("no positions in " + std::string(name) + ": " + reasons.front());
+      continue;
+    }
     const Side side = inputs.segmentation.region.side;
     if (!patient.registration.search) require_whole_mammogram(patient, name);
     inputs.views.push_back(
         read_registered_view(name, path, with_header(patient, name, side, inputs.remarks)));
   }
+  if (inputs.views.empty())
+    throw std::runtime_error("no view could be compressed: " + inputs.remarks.front());
   return inputs;
 }
 
@@ -149,8 +157,7 @@ Outcome run(const Arguments& args, const Patient& patient, StageRun& stage) {
   add_supine(findings, registered.views.front(), rows);
   write_lesion_table(stage.products.write_main(), rows);
   write_lesion_dictionary(stage.products.write("lesions.csv.md"));
-  if (!args.landmarks.empty())
-    std::cout << landmark_errors(args.landmarks, registered.views[0], registered.views[1]);
+  if (!args.landmarks.empty()) std::cout << landmark_errors(args.landmarks, registered.views);
   return outcome_of(inputs, registered, views, std::move(quality));
 }
 

@@ -29,6 +29,8 @@ memory_kib=$(ulimit -v)
 }
 
 out=$RESULTS/$P
+not_converged=3
+lost=  # the view that no equilibrium was found in, where one was found in the other
 export MAMMOTWIN_ENDS_WITH_ITS_PARENT=1  # make, told to stop, ends this script and not what it runs
 set -- --patient "$toml"
 [ -z "${FORCE:-}" ] || set -- "$@" --force
@@ -37,8 +39,12 @@ segment() { "$BIN/mammotwin-segment" "$out/segmentation.seg.nrrd" "$@"; }
 fit() { "$BIN/mammotwin-fit" "$out/segmentation.seg.nrrd" "$out/fractions.nrrd" "$out/prone.vtu" "$@"; }
 unload() { "$BIN/mammotwin-unload" "$out/segmentation.seg.nrrd" "$out/fractions.nrrd" "$out/prone.vtu" "$out/unloaded.vtu" "$@"; }
 compress() {
+  lost=
   for view in cc mlo; do
-    "$BIN/mammotwin-compress" "$view" "$out/segmentation.seg.nrrd" "$out/fractions.nrrd" "$out/unloaded.vtu" "$out/$view.vtu" "$@" || return
+    "$BIN/mammotwin-compress" "$view" "$out/segmentation.seg.nrrd" "$out/fractions.nrrd" "$out/unloaded.vtu" "$out/$view.vtu" "$@" && continue
+    status=$?
+    [ "$status" -eq "$not_converged" ] && [ -z "$lost" ] || return "$status"
+    lost=$view
   done
 }
 register() { "$BIN/mammotwin-register" "$out/segmentation.seg.nrrd" "$out/fractions.nrrd" "$out/cc.vtu" "$out/mlo.vtu" "$out/lesions.csv" "$@"; }
@@ -46,6 +52,7 @@ report() { "$BIN/mammotwin-report" "$out" "$out/report.html" "$@"; }
 slicer() { "$BIN/mammotwin-slicer" "$out" "$out/scene.mrml" "$@"; }
 paraview() {
   for view in cc mlo; do
+    [ "$view" != "$lost" ] || continue
     "$BIN/mammotwin-paraview" "$out/$view.vtu" "$out/${view}_course.pvd" "$@" || return
   done
 }
@@ -60,11 +67,14 @@ for stage in segment fit unload compress register report; do
     fi
     exit "$status"
   }
-  [ "$stage" != "$last" ] || exit 0
+  [ "$stage" != "$last" ] || break
 done
 
-[ "$last" != slicer ] || slicer "$@" || exit
-[ "$last" != paraview ] || paraview "$@" || exit
-
-echo
-echo "Results of $P: $out (open $out/report.html)"
+case $last in
+  slicer | paraview) "$last" "$@" || exit ;;
+  patient) echo; echo "Results of $P: $out (open $out/report.html)" ;;
+esac
+[ -z "$lost" ] || {
+  echo "$P stopped at compress; without $lost, the rest is in $out" >&2
+  exit "$not_converged"
+}

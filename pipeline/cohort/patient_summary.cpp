@@ -50,12 +50,19 @@ bool made_from_others(const StageResult& result, const std::vector<StageResult>&
   });
 }
 
-std::vector<StageResult> results_that_hold_together(std::vector<StageResult> all) {
+/// A view that no equilibrium was found in: `register` goes on with the other.
+bool is_done_without(const StageResult& failed, const std::vector<StageResult>& all) {
+  return std::any_of(all.begin(), all.end(), [&](const StageResult& result) {
+    return result.inputs.contains(failed.product + ".json");
+  });
+}
+
+std::vector<StageResult> results_that_hold_together(const std::vector<StageResult>& all) {
   std::vector<StageResult> kept;
-  for (StageResult& result : all) {
+  for (const StageResult& result : all) {
     if (made_from_others(result, kept)) break;
-    kept.push_back(std::move(result));
-    if (!kept.back().usable()) break;
+    kept.push_back(result);
+    if (!result.usable() && !is_done_without(result, all)) break;
   }
   return kept;
 }
@@ -94,9 +101,12 @@ void judge_finished(PatientSummary& summary) {
 void judge(PatientSummary& summary, const CohortFolder& cohort) {
   const auto code = read_exit_code(cohort.exit_code(summary.patient));
   const fs::path log = cohort.log(summary.patient);
-  if (!summary.results.empty() && !summary.results.back().usable()) {
-    summary.status = summary.results.back().status;
-    summary.reasons = summary.results.back().reasons;
+  const auto failed = std::find_if(summary.results.begin(), summary.results.end(),
+                                   [](const StageResult& result) { return !result.usable(); });
+  if (failed != summary.results.end()) {
+    summary.stage = failed->stage;
+    summary.status = failed->status;
+    summary.reasons = failed->reasons;
   } else if (code && *code != 0) {
     judge_from_log(summary, *code, log);
   } else if (!code && fs::exists(log)) {

@@ -125,6 +125,14 @@ std::vector<std::string> former_outputs(const fs::path& product) {
   return names;
 }
 
+std::vector<std::string> reasons_of_failure(const fs::path& product) {
+  std::error_code none;
+  if (fs::exists(product, none)) return {};
+  const auto sidecar = read_sidecar(product).sidecar;
+  if (!sidecar || (*sidecar)["status"] != name_of(Status::not_converged)) return {};
+  return (*sidecar)["reasons"].get<std::vector<std::string>>();
+}
+
 std::optional<json> standing_failure(const fs::path& product, const Provenance& provenance) {
   const auto sidecar = read_sidecar(product).sidecar;
   if (!sidecar || is_usable(*sidecar) || !is_of(*sidecar, provenance)) return std::nullopt;

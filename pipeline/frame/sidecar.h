@@ -50,6 +50,10 @@ struct SidecarFile {
 /// Reads `<product>.json`: neither a sidecar nor a fault where there is none.
 SidecarFile read_sidecar(const std::filesystem::path& product);
 
+/// The reasons why the stage that makes a product found no answer: its sidecar says not_converged
+/// and the product is not there. Empty otherwise.
+std::vector<std::string> reasons_of_failure(const std::filesystem::path& product);
+
 /// The sidecar of a usable product that this provenance would make again: same program, inputs and
 /// parameters, and every file it wrote still has the checksum it had.
 std::optional<nlohmann::json> current_sidecar(const std::filesystem::path& product,

@@ -216,8 +216,10 @@ Provenance plan_provenance(const Stage& stage, const StageDeclaration& declarati
   const StagePlan plan = stage.plan();
   const fs::path& product = declaration.product_path();
   std::vector<StageInput> inputs;
-  for (const auto& [name, path] : declaration.inputs())
-    inputs.push_back(as_input(*path, name, product, naming));
+  for (const auto& [name, path, may_have_failed] : declaration.inputs()) {
+    const bool failed = may_have_failed && !reasons_of_failure(*path).empty();
+    inputs.push_back(as_input(failed ? sidecar_path(*path) : *path, name, product, naming));
+  }
   for (const fs::path& path : plan.inputs)
     inputs.push_back(as_input(path, "input", product, naming));
   std::vector<std::string> prefixes = plan.setting_prefixes;

@@ -23,7 +23,13 @@ std::string bracketed_range(const Setting& setting) {
 
 void StageDeclaration::input(const std::string& name, fs::path& variable, const std::string& help) {
   command_.option(name, variable, help).required();
-  inputs_.emplace_back(name, &variable);
+  inputs_.push_back({name, &variable, false});
+}
+
+void StageDeclaration::input_or_failure(const std::string& name, fs::path& variable,
+                                        const std::string& help) {
+  input(name, variable, help);
+  inputs_.back().may_have_failed = true;
 }
 
 void StageDeclaration::product(const std::string& name, fs::path& variable,

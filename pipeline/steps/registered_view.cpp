@@ -60,22 +60,25 @@ std::optional<Eigen::Matrix2d> RegisteredView::covariance_in_picture(const MeshP
                              projection.detector(), point);
 }
 
-std::string landmark_errors(const std::filesystem::path& file, const RegisteredView& cc,
-                            const RegisteredView& mlo) {
+std::string landmark_errors(const std::filesystem::path& file,
+                            const std::vector<RegisteredView>& views) {
   const std::vector<LandmarkPair> pairs = read_landmark_pairs(file);
-  const auto rays = [](const RegisteredView& v) {
-    return ViewRays(v.prone, v.compressed, v.projection.view(), v.projection.detector());
-  };
-  const ViewRays cc_rays = rays(cc), mlo_rays = rays(mlo);
+  std::map<std::string, ViewRays> rays;
+  std::map<std::string, JudgedView> judged;
+  for (const RegisteredView& view : views) {
+    const std::string& name = view.projection.view().name;
+    const auto [at, is_new] = rays.try_emplace(name, view.prone, view.compressed,
+                                               view.projection.view(), view.projection.detector());
+    judged[name] = {&view.projection, &at->second};
+  }
   for (const LandmarkPair& pair : pairs)
-    for (const RegisteredView* view : {&cc, &mlo})
-      if (const std::string& name = view->projection.view().name;
-          pair.marks.contains(name) && !view->projection.detector().pixels)
+    for (const RegisteredView& view : views)
+      if (const std::string& name = view.projection.view().name;
+          pair.marks.contains(name) && !view.projection.detector().pixels)
         throw std::runtime_error(file.string() + ": " + pair.name + " has a mark on " + name +
                                  ", but patient.toml has no views." + name +
                                  ".detector.pixel_spacing_mm, columns and rows");
-  return target_error_table(target_errors(
-      pairs, {{"cc", {&cc.projection, &cc_rays}}, {"mlo", {&mlo.projection, &mlo_rays}}}));
+  return target_error_table(target_errors(pairs, judged));
 }
 
 }  // namespace mammotwin

@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "pipeline/patient/compression_settings.h"
 #include "registration/prediction/project_lesions.h"
@@ -42,7 +43,7 @@ void write_registered_view(const std::filesystem::path& path, const RegisteredVi
 
 /// Table of target registration errors for a file of landmark pairs.
 /// Throws std::runtime_error where a view that has marks has no pixel spacing.
-std::string landmark_errors(const std::filesystem::path& pairs, const RegisteredView& cc,
-                            const RegisteredView& mlo);
+std::string landmark_errors(const std::filesystem::path& pairs,
+                            const std::vector<RegisteredView>& views);
 
 }  // namespace mammotwin

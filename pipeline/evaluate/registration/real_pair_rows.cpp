@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "fitting/mesh/mesh_file.h"
+#include "pipeline/frame/sidecar.h"
 #include "pipeline/patient/patient.h"
 #include "pipeline/steps/view_header.h"
 #include "registration/search/search_ellipse.h"
@@ -65,6 +66,23 @@ std::string end_of(const fs::path& results, const std::string& view) {
              : "none";
 }
 
+json mark_figures(const Patient& patient, const fs::path& results, const RealMark& mark,
+                  const LesionRow& predicted) {
+  const std::string vtu = mark.view + "_registered.vtu";
+  const Side side = compressed_view(mark.view, vtu, read_mesh_file(results / vtu).metadata).side;
+  std::vector<std::string> remarks;
+  const Detector detector =
+      with_header(patient, mark.view, side, remarks).detector(mark.view, side);
+  if (const auto place = placed(mark, detector, side)) return judged_mark(mark, *place, predicted);
+  return {{"reason", "nothing says how far a column is from the detector's edge"}};
+}
+
+std::string why_not_predicted(const fs::path& results, const RealMark& mark) {
+  const auto reasons = reasons_of_failure(results / (mark.view + ".vtu"));
+  return reasons.empty() ? "lesions.csv has no lesion " + mark.lesion
+                         : "compress: " + reasons.front();
+}
+
 }  // namespace
 
 json judged_mark(const RealMark& mark, const PlacedMark& place, const LesionRow& predicted) {
@@ -82,27 +100,19 @@ json real_pair_rows(const fs::path& patient_folder, const fs::path& results) {
   patient.declare(settings);
   patient.read(patient_folder / "patient.toml", settings);
   const std::vector<LesionRow> table = read_lesion_table(results / "lesions.csv");
-  const std::string vtu = "cc_registered.vtu";
-  const Side side = compressed_view("cc", vtu, read_mesh_file(results / vtu).metadata).side;
   json rows = json::array();
   for (const RealMark& mark : read_real_marks(patient_folder / "marks.csv")) {
     json row{{"case", patient_folder.filename().string()},
              {"lesion", mark.lesion},
              {"view", mark.view},
              {"end", end_of(results, mark.view)}};
-    std::vector<std::string> remarks;
-    const Detector detector =
-        with_header(patient, mark.view, side, remarks).detector(mark.view, side);
     const auto predicted = std::find_if(table.begin(), table.end(), [&](const LesionRow& r) {
       return r.lesion == mark.lesion && r.view == mark.view;
     });
-    const auto place = placed(mark, detector, side);
-    if (predicted == table.end())
-      row["reason"] = "lesions.csv has no lesion " + mark.lesion;
-    else if (!place)
-      row["reason"] = "nothing says how far a column is from the detector's edge";
+    if (predicted != table.end())
+      row.update(mark_figures(patient, results, mark, *predicted));
     else
-      row.update(judged_mark(mark, *place, *predicted));
+      row["reason"] = why_not_predicted(results, mark);
     rows.push_back(std::move(row));
   }
   return rows;

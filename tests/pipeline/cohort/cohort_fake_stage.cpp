@@ -1,8 +1,8 @@
 // A stage without mathematics inside the real frame: by the name that it is called by (a link
 // "mammotwin-fit") it reads its inputs and writes products whose bytes follow from them. A file
-// behaviour.txt beside patient.toml makes it fail: "refuse fit", "diverge compress", "die fit",
-// "look fit", "slow fit", "linger fit" (between its products), "short fit" (only its main product),
-// a line each.
+// behaviour.txt beside patient.toml makes it fail: "refuse fit", "diverge compress",
+// "diverge compress cc" (one view), "die fit", "look fit", "slow fit", "linger fit" (between its
+// products), "short fit" (only its main product), a line each.
 
 #include <unistd.h>
 
@@ -72,7 +72,10 @@ nlohmann::json fake_quality(const std::string& hash) {
 Outcome run_fake(const std::string& name, const Shape& shape, const Arguments& args,
                  const Patient& patient, StageRun& run) {
   const auto asked = behaviours(patient);
-  const auto is_asked = [&](const std::string& what) { return asked.count(what + " " + name) > 0; };
+  const auto is_asked = [&](const std::string& what) {
+    const std::string stage = what + " " + name;
+    return asked.contains(stage) || asked.contains(stage + " " + args.view);
+  };
   if (is_asked("die")) raise(SIGKILL);
   if (is_asked("slow")) std::this_thread::sleep_for(std::chrono::seconds(2));
   if (is_asked("refuse")) return {Status::refused, {"the breast is a <cube>"}, {}};
@@ -80,7 +83,8 @@ Outcome run_fake(const std::string& name, const Shape& shape, const Arguments& a
     return {
         Status::not_converged, {"the last good thickness is 61.2 mm"}, {{"thickness_mm", 61.2}}};
   std::string text = name + args.view + sha256_of_path(mri_of(patient));
-  for (std::size_t i = 0; i < shape.num_inputs; ++i) text += sha256_of_path(args.inputs[i]);
+  for (std::size_t i = 0; i < shape.num_inputs; ++i)
+    if (fs::exists(args.inputs[i])) text += sha256_of_path(args.inputs[i]);
   const std::string hash = sha256_of_text(text);
   write_product(run.products.write_main(), hash);
   if (is_asked("linger")) std::this_thread::sleep_for(std::chrono::seconds(3));
@@ -101,8 +105,14 @@ Stage fake_stage(const std::string& name, const Patient& patient, Arguments& arg
       declaration.command().option("view", args.view, "which view").required();
     if (name == "report")
       declaration.command().option("folder", args.view, "of results").required();
-    for (std::size_t i = 0; i < shape.num_inputs; ++i)
-      declaration.input("input" + std::to_string(i), args.inputs[i], "");
+    constexpr std::size_t first_view = 2;  // of what register reads
+    for (std::size_t i = 0; i < shape.num_inputs; ++i) {
+      const std::string input = "input" + std::to_string(i);
+      if (name == "register" && i >= first_view)
+        declaration.input_or_failure(input, args.inputs[i], "");
+      else
+        declaration.input(input, args.inputs[i], "");
+    }
     declaration.product("product", args.product, "");
   };
   stage.plan = [&] {

@@ -91,6 +91,32 @@ TEST_F(RunCohort, DoesNotRunAFailureAgainUntilSomethingHasChanged) {
   EXPECT_EQ(table("cohort.tsv")["stiff"]["status"], "ok");
 }
 
+TEST_F(RunCohort, KeepsWhatOneViewGivesWhereTheOtherIsNotReached) {
+  add_patient("half", "diverge compress cc");
+  const CommandResult run = run_patient("half");
+  EXPECT_EQ(run.exit_code, 3) << run.text;
+  EXPECT_NE(run.text.find("half stopped at compress; without cc"), std::string::npos) << run.text;
+  run_cohort();
+  auto row = table("cohort.tsv")["half"];
+  EXPECT_EQ(row["status"], "not_converged");
+  EXPECT_EQ(row["stage"], "compress");
+  EXPECT_EQ(row["reason"], "the last good thickness is 61.2 mm");
+  EXPECT_FALSE(row["mlo.figure_mm"].empty());
+  EXPECT_FALSE(row["lesions.figure_mm"].empty());
+  EXPECT_EQ(verify("half").exit_code, 0) << verify("half").text;
+
+  const auto registered = [&] { return fs::last_write_time(results("half/lesions.csv")); };
+  const auto before = registered();
+  run_patient("half");
+  EXPECT_EQ(registered(), before);
+  add_patient("half");
+  EXPECT_EQ(run_patient("half").exit_code, 0);
+  EXPECT_NE(registered(), before);
+  add_patient("half", "diverge compress");
+  EXPECT_EQ(run_patient("half").exit_code, 3);
+  EXPECT_FALSE(fs::exists(results("half/mlo.vtu")));
+}
+
 TEST_F(RunCohort, WritesTheSameTableAtAnyNumberOfJobs) {
   add_all_kinds();
   run_cohort({"JOBS=1"});
