@@ -42,6 +42,7 @@ constexpr Limit kLimits[] = {
 constexpr Limit kOfViews[] = {
     {"", "volume_change", -limits::volume_change, limits::volume_change, ""},
     {"", "max_penetration_mm", -kNone, limits::penetration_mm, " mm"},
+    {"", "imbalance_percent", -kNone, limits::imbalance_percent, " %"},
     {"", "J_within_half", limits::share_of_sane_J, kNone, ""},
     {"", "swing_mm", -limits::swing_mm, limits::swing_mm, " mm"},
     {"", "roll_deg", -kNone, limits::roll_deg, "°"},

@@ -38,6 +38,7 @@ json quality_of(const CompressionReport& r, double angle_deg) {
           {"max_J", r.max_J},
           {"J_within_half", r.J_within_half},
           {"max_penetration_mm", r.max_penetration_mm},
+          {"imbalance_percent", 100 * r.imbalance},
           {"retained_fraction", r.retained_fraction},
           {"wall_gap_mm", r.wall_gap_mm},
           {"steps", r.steps},
@@ -82,6 +83,9 @@ Outcome judge_compression(const CompressionReport& r, const SidewaysEscape& esca
   doubt(r.max_penetration_mm > limits::penetration_mm,
         sentence("a plate went %.3f mm into the breast; expected under %.1f mm",
                  r.max_penetration_mm, limits::penetration_mm));
+  doubt(100 * r.imbalance > limits::imbalance_percent,
+        sentence("forces between the plates are out of balance by %.2f %%; expected under %.1f %%",
+                 100 * r.imbalance, limits::imbalance_percent));
   doubt(std::abs(escape.swing_mm) > limits::swing_mm,
         sentence("the nipple swung %.0f mm to the side between the plates; mammograms show less "
                  "than %.0f mm",

@@ -8,6 +8,7 @@ namespace mammotwin::limits {
 inline constexpr double thickness_error_mm = 0.1;  ///< compressed thickness off the one asked for
 inline constexpr double volume_change = 0.01;      ///< share, either way
 inline constexpr double penetration_mm = 0.1;      ///< of a plate
+inline constexpr double imbalance_percent = 0.1;   ///< of forces: it moves tissue by some 0.1 mm
 inline constexpr double share_of_sane_J = 0.99;    ///< of points, at least, with J within half of 1
 /// Mammograms show the nipple at the front and the breast spread, not rolled over.
 inline constexpr double swing_mm = 20;  ///< of the nipple along the plates' edges, either way

@@ -89,6 +89,7 @@ void measure_compression(const Press& press, const State& state, CompressionRepo
   report.max_J = balance.max_J;
   report.J_within_half = J_within_half(press.model(), state);
   report.max_penetration_mm = press.penetration(state);
+  report.imbalance = balance.residual.norm() / balance.flow;
   report.retained_fraction = retained_fraction(press, state);
   report.slipped_out = slipped_out(press, state);
   report.wall_gap_mm = wall_gap(press, press.breast(), state);

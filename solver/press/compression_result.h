@@ -37,6 +37,7 @@ struct CompressionReport {
   double min_J = 1, max_J = 1;
   double J_within_half = 0;  ///< fraction of quadrature points with J in [0.5, 1.5]
   double max_penetration_mm = 0;
+  double imbalance = 0;          ///< of forces, over their flow (Balance)
   double retained_fraction = 1;  ///< of the tissue in front of the plates' edges, how much stays
   bool slipped_out = false;      ///< backwards from between the plates
   double wall_gap_mm = 0;        ///< most that the chest-wall face left its distance to the wall
