@@ -150,8 +150,8 @@ void declare_compression(Settings& s, CompressionSettings& c) {
   s.flag("compress.gravity", c.standing_gravity,
          "the breast sags as the patient stands before the plates close");
   s.number("compress.pull", c.pull, {0, 10},
-           "what draws the breast forward onto the support until the plates hold it, over its "
-           "weight; at 1 it lies as far forward as it hung in the MRI; 0: nothing");
+           "what holds the breast drawn forward onto the support, over its weight; at 1 it lies as "
+           "far forward as it hung in the MRI; 0: nothing");
 }
 
 void declare_view(Settings& s, const std::string& view, ViewSettings& v) {

@@ -40,7 +40,7 @@ struct CompressionSettings {
   Mixing mixing = Mixing::geometric;
   double stiffness_factor = 1;    ///< on tissue, skin and springs
   bool standing_gravity = false;  ///< the breast sags before the plates close
-  double pull = 0;                ///< forward, until the plates hold the breast, over its weight
+  double pull = 0;                ///< that holds the breast forward, over its weight
   SkinOptions skin;
   BoundaryOptions boundary = on_a_traced_wall();
   FrictionOptions friction{.coefficient = 0.3};

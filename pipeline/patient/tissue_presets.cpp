@@ -45,7 +45,7 @@ std::vector<Preset> tissue_presets() {
   real.factor = "0.15";
   real.spring = "0.04";
   real.smoothing = "20";
-  real.pull = "2";
+  real.pull = "1";
   return {preset_of("gel", gel), preset_of("neo_hookean_2026", {}), preset_of("real", real)};
 }
 

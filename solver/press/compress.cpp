@@ -64,7 +64,6 @@ class Compression {
  private:
   bool begin(State& state);
   bool settle(State& state);
-  bool let_go(State& state);
   void place(double fraction);
   NewtonReport balance_tilt(NewtonReport report, State& state);
   NewtonReport equilibrate(double fraction, State& state);
@@ -82,7 +81,6 @@ class Compression {
   const PlateWay way_;
   CompressionCheckpoint good_;  ///< the last good step
   bool lost_ = false;           ///< the breast has slipped out
-  bool stays_ = true;           ///< in balance when the pull has ended
   CompressionReport report_;
 };
 
@@ -178,8 +176,6 @@ void Compression::judge(const LoadSteppingReport& load, const State& state) {
                      " apart (stiffer chest-wall springs or more friction would hold it)";
   else if (!load.complete())
     report_.reason = load.reason;
-  else if (!stays_)
-    report_.reason = "the breast does not stay between the plates when nothing pulls it any more";
   else if (error > std::max(most_error, options_.thickness_tolerance))
     report_.reason = "the thickness stays " + in_mm(error) + " off";
   else if (report_.max_penetration_mm > std::max(most_penetration, options_.gap_tolerance))
@@ -201,31 +197,13 @@ void Compression::judge(const LoadSteppingReport& load, const State& state) {
 bool Compression::settle(State& state) {
   press_.put(way_.start());
   press_.take_plates_away();
-  const Eigen::Vector3d force = problem_.density * problem_.gravity + problem_.pull;
+  const Eigen::Vector3d force = problem_.body_force();
   if (force.isZero()) return true;
   const LoadSteppingReport load =
       raise_body_force(press_.breast(), press_.newton(), force, {}, state);
   report_.newton_iterations += load.iterations;
   report_.indefinite_matrices += load.indefinite;
   if (!load.complete()) report_.reason = "does not come to rest under gravity: " + load.reason;
-  return load.complete();
-}
-
-/// Ends the pull, the plates held; false where no balance is found without it.
-bool Compression::let_go(State& state) {
-  if (problem_.pull.isZero()) return true;
-  const LoadSteppingReport load = step_load(
-      state, {0.5},
-      [&](double fraction, State& trial) {
-        press_.load(1 - fraction);
-        press_.restore_friction(good_.sticking);
-        return press_.squeeze(trial, good_.penalty, true);
-      },
-      [&](const LoadSteppingReport&, const State& now, const NewtonReport&) {
-        good_.sticking = press_.commit_friction(now);
-      });
-  report_.newton_iterations += load.iterations;
-  report_.indefinite_matrices += load.indefinite;
   return load.complete();
 }
 
@@ -248,7 +226,6 @@ bool Compression::begin(State& state) {
   report_.history = good_.report.history;
   report_.newton_iterations = good_.report.newton_iterations;
   report_.indefinite_matrices = good_.report.indefinite_matrices;
-  press_.load(1);
   place(good_.reached.fraction);
   press_.set_penalty(good_.penalty);
   press_.restore_friction(good_.sticking);
@@ -271,12 +248,10 @@ LoadSteppingReport Compression::close_plates(State& state) {
   report_.cutbacks = load.cutbacks;
   report_.newton_iterations += load.iterations;
   report_.indefinite_matrices += load.indefinite;
-  if (!load.complete() || lost_) {
+  if (load.complete() && !lost_)
+    count(finish_compression(press_, good_.penalty, state));
+  else
     place(load.reached);
-    return load;
-  }
-  stays_ = let_go(state);
-  if (stays_) count(finish_compression(press_, good_.penalty, state));
   return load;
 }
 
@@ -311,7 +286,6 @@ CompressionResult Compression::run_from(const CompressionResult& near) {
   state.pressure = near.pressure;
   good_.found = near.found;
   const double apart = near.plates.paddle_height - near.plates.support_height;
-  press_.load(0);
   place(1);
   press_.move_paddle(press_.placed().support_height + problem_.plates.thickness + apart -
                          near.report.target_thickness_mm,

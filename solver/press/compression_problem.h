@@ -13,14 +13,15 @@ struct FrictionOptions {
 };
 
 /// One breast between two plates. The solver knows nothing of views: the plates say which way.
-/// Where gravity or pull is not zero the breast first comes to rest under both, then plates close,
-/// then the pull ends.
+/// Where gravity or pull is not zero the breast first comes to rest under both, then plates close.
 struct CompressionProblem : BreastProblem {
   FrictionOptions friction;
   PlateOptions plates;
-  /// Of the hands that draw the breast onto the support and hold it there until the plates do, on
-  /// the tissue's volume [mN/mm³]. Plates are placed about the imaged breast, which hangs as far.
+  /// What holds the breast drawn onto the support, on the tissue's volume [mN/mm³]. Plates are
+  /// placed about the imaged breast, which hangs as far.
   Eigen::Vector3d pull = Eigen::Vector3d::Zero();
+
+  Eigen::Vector3d body_force() const { return density * gravity + pull; }  ///< [mN/mm³]
 };
 
 enum class Moving {

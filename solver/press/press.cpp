@@ -37,13 +37,10 @@ Press::Press(const CompressionProblem& problem, const CompressionOptions& option
       breast_(make_pressed_breast(problem, options.solid)),
       frame_(positioned_, problem.plates),
       newton_(*breast_.model, *breast_.dofs) {
+  if (const Eigen::Vector3d force = problem.body_force(); !force.isZero())
+    breast_.model->set_body_force([force](const Eigen::Vector3d&) { return force; });
   if (breast_.friction)
     breast_.contact->follow = following(*breast_.friction, *breast_.model, breast_.contact_faces);
-}
-
-void Press::load(double pull_share) {
-  const Eigen::Vector3d force = problem_.density * problem_.gravity + pull_share * problem_.pull;
-  breast_.model->set_body_force([force](const Eigen::Vector3d&) { return force; });
 }
 
 void Press::put(const PlacedPlates& placed) {

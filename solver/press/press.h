@@ -45,8 +45,6 @@ class Press {
 
   void put(const PlacedPlates& placed);
   void move_paddle(double height, double tilt);  ///< up · x [mm], [deg]
-  /// The breast's weight and this share of the pull.
-  void load(double pull_share);
   /// Its shape when the plates come: the mesh's own, or the imaged one where it is pulled.
   const std::vector<HermiteMesh::Node>& positioned() const { return positioned_.mesh.nodes(); }
   void take_plates_away() { breast_.contact->plates.clear(); }
