@@ -63,7 +63,9 @@ std::string patient_toml(const SyntheticPatient& p) {
   out << std::fixed << std::setprecision(1);
   out << "# A synthetic patient, made by mammotwin-synthesize; what is true of it is in "
          "truth.json.\n"
-      << "side = \"" << name_of(p.options.anatomy.side) << "\"\n\n[mri]\npath = \"mri.nrrd\"\n";
+      << "side = \"" << name_of(p.options.anatomy.side)
+      << "\"\nmaterials.preset = \"neo_hookean_2026\"  # the tissue that it was drawn "
+         "with\n\n[mri]\npath = \"mri.nrrd\"\n";
   const auto clicked = clicked_points(p);
   for (std::size_t n = 0; n < clicked.size(); ++n)
     out << "\n[[lesions]]  # the point is " << click_error_mm

@@ -163,6 +163,7 @@ class CoarsePatient : public PatientCase {
   /// there.
   void say(const std::string& more) const {
     std::ofstream(patient_folder() / "patient.toml") << R"(side = "left"
+materials.preset = "neo_hookean_2026"
 register.search = false
 fit.elements = [4, 4, 1]
 )" << more << R"(

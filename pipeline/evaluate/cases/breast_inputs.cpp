@@ -134,7 +134,7 @@ void write_toml(const EvaluatedBreast& breast, const PreparedBreast& prepared) {
   if (breast.synthetic) {
     const CompressionSettings defaults;
     const double gland = breast.synthetic->stiffness_ratio * defaults.fat.c1_kpa;
-    toml << "[materials]\nfibroglandular.c1_kpa = " << gland
+    toml << "[materials]\npreset = \"" << defaults.preset << "\"\nfibroglandular.c1_kpa = " << gland
          << "\nlesion.c1_kpa = " << gland * defaults.lesion.c1_kpa / defaults.fibroglandular.c1_kpa
          << "\n";
   }
