@@ -140,6 +140,27 @@ Volume<std::uint8_t> cut_ghosts(const Volume<float>& image, const Volume<std::ui
   return largest_component(out);
 }
 
+Volume<std::uint8_t> cut_islands(const Volume<std::uint8_t>& body) {
+  constexpr double neck_mm = 4;  // half of its thickness
+  constexpr float near_mm = 3, far_mm = 15;
+  const Volume<std::uint8_t> core = largest_component(opened(body, neck_mm));
+  const Volume<float> away = distance_to(core);
+  Volume<std::uint8_t> apart = body;
+  for (std::size_t v = 0; v < apart.values.size(); ++v) apart.values[v] &= away.values[v] > near_mm;
+  const Components parts = connected_components(apart);
+  std::vector<float> reach(parts.sizes.size(), 0);
+  for (std::size_t v = 0; v < apart.values.size(); ++v)
+    if (apart.values[v])
+      reach[parts.ids.values[v]] = std::max(reach[parts.ids.values[v]], away.values[v]);
+  for (std::size_t v = 0; v < apart.values.size(); ++v)
+    apart.values[v] = reach[parts.ids.values[v]] > far_mm;
+  const Volume<std::uint8_t> islands = dilated(apart, neck_mm);
+  Volume<std::uint8_t> out = body;
+  for (std::size_t v = 0; v < out.values.size(); ++v)
+    out.values[v] &= core.values[v] || !islands.values[v];
+  return out;
+}
+
 Volume<std::uint8_t> cut_rim(const Volume<float>& image, const Volume<std::uint8_t>& body,
                              double share) {
   constexpr int rim_voxels = 4;

@@ -22,6 +22,10 @@ Volume<std::uint8_t> coarse_body(const Volume<float>& image, double noise);
 Volume<std::uint8_t> cut_ghosts(const Volume<float>& image, const Volume<std::uint8_t>& body,
                                 double share);
 
+/// Takes off what hangs on the body by less than 8 mm of thickness and reaches more than 15 mm away
+/// from what is thicker: ghosts of the arms, wrapped tissue. Nipples and folds reach less.
+Volume<std::uint8_t> cut_islands(const Volume<std::uint8_t>& body);
+
 /// Peels up to four layers of voxels off a body where they are darker than `share` of the brightest
 /// voxel of the 5 x 5 x 5 around them (the blurred outer half of the skin's edge, and ghosts), and
 /// fills pits of up to two voxels that this leaves where the skin is faint.

@@ -165,6 +165,7 @@ BodyStage find_body(const Volume<float>& image, std::optional<bool> fat_suppress
   stage.contrast = decided_contrast(stage, fat_suppressed, quality);
   add_dark_skin(noise_in_air, stage);
   if (stage.contrast.fat_suppressed) stage.body = cut_ghosts(stage.image, stage.body, ghost_share);
+  stage.body = cut_islands(stage.body);
   stage.body = cut_rim(stage.image, stage.body,
                        stage.contrast.fat_suppressed ? cut_fat_suppressed : cut_other);
   stage.frame = find_breast_frame(stage.body);

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace mammotwin {
 namespace {
 
@@ -40,6 +42,40 @@ TEST(BodyMask, AGhostThatHangsOnTheBodyIsCutOffToTheSkin) {
   for (int k = 0; k < skin_begins - 3; ++k) EXPECT_EQ(without_ghost(20, 20, k), 0) << k;
   const auto cut = cut_rim(scene.image, without_ghost, 0.45);
   for (int k = 0; k < 50; ++k) EXPECT_EQ(cut(20, 20, k), k >= skin_begins) << k;
+}
+
+/// Is a voxel of 1 mm in a ball?
+bool in_ball(int i, int j, int k, const Eigen::Vector3d& centre, double radius) {
+  return (Eigen::Vector3d(i, j, k) - centre).norm() <= radius;
+}
+
+// A body with a nipple, 9 mm high and wide, and beside it tissue of 16 mm that the scanner wrapped
+// there and that hangs on it by a thread of 3 mm.
+TEST(BodyMask, WrappedTissueThatHangsByAThreadIsNoBodyAndANippleIs) {
+  Volume<std::uint8_t> tissue({70, 40, 60}, Eigen::Vector3d::Ones(), Eigen::Vector3d::Zero(), 0);
+  const Volume<std::uint8_t> empty = tissue;
+  Volume<std::uint8_t> all = tissue;
+  const auto thread = [](int i, int j, int k) {
+    return std::abs(i - 50) <= 1 && std::abs(j - 20) <= 1 && k > 20 && k < 40;
+  };
+  for (int k = 0; k < 60; ++k)
+    for (int j = 0; j < 40; ++j)
+      for (int i = 0; i < 70; ++i) {
+        tissue(i, j, k) = k >= 40 || in_ball(i, j, k, {15, 20, 36}, 4.5) ||
+                          (k >= 36 && std::hypot(i - 15, j - 20) <= 4.5);
+        all(i, j, k) = tissue(i, j, k) || thread(i, j, k) || in_ball(i, j, k, {50, 20, 14}, 8);
+      }
+  EXPECT_EQ(cut_islands(tissue).values, tissue.values);
+  const Volume<std::uint8_t> cut = cut_islands(all);
+  for (int k = 0; k < 60; ++k)
+    for (int j = 0; j < 40; ++j)
+      for (int i = 0; i < 70; ++i) {
+        const bool stub = k >= 37 && thread(i, j, k);
+        if (!stub) {
+          EXPECT_EQ(cut(i, j, k), tissue(i, j, k)) << i << " " << j << " " << k;
+        }
+      }
+  EXPECT_EQ(cut_islands(empty).values, empty.values);
 }
 
 /// A body of fat 1 in haze of 0.03 beside it, in slices of hardly any noise, as resampling leaves:
