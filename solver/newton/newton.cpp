@@ -18,6 +18,7 @@ constexpr double kEquilibrium = 1e-4;  // of the flow: nearer, unstable states a
 constexpr double kFollow = 1;
 constexpr int kMostFalls = 5;
 constexpr double kFirstDamping = 0.4;  // shift after a step that no part of lowered the merit
+
 bool balanced(const Balance& balance, const NewtonOptions& options) {
   return balance.residual.norm() <= options.tolerance * balance.flow &&
          balance.constraint <= options.constraint_tolerance;
@@ -29,10 +30,13 @@ bool is_zero(const std::vector<HermiteMesh::Node>& nodes) {
   return true;
 }
 
+bool acceptable(const NewtonReport& report, const Balance& balance, const NewtonOptions& options) {
+  return report.residual <= options.acceptable && balance.constraint <= options.acceptable;
+}
+
 NewtonReport& stopped(NewtonReport& report, const Balance& balance, const NewtonOptions& options,
                       bool pending_done, const char* reason) {
-  report.converged = pending_done && report.residual <= options.acceptable &&
-                     balance.constraint <= options.acceptable;
+  report.converged = pending_done && acceptable(report, balance, options);
   if (!report.converged) report.reason = reason;
   return report;
 }
@@ -97,11 +101,6 @@ bool Newton::factor_shifted(const State& state, const NewtonOptions& options,
   return false;
 }
 
-bool Newton::is_stable(const State& state) {
-  assembler_.linearise(state, {});
-  return cholesky_.factor(assembler_.matrix());
-}
-
 /// Brings what is followed up to the state, and the balance with it; false where it is held.
 ///
 /// Friction whose pressures follow each step can overshoot for ever. Held, it has an energy, and
@@ -121,49 +120,6 @@ bool Newton::refresh(const State& state, Balance& balance, const NewtonOptions& 
   take(half);
   if (balanced(balance, options)) take(1);
   return true;
-}
-
-/// Inverse iteration with the shifted factor, of unit length in the metric.
-Eigen::VectorXd Newton::softest_direction() {
-  constexpr int rounds = 8;
-  Eigen::VectorXd v = assembler_.right_hand_side();
-  const auto apply = [&](const Eigen::VectorXd& x) {
-    return multiply(assembler_.pattern(), assembler_.metric(), x);
-  };
-  if (v.norm() == 0) v.setOnes();
-  v = cholesky_.solve(v);
-  for (int round = 0; round < rounds; ++round) {
-    v = cholesky_.solve(apply(v));
-    v /= std::sqrt(v.dot(apply(v)));
-  }
-  return v;
-}
-
-/// From a balanced state that is no minimum down along its softest direction; false where that
-/// lowers nothing.
-bool Newton::fall(State& state, Balance& balance, const NewtonOptions& options,
-                  NewtonReport& report) {
-  constexpr double first_length = 1, shortest = 1e-3;  // [mm], of the node that moves most
-  linearise(state, options, {}, false);
-  for (shift_ = 1e-3; !factor(shift_, report); shift_ *= 4)
-    if (shift_ > options.max_shift) return false;
-  const auto nodes = assembler_.nodal_step(softest_direction(), {});
-  double most = 0;
-  for (const auto& node : nodes) most = std::max(most, node.col(0).norm());
-  const double start = merit_.value(balance), rounding = CondensedEnergy::rounding(balance);
-  for (double length = first_length; length > shortest; length /= 2)
-    for (double sign : {1.0, -1.0}) {
-      Step step{nodes, {}, 0};
-      for (auto& node : step.nodes) node *= sign * length / most;
-      step.pressures = assembler_.pressures_after(state, step.nodes);
-      const Trial trial = corrected(at(state, step, 1), step, balance, 1);
-      if (!(trial.merit < start - rounding)) continue;
-      if (options.watch) options.watch(start, trial.merit);
-      state = trial.state;
-      balance = trial.balance;
-      return true;
-    }
-  return false;
 }
 
 /// Short steps mean that the model is trusted too far: the metric is stiffened as in Levenberg's
@@ -328,8 +284,7 @@ NewtonReport Newton::iterate(State& state, const NewtonOptions& options,
       balance = assembler_.balance(state);
       report.residual = balance.residual.norm() / balance.flow;
       indefinite_ = true;  // not known of this state
-      good_enough =
-          report.residual <= options.acceptable && balance.constraint <= options.acceptable;
+      good_enough = acceptable(report, balance, options);
       if (!good_enough && held_) return stop("the iterations circle and come no nearer to balance");
       held_ = true;
       nearest.forget();

@@ -70,8 +70,8 @@ TEST(BodyMask, WrappedTissueThatHangsByAThreadIsNoBodyAndANippleIs) {
   for (int k = 0; k < 60; ++k)
     for (int j = 0; j < 40; ++j)
       for (int i = 0; i < 70; ++i) {
-        const bool stub = k >= 37 && thread(i, j, k);
-        if (!stub) {
+        const bool at_its_root = k >= 37 && thread(i, j, k);
+        if (!at_its_root) {
           EXPECT_EQ(cut(i, j, k), tissue(i, j, k)) << i << " " << j << " " << k;
         }
       }
