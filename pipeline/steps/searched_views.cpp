@@ -50,6 +50,12 @@ json search_json(const SearchedView& view) {
   for (int i = 0; i < kStates; ++i)
     state[kStateNames[i]] = {{"value", view.state[i]}, {"sd", view.state_sd[i]}};
   const ModelDiscrepancy& d = view.discrepancy;
+  json refined;
+  if (view.refinement) {
+    refined = figures_json(view.refinement->left);
+    refined["moved_rms_mm"] = view.refinement->rms_mm;
+    refined["moved_most_mm"] = view.refinement->most_mm;
+  }
   return {{"end", name_of(view.verdict.end)},
           {"reasons", view.verdict.reasons},
           {"discrepancy_mm",
@@ -60,6 +66,7 @@ json search_json(const SearchedView& view) {
           {"state", state},
           {"before", figures_json(*view.before)},
           {"after", figures_json(*view.after)},
+          {"refined", refined},
           {"evidence_variance", view.evidence_variance},
           {"complete", view.complete},
           {"failed_solves", view.failed_solves}};

@@ -49,7 +49,7 @@ ReducedView unvaried_view(const NearbySolver& solver, const ViewState& sd) {
 
 }  // namespace
 
-Nodes ReducedView::nodes_at(const ViewState& z) const {
+Nodes ReducedView::undeformed_at(const ViewState& z) const {
   Nodes x = base;
   for (int i = 0; i < kMechanical; ++i) {
     add(z[i], modes[i].linear, x);
@@ -58,20 +58,30 @@ Nodes ReducedView::nodes_at(const ViewState& z) const {
   return x;
 }
 
+Nodes ReducedView::nodes_at(const ViewState& z) const { return deformed(undeformed_at(z)); }
+
 Nodes ReducedView::nodes_along_slope(const ViewState& z, int number) const {
-  Nodes x = nodes_at(z);
+  Nodes x = undeformed_at(z);
   add(1, modes[number].linear, x);
   add(2 * z[number], modes[number].quadratic, x);
-  return x;
+  return deformed(std::move(x));
 }
 
-Eigen::Vector3d ReducedView::placed(const Eigen::Vector3d& x, const ViewState& z) const {
+Nodes ReducedView::deformed(Nodes nodes) const {
+  for (HermiteMesh::Node& node : nodes) node = deformation.moved(node);
+  return nodes;
+}
+
+Eigen::Vector3d ReducedView::placed(const Eigen::Vector3d& x_in_view, const ViewState& z) const {
+  Eigen::Vector3d x = x_in_view;
+  x.head<2>() += deformation.at(x.head<2>());
   const double t = z[kTurn] * sd[kTurn] * std::numbers::pi / 180;
   return {std::cos(t) * x.x() - std::sin(t) * x.y() + z[kShiftDepth] * sd[kShiftDepth],
           std::sin(t) * x.x() + std::cos(t) * x.y() + z[kShiftLateral] * sd[kShiftLateral], x.z()};
 }
 
 void ReducedView::rebase(const ViewState& z, const Nodes& solved_in_view) {
+  deformation = {};
   add(1, combined(1, solved_in_view, -1, nodes_at(z)), base);
 }
 

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "registration/search/free_form_deformation.h"
 #include "registration/search/nearby_solver.h"
 
 namespace mammotwin {
@@ -12,7 +13,8 @@ namespace mammotwin {
 ///
 /// over nodal parameters in the view's own frame, through solves at z_i = +1 and -1, or half of
 /// that where no equilibrium is found so far off; on one side only, then b = 0. Then turn and
-/// shifts in the detector's plane, exactly. A number for which no solve succeeds has no effect.
+/// shifts in the detector's plane, exactly, after what a refinement adds (view_refinement.h). A
+/// number for which no solve succeeds has no effect.
 struct ReducedView {
   struct Mode {
     Nodes linear, quadratic;  ///< empty: no effect
@@ -22,6 +24,7 @@ struct ReducedView {
   std::array<Mode, kMechanical> modes;
   ViewState sd = prior_sd();
   int failed_solves = 0;
+  FreeFormDeformation deformation;  ///< of each x(z)
 
   /// Nodes in view coordinates; turn and shifts left out.
   Nodes nodes_at(const ViewState& z) const;
@@ -29,11 +32,15 @@ struct ReducedView {
   /// Nodes at z moved on by the slope there of one mechanical number: x(z) + dx/dz_i.
   Nodes nodes_along_slope(const ViewState& z, int number) const;
 
-  /// Turn and shifts of a point.
+  /// Deformation, turn and shifts of a point that the modes brought to `x_in_view`.
   Eigen::Vector3d placed(const Eigen::Vector3d& x_in_view, const ViewState& z) const;
 
-  /// From here on x(z) is what was solved there.
+  /// From here on x(z) is what was solved there, without a deformation.
   void rebase(const ViewState& z, const Nodes& solved_in_view);
+
+ private:
+  Nodes undeformed_at(const ViewState& z) const;
+  Nodes deformed(Nodes nodes) const;
 };
 
 /// From two solves a number.

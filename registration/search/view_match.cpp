@@ -109,14 +109,15 @@ void ViewMatch::renew(ReducedView view) {
   if (tissue_) tissue_->renew(view_);
 }
 
-Eigen::VectorXd ViewMatch::residuals(const ViewState& z, bool with_pattern) const {
+Eigen::VectorXd ViewMatch::residuals(const ViewState& z, bool with_pattern,
+                                     const MatchNoise& noise) const {
   const bool patterned = with_pattern && tissue_ && evidence_.pattern.size() > 0;
   Eigen::VectorXd r = Eigen::VectorXd::Zero(kRays + 2 + (patterned ? evidence_.pattern.size() : 0));
   const RayDistances found = silhouette_.at(view_, z, detector_, centre_);
   for (int ray = 0; ray < kRays; ++ray) {
     if (!seen_[ray] || !found[ray]) continue;
     r[ray] = std::sqrt(piece(*seen_[ray])) *
-             huber((*found[ray] - *seen_[ray]) / evidence_.outline_sd_mm, kHuber);
+             huber((*found[ray] - *seen_[ray]) / noise.outline_mm, kHuber);
   }
   if (evidence_.nipple) {
     const Eigen::Vector2d miss =
@@ -130,7 +131,7 @@ Eigen::VectorXd ViewMatch::residuals(const ViewState& z, bool with_pattern) cons
     r.tail(evidence_.pattern.size()) =
         (pattern(evidence_.grid, tissue_->in_cells(evidence_.grid, view_, z, detector_)) -
          evidence_.pattern) *
-        (share / kPatternSd);
+        (share / noise.pattern);
   }
   return r;
 }

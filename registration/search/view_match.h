@@ -36,6 +36,12 @@ struct MatchFigures {
   std::optional<double> pattern_correlation;  ///< absent: none to compare
 };
 
+/// Standard deviations that differences are held against.
+struct MatchNoise {
+  double outline_mm;
+  double pattern = kPatternSd;  ///< of normalised patterns
+};
+
 /// How far a view in state z is from its mammogram.
 class ViewMatch {
  public:
@@ -47,7 +53,13 @@ class ViewMatch {
   /// Differences over their standard deviations: outline, nipple and, if asked, pattern. Neighbours
   /// along the outline or in the pattern tell the same tale, so each counts as the share that it
   /// has in an independent piece (30 mm of outline; 15 mm x 15 mm of pattern).
-  Eigen::VectorXd residuals(const ViewState& z, bool with_pattern) const;
+  Eigen::VectorXd residuals(const ViewState& z, bool with_pattern) const {
+    return residuals(z, with_pattern, stated_noise());
+  }
+  Eigen::VectorXd residuals(const ViewState& z, bool with_pattern, const MatchNoise& noise) const;
+
+  /// The evidence's own.
+  MatchNoise stated_noise() const { return {evidence_.outline_sd_mm}; }
 
   /// How many independent observations the residuals stand for.
   double observations(bool with_pattern) const;
@@ -55,6 +67,9 @@ class ViewMatch {
   MatchFigures figures(const ViewState& z) const;
   const ReducedView& view() const { return view_; }
   const Detector& detector() const { return detector_; }
+
+  /// Goes on with the view deformed.
+  void deform(const FreeFormDeformation& deformation) { view_.deformation = deformation; }
 
   /// Goes on with another reduced model of the same view.
   void renew(ReducedView view);

@@ -109,6 +109,19 @@ SearchedView matched(const SearchInput& input, const ViewToSearch& found, const 
   return result;
 }
 
+/// With what no state says of the mammogram.
+SearchedView refined(SearchedView found, ViewToSearch& searched, const ViewState& z) {
+  found.refinement = refine_view(searched.match, z);
+  const ReducedView& reduced = searched.match.view();
+  const ViewFrame& frame = searched.solved.view.frame;
+  found.compressed = HermiteMesh(in_lps(reduced.nodes_at(z), frame), reduced.elements);
+  for (int i = 0; i < kMechanical; ++i)
+    if (!found.uncertainty.varied[i].empty())
+      found.uncertainty.varied[i] = in_lps(reduced.nodes_along_slope(z, i), frame);
+  found.what_if = what_if_shapes(reduced, z, frame);
+  return found;
+}
+
 /// What is shown where the search came to nothing: the prediction without it.
 SearchedView given_up(SearchedView found, const SearchedView& unsearched) {
   found.view = unsearched.view;
@@ -160,8 +173,9 @@ std::vector<SearchedView> search_views(const std::vector<SearchInput>& inputs,
   for (std::size_t m = 0; m < searched.size(); ++m) {
     SearchedView& view = result[places[m]];
     found[m].verdict = verdicts[m];
-    view = verdicts[m].end == SearchEnd::no_registration ? given_up(std::move(found[m]), view)
-                                                         : std::move(found[m]);
+    view = verdicts[m].end == SearchEnd::no_registration
+               ? given_up(std::move(found[m]), view)
+               : refined(std::move(found[m]), searched[m], end.states[m]);
   }
   return result;
 }

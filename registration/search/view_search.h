@@ -4,6 +4,7 @@
 #include "registration/search/model_discrepancy.h"
 #include "registration/search/search_ellipse.h"
 #include "registration/search/search_verdict.h"
+#include "registration/search/view_refinement.h"
 #include "registration/search/what_if.h"
 #include "solver/progress.h"
 
@@ -28,6 +29,7 @@ struct SearchedView {
   WhatIfShapes what_if{};
   ViewState state = ViewState::Zero(), state_sd = ViewState::Zero();  ///< physical units
   std::optional<MatchFigures> before{}, after{};
+  std::optional<ViewRefinement> refinement{};  ///< of a view that lies on its mammogram
   SearchVerdict verdict{};
   ModelDiscrepancy discrepancy{};  ///< of a view that was searched
   double evidence_variance = 1;    ///< PoseEstimate's

@@ -9,51 +9,10 @@
 #include "registration/carry/point_carrier.h"
 #include "registration/search/search_ellipse.h"
 #include "registration/search/view_disagreement.h"
-#include "tests/registration/squeezed_box.h"
+#include "tests/registration/box_view.h"
 
 namespace mammotwin {
 namespace {
-
-/// All outer faces of the box are skin but the one on the chest wall.
-std::vector<FaceLabels> skin_of(const HermiteMesh& box) {
-  FaceLabels skin;
-  skin.fill(FaceLabel::skin);
-  skin[3] = FaceLabel::chest_wall;  // y = 0
-  return std::vector<FaceLabels>(box.num_elements(), skin);
-}
-
-/// The squeezed box as a view that gets wider by 5 % a standard deviation of `kThickness`.
-struct BoxView {
-  SqueezedBox box = squeezed_box(Side::left, 0, 0.5);
-  ReducedView view;
-  Detector detector;
-  BoxView() {
-    view.elements = box.compressed.elements();
-    view.base = in_view(box.compressed.nodes(), box.view.frame);
-    ReducedView::Mode& mode = view.modes[kThickness];
-    mode.linear = view.base;
-    for (HermiteMesh::Node& node : mode.linear)
-      node = (Eigen::Vector3d(0.05, 0.05, 0).asDiagonal() * node).eval();
-    mode.quadratic.assign(view.base.size(), HermiteMesh::Node::Zero());
-  }
-  Eigen::Vector3d nipple() const { return {70, -60, 0}; }  // middle of the front
-
-  /// What a mammogram of state z would show.
-  ViewEvidence evidence(const ViewState& z) const {
-    const Eigen::Vector2d centre(0, 0);
-    const RayDistances seen = Silhouette(view, skin_of(box.prone)).at(view, z, detector, centre);
-    ViewEvidence e;
-    for (int ray = 0; ray < kRays; ++ray)
-      if (seen[ray]) e.outline.push_back(*seen[ray] * ray_direction(ray));
-    const PointCarrier carrier(box.prone, HermiteMesh(view.base, view.elements));
-    const ViewSamples sample(view, {carrier.carry(nipple()).point});
-    e.nipple = detector.project(sample.at(view, z).col(0));
-    return e;
-  }
-  ViewMatch match(const ViewState& z) const {
-    return ViewMatch(view, skin_of(box.prone), box.prone, nullptr, nipple(), detector, evidence(z));
-  }
-};
 
 TEST(PoseSearch, FindsTurnAndShiftThatMadeTheOutline) {
   const BoxView box;

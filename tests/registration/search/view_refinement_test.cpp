@@ -1,0 +1,107 @@
+#include "registration/search/view_refinement.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "tests/registration/box_view.h"
+
+namespace mammotwin {
+namespace {
+
+/// Gland in strands and lumps of 15 to 40 mm, other ones for each seed.
+Volume<Fractions> gland(unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> uniform;
+  std::vector<Eigen::Vector4d> waves;
+  for (int n = 0; n < 12; ++n) {
+    const double angle = 2 * M_PI * uniform(random), length = 15 + 25 * uniform(random);
+    waves.push_back({2 * M_PI / length * std::cos(angle), 2 * M_PI / length * std::sin(angle),
+                     0.1 * uniform(random), 2 * M_PI * uniform(random)});
+  }
+  Volume<Fractions> volume({50, 30, 40}, Eigen::Vector3d::Constant(2), {21, -59, -39});
+  for (int k = 0; k < 40; ++k)
+    for (int j = 0; j < 30; ++j)
+      for (int i = 0; i < 50; ++i) {
+        double sum = 0;
+        for (const Eigen::Vector4d& w : waves)
+          sum += std::cos(w.head<3>().dot(volume.position(i, j, k)) + w[3]);
+        volume(i, j, k) = pure_fractions(sum > 0 ? label::fibroglandular : label::fat);
+      }
+  return volume;
+}
+
+/// Displacements of 2 mm, as smooth as a refinement expects.
+FreeFormDeformation drawn_deformation() {
+  FreeFormDeformation drawn({0, -80}, {90, 80});
+  std::mt19937 random(11);
+  std::normal_distribution<double> normal;
+  Eigen::Matrix2Xd controls = drawn.controls();
+  for (Eigen::Index n = 0; n < controls.cols(); ++n) {
+    const Eigen::Vector2d x = drawn.middle(n) / 30;
+    controls.col(n) = 2.8 * Eigen::Vector2d(std::sin(x.x() + x.y()), std::cos(x.y() - 1));
+  }
+  drawn.set_controls(controls);
+  return drawn;
+}
+
+struct MovedGland {
+  BoxView box;
+  ViewState z = ViewState::Zero();
+
+  /// A mammogram on which gland lies where `deformation` puts it.
+  ViewMatch match(const FreeFormDeformation& deformation, const Volume<Fractions>& imaged,
+                  const Volume<Fractions>& in_mri) const {
+    ReducedView seen = box.view;
+    seen.deformation = deformation;
+    ViewEvidence evidence = box.evidence(seen, z);
+    evidence.grid = density_grid(evidence.outline);
+    const DenseTissue tissue(box.view, box.box.prone, imaged);
+    evidence.pattern =
+        pattern(evidence.grid, tissue.in_cells(evidence.grid, seen, z, box.detector));
+    return ViewMatch(box.view, skin_of(box.box.prone), box.box.prone, &in_mri, box.nipple(),
+                     box.detector, evidence);
+  }
+
+  /// RMS over tissue in the view of a displacement less another [mm].
+  double apart_mm(const FreeFormDeformation& a, const FreeFormDeformation& b) const {
+    const HermiteMesh mesh(box.view.base, box.view.elements);
+    double squared = 0;
+    for (int e = 0; e < mesh.num_elements(); ++e) {
+      const Eigen::Vector2d x = mesh.position({e, {0.5, 0.5, 0.5}}).head<2>();
+      squared += (a.at(x) - b.at(x)).squaredNorm();
+    }
+    return std::sqrt(squared / mesh.num_elements());
+  }
+};
+
+TEST(ViewRefinement, FindsHowTissueMoved) {
+  const MovedGland c;
+  const FreeFormDeformation truth = drawn_deformation();
+  ViewMatch match = c.match(truth, gland(1), gland(1));
+  const MatchFigures before = match.figures(c.z);
+  const ViewRefinement found = refine_view(match, c.z);
+  const double moved = c.apart_mm(truth, {});
+  EXPECT_GT(moved, 2);
+  EXPECT_LT(c.apart_mm(truth, found.deformation), 0.4 * moved);
+  EXPECT_GT(*found.left.pattern_correlation, *before.pattern_correlation);
+  EXPECT_LT(found.left.outline_rms_mm, before.outline_rms_mm);
+}
+
+TEST(ViewRefinement, MovesNothingThatLiesWhereItShould) {
+  const MovedGland c;
+  ViewMatch match = c.match({}, gland(1), gland(1));
+  const ViewRefinement found = refine_view(match, c.z);
+  EXPECT_LT(c.apart_mm({}, found.deformation), 0.05);
+}
+
+TEST(ViewRefinement, OtherGlandMovesLittle) {
+  const MovedGland c;
+  ViewMatch match = c.match({}, gland(2), gland(1));
+  const ViewRefinement found = refine_view(match, c.z);
+  EXPECT_LT(c.apart_mm({}, found.deformation), 1);
+}
+
+}  // namespace
+}  // namespace mammotwin
