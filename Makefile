@@ -24,13 +24,15 @@ override SYNTHETIC := $(value SYNTHETIC)
 override CHANGES := $(value CHANGES)
 override VIEWS := $(value VIEWS)
 override SPOIL := $(value SPOIL)
+override MISFIT := $(value MISFIT)
+override HARD := $(value HARD)
 override OTHERS := $(value OTHERS)
 override TABLE := $(value TABLE)
 override UNLOAD := $(value UNLOAD)
 ifeq ($(RESULTS),)
 $(error RESULTS is empty: name the folder that results go to)
 endif
-export P DATA RESULTS FORCE BIN SEED PATIENTS JOBS ONLY ENGINE CONFIG PREFIX CASES SYNTHETIC CHANGES VIEWS SPOIL OTHERS TABLE UNLOAD PRESET PRESS AXE
+export P DATA RESULTS FORCE BIN SEED PATIENTS JOBS ONLY ENGINE CONFIG PREFIX CASES SYNTHETIC CHANGES VIEWS SPOIL MISFIT HARD OTHERS TABLE UNLOAD PRESET PRESS AXE
 unexport MAKEFLAGS MAKEOVERRIDES
 
 .PHONY: help patient segment fit unload compress register report slicer paraview synthesize exam cohort verify-results \
@@ -69,7 +71,9 @@ help:
 	@echo '                       that keeps the volume of each point: RESULTS/evaluation/stabilisation.json; ONLY=Exam_02-left'
 	@echo 'make evaluate-registration  registers SYNTHETIC=10 patients with mammograms of another model:'
 	@echo '                       RESULTS/evaluation/registration.json; JOBS=2 at a time; SPOIL=1: also told'
-	@echo '                       wrongly of nipple, pectoral edge or abdomen (registration_spoilt.json)'
+	@echo '                       wrongly of nipple, pectoral edge or abdomen (registration_spoilt.json); MISFIT=1: also'
+	@echo '                       with mammograms of another breast or view (registration_misfit.json); HARD=1: patients'
+	@echo '                       further from the model (registration_hard.json)'
 	@echo 'make evaluate-tomosynthesis   registers 042 with tomosynthesis of another model: RESULTS/evaluation/tomosynthesis.json'
 	@echo 'make evaluate-real-pairs CASES=folder   patients with lesions marked on mammograms (marks.csv):'
 	@echo '                       RESULTS/evaluation/real_pairs.json'
@@ -148,8 +152,8 @@ evaluate-other-meshes: mammotwin-evaluate-other-meshes
 	  "$$RESULTS/evaluation/other_meshes.json" $${VIEWS:+--views $$VIEWS}
 
 evaluate-registration: mammotwin-evaluate-registration
-	@"$$BIN/mammotwin-evaluate-registration" "$$RESULTS/evaluation/registration$${SPOIL:+_spoilt}.json" \
-	  $${SYNTHETIC:+--synthetic "$$SYNTHETIC"} $${JOBS:+--jobs "$$JOBS"} $${SPOIL:+--spoil}
+	@"$$BIN/mammotwin-evaluate-registration" "$$RESULTS/evaluation/registration$${HARD:+_hard}$${SPOIL:+_spoilt}$${MISFIT:+_misfit}.json" \
+	  $${SYNTHETIC:+--synthetic "$$SYNTHETIC"} $${JOBS:+--jobs "$$JOBS"} $${SPOIL:+--spoil} $${MISFIT:+--misfit} $${HARD:+--hard}
 
 evaluate-tomosynthesis: mammotwin-evaluate-tomosynthesis
 	@"$$BIN/mammotwin-evaluate-tomosynthesis" "$$RESULTS/evaluation/tomosynthesis.json"

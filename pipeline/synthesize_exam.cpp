@@ -36,7 +36,7 @@ DrawnPatient drawn_exam(int seed) {
   drawn.patient.anatomy.seed = static_cast<std::uint64_t>(seed);
   drawn.true_elements = {5, 5, 2};
   const CompressionSettings assumed;
-  drawn.stiffness_ratio = 2 * assumed.fibroglandular.c1_kpa / assumed.fat.c1_kpa;
+  drawn.tissue.stiffness_ratio = 2 * assumed.fibroglandular.c1_kpa / assumed.fat.c1_kpa;
   drawn.views = {DrawnView{.name = "cc",
                            .roll_deg = 2,
                            .turn_deg = -2,

@@ -6,6 +6,7 @@
 
 #include "pipeline/evaluate/cases/case_arguments.h"
 #include "pipeline/evaluate/cases/evaluation_table.h"
+#include "pipeline/evaluate/registration/misfit_case.h"
 #include "pipeline/evaluate/registration/registration_case.h"
 #include "pipeline/evaluate/registration/registration_rows.h"
 #include "pipeline/evaluate/registration/spoilt_case.h"
@@ -20,7 +21,7 @@ using nlohmann::json;
 struct Arguments {
   fs::path table;
   int synthetic = 10, first = 0, jobs = 2;
-  bool coarse = false, spoil = false, judge = false;
+  bool coarse = false, hard = false, spoil = false, misfit = false, judge = false;
 };
 
 void declare(CommandLine& command, Arguments& args) {
@@ -32,10 +33,16 @@ void declare(CommandLine& command, Arguments& args) {
       .with_default();
   command.flag("--coarse", args.coarse,
                "few elements in the truth and in the model: seconds a patient, to try it out");
+  command.flag("--hard", args.hard,
+               "patients further from the registering model: other laws, springs and friction, "
+               "large rolls and turns, detector's edges, muscle, abdomen, a nipple 10 mm off");
   command.flag(
       "--spoil", args.spoil,
       "each patient also with mammograms of which the search is told wrongly: no nipple in "
       "profile, a pectoral edge 10 mm off, a strip of abdomen");
+  command.flag("--misfit", args.misfit,
+               "each patient also with mammograms that are not what patient.toml says: another "
+               "patient's, the other breast's, upside down, views exchanged");
   command.flag("--judge", args.judge, "judge what lies there, without making or running anything");
 }
 
@@ -62,11 +69,34 @@ std::string line_of(const json& row) {
   return line.str();
 }
 
+Difficulty difficulty_of(const Arguments& args) {
+  return args.hard ? Difficulty::hard : args.coarse ? Difficulty::coarse : Difficulty::easy;
+}
+
+/// The folder of patient n + 1, whose mammograms are shown as those of patient n.
+fs::path another_patient(int number, const Arguments& args, const fs::path& folder) {
+  const fs::path next = folder.parent_path() / ("mammograms-" + std::to_string(number + 1));
+  if (!args.judge) make_registration_case(number + 1, difficulty_of(args), next);
+  return next;
+}
+
+void add_misfits(int number, const fs::path& folder, const Arguments& args,
+                 const std::function<void(json, const std::string&)>& add) {
+  const fs::path another = another_patient(number, args, folder);
+  for (const std::string misfit : kMisfits) {
+    const fs::path wrong = folder.string() + "-" + misfit;
+    json row = evaluate(
+        wrong, [&] { make_misfit_case(folder, another, misfit, wrong); }, args);
+    judge_misfit(row);
+    add(std::move(row), misfit);
+  }
+}
+
 int run(const Arguments& args) {
   EvaluationTable table(args.table);
   work_through(args.synthetic, args.jobs, [&](std::size_t n) {
     const int number = args.first + static_cast<int>(n);
-    const std::string name = "synthetic-" + std::to_string(number);
+    const std::string name = (args.hard ? "hard-" : "synthetic-") + std::to_string(number);
     const fs::path folder = table.folder() / "registration" / name;
     const auto add = [&](json row, const std::string& spoilt) {
       row["spoilt"] = spoilt;
@@ -74,17 +104,18 @@ int run(const Arguments& args) {
       table.add(n, std::move(row), line);
     };
     add(evaluate(
-            folder, [&] { make_registration_case(number, args.coarse, folder); }, args),
+            folder, [&] { make_registration_case(number, difficulty_of(args), folder); }, args),
         "nothing");
-    if (!args.spoil) return;
-    for (const std::string spoil : kSpoils) {
-      const fs::path worse = folder.string() + "-" + spoil;
-      add(evaluate(
-              worse, [&] { spoil_registration_case(folder, spoil, worse); }, args),
-          spoil);
-    }
+    if (args.spoil)
+      for (const std::string spoil : kSpoils) {
+        const fs::path worse = folder.string() + "-" + spoil;
+        add(evaluate(
+                worse, [&] { spoil_registration_case(folder, spoil, worse); }, args),
+            spoil);
+      }
+    if (args.misfit) add_misfits(number, folder, args, add);
   });
-  if (!args.spoil) std::cerr << registration_summary(table.rows());
+  if (!args.spoil && !args.misfit) std::cerr << registration_summary(table.rows());
   return 0;
 }
 

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "pipeline/evaluate/cases/patient_chain.h"
+#include "pipeline/evaluate/registration/spoilt_case.h"
 #include "pipeline/frame/products.h"
 #include "pipeline/patient/compression_settings.h"
 #include "pipeline/synthesize/counter_random.h"
@@ -28,9 +29,11 @@ constexpr int kMostChests = 30;  // of the drawn build: not every chest carries 
 /// Not mri.nrrd: `segment`, whose products stand in the same folder, leaves its part of the MRI
 /// there.
 constexpr const char* kScan = "scan.nrrd";
-constexpr int kPoints = 20;  // landmarks beside the lesions
+constexpr int kHardNumbers = 500;     // beyond these
+constexpr double kNippleOff_mm = 10;  // in every second hard patient's MRI
+constexpr int kPoints = 20;           // landmarks beside the lesions
 
-DrawnView draw_view(CounterRandom& random, const std::string& name, double angle_deg) {
+DrawnView easy_view(CounterRandom& random, const std::string& name, double angle_deg) {
   DrawnView view;
   view.name = name;
   view.header_angle_deg = angle_deg;
@@ -44,13 +47,32 @@ DrawnView draw_view(CounterRandom& random, const std::string& name, double angle
   return view;
 }
 
+/// As radiographers differ at most, and not by a standard deviation.
+DrawnView hard_view(CounterRandom& random, const std::string& name, double angle_deg) {
+  DrawnView view;
+  view.name = name;
+  view.header_angle_deg = angle_deg;
+  view.roll_deg = random.uniform(-15, 15);
+  view.turn_deg = random.uniform(-8, 8);
+  view.lift_mm = random.uniform(-8, 8);
+  view.clearance_mm = random.uniform(6, 16);
+  view.shift_mm = random.uniform(-25, 25);
+  view.compressed_fraction = random.uniform(0.4, 0.6);
+  view.thickness_error_mm = random.uniform(-8, 8);
+  view.edge_mm = angle_deg == 0 ? random.uniform(-20, 15) : random.uniform(-40, 0);
+  view.marker = random.uniform() < 0.5;
+  return view;
+}
+
 /// Patient n, from n alone: body, tissue that is unlike the registering model's, and how each view
 /// was taken. The law is in pipeline/evaluate/README.md. `coarse`: few elements in the truth and in
 /// the model, so that it takes seconds instead of minutes.
-DrawnPatient draw_registration(int number, bool coarse, int attempt = 0) {
+DrawnPatient draw_registration(int number, Difficulty difficulty, int attempt = 0) {
+  const bool hard = difficulty == Difficulty::hard;
+  number += hard ? kHardNumbers : 0;
   CounterRandom random(kSeed, number, 0), build(kSeed, number, 1000 * (attempt + 1));
   DrawnPatient drawn;
-  if (coarse) {
+  if (difficulty == Difficulty::coarse) {
     drawn.true_elements = kCoarseTruth;
     drawn.elements = kCoarse;
     drawn.patient.scan.voxel_mm = kCoarseVoxel_mm;
@@ -68,14 +90,21 @@ DrawnPatient draw_registration(int number, bool coarse, int attempt = 0) {
       number % 2 ? ScanContrast::not_suppressed : ScanContrast::fat_suppressed;
   const double factor = number % 2 ? 2 : 0.5;  // off what the registering model assumes
   const CompressionSettings assumed;
-  drawn.stiffness_ratio = factor * assumed.fibroglandular.c1_kpa / assumed.fat.c1_kpa;
+  drawn.tissue.stiffness_ratio = factor * assumed.fibroglandular.c1_kpa / assumed.fat.c1_kpa;
+  const auto draw_view = hard ? hard_view : easy_view;
   drawn.views = {draw_view(random, "cc", 0), draw_view(random, "mlo", random.uniform(40, 50))};
+  if (hard) {
+    drawn.tissue.stiffening = random.uniform(0.5, 2.5);
+    drawn.tissue.springs = std::exp(random.uniform(std::log(0.4), std::log(4)));
+    drawn.tissue.friction = random.uniform(0.15, 0.6);
+    drawn.tissue.paddle_tilt_deg = random.uniform(-1, 5);
+  }
   return drawn;
 }
 
-SyntheticPatient make_drawn(int number, bool coarse, DrawnPatient& drawn) {
+SyntheticPatient make_drawn(int number, Difficulty difficulty, DrawnPatient& drawn) {
   for (int attempt = 0;; ++attempt) {
-    drawn = draw_registration(number, coarse, attempt);
+    drawn = draw_registration(number, difficulty, attempt);
     try {
       return make_patient(drawn.patient);
     } catch (const std::invalid_argument&) {
@@ -120,12 +149,18 @@ std::string landmark_table(const TrueBreast& breast, const std::vector<TrueView>
   return csv.str();
 }
 
-/// Body, MRI and lesions, without views.
-std::string body_toml(const SyntheticPatient& patient, const DrawnPatient& drawn) {
+/// Body, MRI and lesions, without views; the nipple as far off upwards as it is said to be.
+std::string body_toml(const SyntheticPatient& patient, const DrawnPatient& drawn,
+                      double nipple_off_mm = 0) {
   std::string text = patient_toml(patient);
   const std::string own = "\"mri.nrrd\"";
   text.replace(text.find(own), own.size(), std::string("\"") + kScan + "\"");
   std::ostringstream toml;
+  if (nipple_off_mm != 0) {
+    const Eigen::Vector3d at =
+        patient.truth.nipple_in_lps + nipple_off_mm * Eigen::Vector3d::UnitZ();
+    toml << "nipple.point_lps_mm = [" << at.x() << ", " << at.y() << ", " << at.z() << "]\n";
+  }
   if (const auto& e = drawn.elements)
     toml << "fit.elements = [" << e->x() << ", " << e->y() << ", " << e->z() << "]\n";
   toml << text.substr(0, text.find("[views.cc]"));
@@ -148,7 +183,10 @@ std::string views_toml(const DrawnPatient& drawn, const std::vector<TrueView>& v
 }
 
 json drawn_json(const DrawnPatient& drawn, const std::vector<TrueView>& views) {
-  json all{{"stiffness_ratio", drawn.stiffness_ratio},
+  json all{{"stiffness_ratio", drawn.tissue.stiffness_ratio},
+           {"stiffening", drawn.tissue.stiffening},
+           {"springs", drawn.tissue.springs},
+           {"friction", drawn.tissue.friction},
            {"volume_ml", drawn.patient.anatomy.volume_ml},
            {"density", drawn.patient.anatomy.density}};
   for (std::size_t n = 0; n < views.size(); ++n) {
@@ -158,6 +196,8 @@ json drawn_json(const DrawnPatient& drawn, const std::vector<TrueView>& views) {
                    {"lift_mm", v.lift_mm},
                    {"clearance_mm", v.clearance_mm},
                    {"shift_mm", v.shift_mm},
+                   {"edge_mm", v.edge_mm},
+                   {"marker", v.marker},
                    {"thickness_mm", views[n].view.thickness_mm},
                    {"header_thickness_mm", views[n].header_thickness_mm}};
   }
@@ -166,11 +206,11 @@ json drawn_json(const DrawnPatient& drawn, const std::vector<TrueView>& views) {
 
 }  // namespace
 
-void make_registration_case(int number, bool coarse, const fs::path& folder) {
+void make_registration_case(int number, Difficulty difficulty, const fs::path& folder) {
   if (fs::exists(folder / "patient.toml")) return;
   fs::create_directories(folder);
   DrawnPatient drawn;
-  const SyntheticPatient patient = make_drawn(number, coarse, drawn);
+  const SyntheticPatient patient = make_drawn(number, difficulty, drawn);
   const TrueBreast breast(patient, drawn);
   const Detector detector = synthetic_detector(drawn.patient.anatomy.side);
   std::vector<TrueView> views;
@@ -178,18 +218,21 @@ void make_registration_case(int number, bool coarse, const fs::path& folder) {
   for (const TrueView& view : views)
     write_png(folder / (view.view.name + ".png"),
               true_mammogram(breast, view, detector, drawn.patient.anatomy.seed));
+  const bool hard = difficulty == Difficulty::hard;
+  if (hard && number % 3 == 0) add_abdomen(folder / "mlo.png");
   write_nrrd(folder / kScan, patient.scan.image);
   write_text_atomically(folder / "landmarks.csv", landmark_table(breast, views, detector, number));
   write_text_atomically(folder / "drawn.json", drawn_json(drawn, views).dump(1) + "\n");
   write_text_atomically(folder / "patient.toml",
-                        body_toml(patient, drawn) + views_toml(drawn, views, detector));
+                        body_toml(patient, drawn, hard && number % 2 ? kNippleOff_mm : 0) +
+                            views_toml(drawn, views, detector));
 }
 
 void make_tomosynthesis_case(bool coarse, const fs::path& folder) {
   constexpr int kPatient = 42;
   if (fs::exists(folder / "patient.toml")) return;
   fs::create_directories(folder);
-  DrawnPatient drawn = draw_registration(kPatient, coarse);
+  DrawnPatient drawn = draw_registration(kPatient, coarse ? Difficulty::coarse : Difficulty::easy);
   const double voxel_mm = drawn.patient.scan.voxel_mm;
   drawn.patient = PatientOptions();
   drawn.patient.anatomy.seed = kPatient;

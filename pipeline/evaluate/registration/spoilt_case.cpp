@@ -19,13 +19,6 @@ namespace fs = std::filesystem;
 
 constexpr double kSpoiltPixel_mm = 0.25;  // of the synthetic detector
 
-void write_grey(const fs::path& path, const MammogramImage& image) {
-  GreyPixels pixels{image.columns, image.rows, {}};
-  for (const float grey : image.grey)
-    pixels.grey.push_back(static_cast<std::uint16_t>(std::lround(grey)));
-  write_png(path, pixels);
-}
-
 /// Greys of a disc become as smooth as its border allows (Laplace's equation, relaxed).
 void smooth_over(MammogramImage& image, const Eigen::Vector2d& centre, double radius) {
   constexpr int kRounds = 400;  // the disc is 20 pixels across
@@ -45,25 +38,6 @@ void take_marker_away(const fs::path& path) {
   const auto marker = find_marker(image, kSpoiltPixel_mm);
   if (!marker) throw std::runtime_error(path.string() + ": shows no marker to take away");
   smooth_over(image, *marker, kRadius_mm / kSpoiltPixel_mm);
-  write_grey(path, image);
-}
-
-/// A round fold that overlaps the breast's lower end.
-void add_abdomen(const fs::path& path) {
-  constexpr double kDepth_mm = 35, kHalfHeight_mm = 26, kBelow_mm = 20, kGrey = 20000;
-  MammogramImage image = read_mammogram_picture(path);
-  const MammogramFindings found = find_breast(image, kSpoiltPixel_mm, true);
-  const double middle = found.outline.back().y() + kBelow_mm / kSpoiltPixel_mm;
-  for (int row = 0; row < image.rows; ++row)
-    for (int column = 0; column < image.columns; ++column) {
-      const int from_wall =
-          found.chest_wall == ImageEdge::left ? column : image.columns - 1 - column;
-      const double rho = std::hypot(from_wall * kSpoiltPixel_mm / kDepth_mm,
-                                    (row - middle) * kSpoiltPixel_mm / kHalfHeight_mm);
-      if (rho >= 1) continue;
-      const float grey = static_cast<float>(kGrey * std::sqrt(1 - rho * rho));
-      image.at(column, row) = std::max(image.at(column, row), grey);
-    }
   write_grey(path, image);
 }
 
@@ -94,14 +68,43 @@ void say_muscle(const fs::path& folder) {
 
 }  // namespace
 
-void spoil_registration_case(const fs::path& made, const std::string& spoil,
-                             const fs::path& folder) {
-  if (fs::exists(folder / "patient.toml")) return;
+void copy_case(const fs::path& made, const fs::path& folder) {
   fs::create_directories(folder);
   for (const auto& entry : fs::directory_iterator(made))
     if (entry.is_regular_file())
       fs::copy_file(entry.path(), folder / entry.path().filename(),
                     fs::copy_options::overwrite_existing);
+}
+
+void write_grey(const fs::path& path, const MammogramImage& image) {
+  GreyPixels pixels{image.columns, image.rows, {}};
+  for (const float grey : image.grey)
+    pixels.grey.push_back(static_cast<std::uint16_t>(std::lround(grey)));
+  write_png(path, pixels);
+}
+
+void add_abdomen(const fs::path& path) {
+  constexpr double kDepth_mm = 35, kHalfHeight_mm = 26, kBelow_mm = 20, kGrey = 20000;
+  MammogramImage image = read_mammogram_picture(path);
+  const MammogramFindings found = find_breast(image, kSpoiltPixel_mm, true);
+  const double middle = found.outline.back().y() + kBelow_mm / kSpoiltPixel_mm;
+  for (int row = 0; row < image.rows; ++row)
+    for (int column = 0; column < image.columns; ++column) {
+      const int from_wall =
+          found.chest_wall == ImageEdge::left ? column : image.columns - 1 - column;
+      const double rho = std::hypot(from_wall * kSpoiltPixel_mm / kDepth_mm,
+                                    (row - middle) * kSpoiltPixel_mm / kHalfHeight_mm);
+      if (rho >= 1) continue;
+      const float grey = static_cast<float>(kGrey * std::sqrt(1 - rho * rho));
+      image.at(column, row) = std::max(image.at(column, row), grey);
+    }
+  write_grey(path, image);
+}
+
+void spoil_registration_case(const fs::path& made, const std::string& spoil,
+                             const fs::path& folder) {
+  if (fs::exists(folder / "patient.toml")) return;
+  copy_case(made, folder);
   if (spoil == "abdomen") return add_abdomen(folder / "mlo.png");
   if (spoil == "pectoral") return say_muscle(folder);
   for (const char* view : {"cc.png", "mlo.png"}) take_marker_away(folder / view);

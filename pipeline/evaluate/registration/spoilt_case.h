@@ -3,6 +3,8 @@
 #include <filesystem>
 #include <string>
 
+#include "registration/mammogram/mammogram_image.h"
+
 namespace mammotwin {
 
 /// What a search may be told wrongly, or not at all.
@@ -14,5 +16,14 @@ inline constexpr const char* kSpoils[] = {"nipple", "pectoral", "abdomen"};
 /// Throws std::runtime_error where the case has no marker to take away, or its files are missing.
 void spoil_registration_case(const std::filesystem::path& made, const std::string& spoil,
                              const std::filesystem::path& folder);
+
+/// Draws a round fold of abdomen over the breast's lower end into an oblique mammogram.
+void add_abdomen(const std::filesystem::path& mammogram);
+
+/// Copies the files of a case.
+void copy_case(const std::filesystem::path& made, const std::filesystem::path& folder);
+
+/// A mammogram as the PNG of 16 bits that it was read from.
+void write_grey(const std::filesystem::path& path, const MammogramImage& image);
 
 }  // namespace mammotwin

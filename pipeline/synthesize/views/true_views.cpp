@@ -15,24 +15,22 @@
 namespace mammotwin {
 namespace {
 
-constexpr double kSpringFactor = 3, kSkinFactor = 2, kPaddleTilt = 3;  // [-], [-], [deg]
-constexpr double kTrueFriction = 0.45;  // typical of dry skin, above what is assumed
-constexpr double kStiffening = 1;  // at half the thickness, I1 - 3 = 1.25, a modulus of 3.5 times
+constexpr double kSkinFactor = 2;
 
-CompressionSettings true_settings(double stiffness_ratio) {
+CompressionSettings true_settings(const TrueTissue& tissue) {
   CompressionSettings s;
   const double lesion_over_gland = s.lesion.c1_kpa / s.fibroglandular.c1_kpa;
-  s.fibroglandular.c1_kpa = stiffness_ratio * s.fat.c1_kpa;
+  s.fibroglandular.c1_kpa = tissue.stiffness_ratio * s.fat.c1_kpa;
   s.lesion.c1_kpa = lesion_over_gland * s.fibroglandular.c1_kpa;
   for (LawSettings* law : {&s.fat, &s.fibroglandular, &s.lesion}) {
     law->law = LawName::exponential;
-    law->stiffening = kStiffening;
+    law->stiffening = tissue.stiffening;
   }
-  s.boundary.chest_wall_spring *= kSpringFactor;
+  s.boundary.chest_wall_spring *= tissue.springs;
   s.boundary.wall_smoothing = 0;  // as it was drawn
   s.skin.c1 *= kSkinFactor;
-  s.paddle_tilt_deg = kPaddleTilt;
-  s.friction.coefficient = kTrueFriction;
+  s.paddle_tilt_deg = tissue.paddle_tilt_deg;
+  s.friction.coefficient = tissue.friction;
   return s;
 }
 
@@ -48,7 +46,7 @@ MeshFile true_mesh(const Segmentation& truth, const Eigen::Vector3i& elements) {
 MeshFile unloaded_truth(const Segmentation& truth, const DrawnPatient& drawn) {
   MeshFile file = true_mesh(truth, drawn.true_elements);
   const TissueSampler tissue = tissue_of(file, truth.fractions);
-  BreastProblem problem = breast_problem(file, tissue, true_settings(drawn.stiffness_ratio), 1);
+  BreastProblem problem = breast_problem(file, tissue, true_settings(drawn.tissue), 1);
   problem.gravity = gravity_in_lps(Pose::prone);
   problem.density = GravitySettings().density();
   UnloadOptions options;
@@ -74,13 +72,13 @@ Eigen::Matrix3d true_axes(Side side, const DrawnView& drawn) {
 
 TrueBreast::TrueBreast(const SyntheticPatient& patient, const DrawnPatient& drawn)
     : truth_(true_segmentation(patient.tissue, patient.labels, patient.truth)),
-      stiffness_ratio_(drawn.stiffness_ratio),
+      tissue_(drawn.tissue),
       side_(drawn.patient.anatomy.side),
       unloaded_(unloaded_truth(truth_, drawn)),
       prone_(unloaded_.configurations.at("prone"), unloaded_.mesh.elements()) {}
 
 TrueView TrueBreast::compress_view(const DrawnView& drawn) const {
-  const CompressionSettings settings = true_settings(stiffness_ratio_);
+  const CompressionSettings settings = true_settings(tissue_);
   CompressionProblem problem{
       breast_problem(unloaded_, tissue_of(unloaded_, truth_.fractions), settings, 1), {}, {}};
   problem.gravity = gravity_in_lps(Pose::standing);
@@ -102,11 +100,13 @@ TrueView TrueBreast::compress_view(const DrawnView& drawn) const {
       drawn.name, side_, drawn.header_angle_deg + drawn.roll_deg, result.report.thickness_mm, {}};
   view.frame.axes = axes;
   const Eigen::Vector3d across = problem.plates.depth.cross(problem.plates.up);
-  view.frame.origin_in_lps =
-      problem.plates.depth * result.plates.edge + problem.plates.up * result.plates.support_height +
-      across * result.plates.lateral_middle + axes.row(1).transpose() * drawn.shift_mm;
+  view.frame.origin_in_lps = problem.plates.depth * (result.plates.edge + drawn.edge_mm) +
+                             problem.plates.up * result.plates.support_height +
+                             across * result.plates.lateral_middle +
+                             axes.row(1).transpose() * drawn.shift_mm;
   return {view, HermiteMesh(result.deformed, unloaded_.mesh.elements()),
-          std::round(10 * (result.report.thickness_mm + drawn.thickness_error_mm)) / 10};
+          std::round(10 * (result.report.thickness_mm + drawn.thickness_error_mm)) / 10,
+          drawn.marker, drawn.edge_mm < 0};
 }
 
 }  // namespace mammotwin

@@ -22,12 +22,26 @@ struct DrawnView {
   double shift_mm = 0;       ///< of the detector's middle, sideways
   double compressed_fraction = 0.5;
   double thickness_error_mm = 0;  ///< of the header
+  /// Detector's edge in front of the plates' edge; behind it (negative), the picture also shows
+  /// what lies behind the breast: in CC more of the same tissue, in MLO muscle.
+  double edge_mm = 0;
+  bool marker = true;  ///< of metal on the nipple
+};
+
+/// Tissue of a true breast, against what the registering model assumes.
+struct TrueTissue {
+  double stiffness_ratio = 1;  ///< fibroglandular over fat
+  double stiffening =
+      1;  ///< exponent; 1: at half the thickness, I1 - 3 = 1.25, a modulus of 3.5 times
+  double springs = 3;      ///< times those assumed
+  double friction = 0.45;  ///< with the plates: typical of dry skin, above what is assumed
+  double paddle_tilt_deg = 3;
 };
 
 /// A body, its tissue, and how each view of it was taken.
 struct DrawnPatient {
   PatientOptions patient;
-  double stiffness_ratio = 1;              ///< fibroglandular over fat
+  TrueTissue tissue;
   Eigen::Vector3i true_elements{8, 8, 3};  ///< of the truth's mesh
   std::optional<Eigen::Vector3i>
       elements;  ///< of the mesh that registers; absent: as `fit` chooses
@@ -39,10 +53,11 @@ struct TrueView {
   CompressedView view;
   HermiteMesh compressed;
   double header_thickness_mm = 0;
+  bool marker = true, behind = false;  ///< shown: of metal on the nipple; what lies behind
 };
 
-/// Truth by another model than the one that registers: exponential stiffening, springs three times
-/// and skin twice as stiff, a paddle tilted by 3 degrees, standing gravity, finer mesh. `unloaded`
+/// Truth by another model than the one that registers: exponential stiffening, other springs,
+/// friction and paddle (TrueTissue), skin twice as stiff, standing gravity, finer mesh. `unloaded`
 /// is the shape free of stress in this model, its configuration "prone" the body as made.
 class TrueBreast {
  public:
@@ -56,7 +71,7 @@ class TrueBreast {
 
  private:
   Segmentation truth_;
-  double stiffness_ratio_;
+  TrueTissue tissue_;
   Side side_;
   MeshFile unloaded_;
   HermiteMesh prone_;

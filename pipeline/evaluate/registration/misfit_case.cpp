@@ -1,0 +1,126 @@
+#include "pipeline/evaluate/registration/misfit_case.h"
+
+#include <algorithm>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <stdexcept>
+#include <vector>
+
+#include "pipeline/evaluate/registration/spoilt_case.h"
+#include "pipeline/frame/products.h"
+#include "registration/mammogram/mammogram_picture.h"
+
+namespace mammotwin {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+constexpr const char* kPictures[] = {"cc.png", "mlo.png"};
+
+MammogramImage flipped(const MammogramImage& image, bool columns) {
+  MammogramImage other = image;
+  for (int row = 0; row < image.rows; ++row)
+    for (int column = 0; column < image.columns; ++column)
+      other.at(column, row) = columns ? image.at(image.columns - 1 - column, row)
+                                      : image.at(column, image.rows - 1 - row);
+  return other;
+}
+
+bool wall_at_left(const MammogramImage& image) {
+  double left = 0, right = 0;
+  for (int row = 0; row < image.rows; ++row) {
+    left += image.at(0, row);
+    right += image.at(image.columns - 1, row);
+  }
+  return left > right;
+}
+
+using Table = std::vector<std::vector<std::string>>;  // name, MRI (3), CC (2), MLO (2)
+
+Table read_table(const fs::path& path) {
+  std::ifstream in(path);
+  if (!in) throw std::runtime_error(path.string() + ": no such file");
+  Table table;
+  for (std::string line; std::getline(in, line);) {
+    std::istringstream cells(line);
+    table.emplace_back();
+    for (std::string cell; std::getline(cells, cell, ',');) table.back().push_back(cell);
+    if (table.back().size() != 8) throw std::runtime_error(path.string() + ": not 8 columns");
+  }
+  return table;
+}
+
+void write_table(const fs::path& path, const Table& table) {
+  std::string text;
+  for (const auto& line : table)
+    for (std::size_t n = 0; n < line.size(); ++n)
+      text += line[n] + (n + 1 < line.size() ? "," : "\n");
+  write_text_atomically(path, text);
+}
+
+void turn_upside_down(const fs::path& folder) {
+  Table marks = read_table(folder / "landmarks.csv");
+  for (std::size_t view = 0; view < 2; ++view) {
+    const fs::path path = folder / kPictures[view];
+    const MammogramImage image = read_mammogram_picture(path);
+    write_grey(path, flipped(image, false));
+    for (std::size_t n = 1; n < marks.size(); ++n) {
+      std::string& row = marks[n][5 + 2 * view];
+      row = std::to_string(image.rows - 1 - std::stod(row));
+    }
+  }
+  write_table(folder / "landmarks.csv", marks);
+}
+
+void exchange_views(const fs::path& made, const fs::path& folder) {
+  for (std::size_t view = 0; view < 2; ++view)
+    fs::copy_file(made / kPictures[view], folder / kPictures[1 - view],
+                  fs::copy_options::overwrite_existing);
+  Table marks = read_table(folder / "landmarks.csv");
+  for (std::size_t n = 1; n < marks.size(); ++n)
+    for (int k = 0; k < 2; ++k) std::swap(marks[n][4 + k], marks[n][6 + k]);
+  write_table(folder / "landmarks.csv", marks);
+}
+
+}  // namespace
+
+void make_misfit_case(const fs::path& made, const fs::path& another, const std::string& misfit,
+                      const fs::path& folder) {
+  if (fs::exists(folder / "patient.toml")) return;
+  const fs::path unfinished = folder.string() + ".part";
+  copy_case(made, unfinished);
+  if (misfit == "upside_down") {
+    turn_upside_down(unfinished);
+  } else if (misfit == "views_exchanged") {
+    exchange_views(made, unfinished);
+  } else {
+    for (const char* picture : kPictures) {
+      const MammogramImage own = read_mammogram_picture(made / picture);
+      MammogramImage shown =
+          misfit == "other_breast" ? flipped(own, true) : read_mammogram_picture(another / picture);
+      if (misfit == "another_patient" && wall_at_left(shown) != wall_at_left(own))
+        shown = flipped(shown, true);
+      write_grey(unfinished / picture, shown);
+    }
+  }
+  fs::rename(unfinished, folder);
+}
+
+void judge_misfit(json& row) {
+  bool registered = false;
+  for (const std::string view : {"cc", "mlo"}) {
+    const json search = row.value("search", json::object());
+    const std::string end = !row["reason"].is_null() ? "refused"
+                            : search.contains(view)  ? search[view].value("end", "none")
+                                                     : "none";
+    row["end_" + view] = end;
+    registered |= end == "ok" || end == "look";
+  }
+  const json inside = row["lesions"]["inside_90"];
+  row["lesions_in_90"] = inside;
+  row["noticed"] = !registered || (inside.is_number() && inside.get<double>() == 1);
+}
+
+}  // namespace mammotwin
