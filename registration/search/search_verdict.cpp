@@ -23,6 +23,7 @@ constexpr std::array<Words, kStates> kWords = {{{"thickness", "mm"},
                                                 {"tilt of the paddle", "degrees"},
                                                 {"stiffness of gland over fat", ""},
                                                 {"stiffness of the chest wall's springs", ""},
+                                                {"friction with the plates", ""},
                                                 {"turn on the detector", "degrees"},
                                                 {"place in depth", "mm"},
                                                 {"place sideways", "mm"}}};
@@ -41,11 +42,33 @@ std::string outline_sentence(double rms_mm) {
 
 std::string state_sentence(int number, double value, double limit) {
   const Words& words = kWords[number];
+  if (number == kFriction)
+    return text_of("the mammogram asks for another %s, by %.2f; beyond %.2f is unusual", words.what,
+                   value, limit);
   if (shared_by_views(number))
-    return text_of("the mammogram asks for %.2f times the %s; beyond %.2f is not believed",
+    return text_of("the mammogram asks for %.2f times the %s; beyond %.2f is unusual",
                    std::exp(value), words.what, std::exp(limit));
-  return text_of("the mammogram asks for another %s, by %.1f %s; beyond %.1f is not believed",
+  return text_of("the mammogram asks for another %s, by %.1f %s; beyond %.1f is unusual",
                  words.what, value, words.unit, limit);
+}
+
+/// Of numbers that nobody expects.
+std::vector<std::string> strange_state(const ViewState& state, const EdgePrior& edge) {
+  std::vector<std::string> why;
+  for (int i = 0; i < kStates; ++i) {
+    const double reach = no_registration::kStateDeviations * edge.sd[i];
+    const double low = std::min(0.0, edge.mean[i]) - reach;
+    const double high = std::max(0.0, edge.mean[i]) + reach;
+    if (state[i] < low || state[i] > high)
+      why.push_back(state_sentence(i, state[i], state[i] < low ? low : high));
+  }
+  return why;
+}
+
+/// No other breast, view or state shows this pattern.
+bool surely_this_breast(const MatchFigures& left) {
+  return left.pattern_correlation && *left.pattern_correlation >= kCorrelationInPlace &&
+         left.outline_rms_mm <= kPoorOutline_mm;
 }
 
 std::vector<std::string> why_none(const MatchFigures& left, const ViewState& state,
@@ -57,18 +80,14 @@ std::vector<std::string> why_none(const MatchFigures& left, const ViewState& sta
   if (left.pattern_correlation && *left.pattern_correlation < no_registration::kCorrelation)
     why.push_back(text_of("the patterns of dense tissue correlate by %.2f only, less than %.1f",
                           *left.pattern_correlation, no_registration::kCorrelation));
-  for (int i = 0; i < kStates; ++i) {
-    const double reach = no_registration::kStateDeviations * edge.sd[i];
-    const double low = std::min(0.0, edge.mean[i]) - reach;
-    const double high = std::max(0.0, edge.mean[i]) + reach;
-    if (state[i] < low || state[i] > high)
-      why.push_back(state_sentence(i, state[i], state[i] < low ? low : high));
-  }
+  if (surely_this_breast(left)) return why;
+  for (std::string& sentence : strange_state(state, edge)) why.push_back(std::move(sentence));
   return why;
 }
 
-std::vector<std::string> why_look(const MatchFigures& left, bool complete) {
-  std::vector<std::string> why;
+std::vector<std::string> why_look(const MatchFigures& left, const ViewState& state,
+                                  const EdgePrior& edge, bool complete) {
+  std::vector<std::string> why = strange_state(state, edge);
   if (left.outline_rms_mm > kPoorOutline_mm) why.push_back(outline_sentence(left.outline_rms_mm));
   if (left.nipple_mm && *left.nipple_mm > std::max(kPoorNipple_mm, 2 * left.nipple_sd_mm))
     why.push_back(
@@ -113,7 +132,7 @@ SearchVerdict judge_search(const std::string& view, const MatchFigures& left,
   std::string prefix = view + ": no registration: ";
   std::vector<std::string> why = why_none(left, state, edge);
   if (why.empty()) {
-    why = why_look(left, complete);
+    why = why_look(left, state, edge, complete);
     verdict.end = why.empty() ? SearchEnd::ok : SearchEnd::look;
     prefix = view + ": ";
   }

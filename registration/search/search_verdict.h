@@ -34,7 +34,9 @@ inline constexpr double kStateDeviations = 2;  ///< of a number's prior
 /// Judges what a search of `view` left: differences, and the state in physical units. A state's
 /// number is held against its prior; the place on the detector and the turn may lie anywhere
 /// between where the plates are (0) and where the edge is expected, or the prior's two standard
-/// deviations beyond.
+/// deviations beyond. A state beyond that is `look` where the pattern correlates as only that of
+/// the same breast in place does (kCorrelationInPlace) and the outline lies on the mammogram's;
+/// else no registration.
 SearchVerdict judge_search(const std::string& view, const MatchFigures& left,
                            const ViewState& state, const EdgePrior& edge, bool complete);
 

@@ -110,7 +110,7 @@ TEST(NearbySolver, KeepsTheBreastsMiddleInItsPlaceAtEveryAngle) {
 }
 
 // A thickness more than 2 mm above the base cannot be posed, so its sample is the one at half of
-// the standard deviation of 3 mm. The quadratic still goes through all that was solved.
+// the standard deviation of 4 mm. The quadratic still goes through all that was solved.
 TEST(ReducedView, TakesWhatIsFoundNearerToTheBase) {
   const NearbySolver whole = dome_solver();
   const NearbySolver solver(whole.base(), [](const ViewState& state) {
@@ -123,7 +123,7 @@ TEST(ReducedView, TakesWhatIsFoundNearerToTheBase) {
   EXPECT_EQ(view.failed_solves, 2 * (kMechanical - 1));
   view.base = in_view(solver.soft_base()->result.deformed, solver.soft_base()->view.frame);
   for (const double z : {0.5, -1.0}) {
-    const auto solved = whole.solve(3 * z * ViewState::Unit(kThickness));
+    const auto solved = whole.solve(prior_sd()[kThickness] * z * ViewState::Unit(kThickness));
     ASSERT_TRUE(solved);
     Nodes off = view.nodes_at(z * ViewState::Unit(kThickness));
     const Nodes there = in_view(solved->result.deformed, solved->view.frame);

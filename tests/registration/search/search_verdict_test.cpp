@@ -58,16 +58,39 @@ TEST(SearchVerdict, IsNoRegistrationWithAnotherPattern) {
   EXPECT_EQ(judged(left).end, SearchEnd::ok);
 }
 
+/// As good, but for a pattern that could be another breast's.
+MatchFigures weak() { return {1.2, 3.0, 3.0, 0.7}; }
+
 TEST(SearchVerdict, IsNoRegistrationWithAStateBeyondTwoDeviations) {
   ViewState state = ViewState::Zero();
-  state[kRoll] = 7.9;  // of 4 degrees
-  EXPECT_EQ(judged(good(), state).end, SearchEnd::ok);
-  state[kRoll] = -8.1;
-  EXPECT_EQ(judged(good(), state).end, SearchEnd::no_registration);
-  EXPECT_TRUE(says(judged(good(), state), "another roll, by -8.1 degrees; beyond -8.0"));
+  state[kRoll] = 11.9;  // of 6 degrees
+  EXPECT_EQ(judged(weak(), state).end, SearchEnd::ok);
+  state[kRoll] = -12.1;
+  EXPECT_EQ(judged(weak(), state).end, SearchEnd::no_registration);
+  EXPECT_TRUE(says(judged(weak(), state), "another roll, by -12.1 degrees; beyond -12.0"));
   state = ViewState::Zero();
   state[kStiffnessRatio] = 1.5;  // ln; e^1.5 = 4.48, e^1.4 = 4.06
-  EXPECT_TRUE(says(judged(good(), state), "4.48 times the stiffness of gland over fat"));
+  EXPECT_TRUE(says(judged(weak(), state), "4.48 times the stiffness of gland over fat"));
+  state = ViewState::Zero();
+  state[kFriction] = -0.31;  // of 0.15
+  EXPECT_TRUE(
+      says(judged(weak(), state), "another friction with the plates, by -0.31; beyond -0.30"));
+  state = ViewState::Zero();
+  state[kShiftLateral] = 25;  // of 12 mm
+  EXPECT_TRUE(says(judged(weak(), state), "another place sideways, by 25.0 mm; beyond 24.0"));
+}
+
+TEST(SearchVerdict, AsksToLookAtAStrangeStateOfSurelyThisBreast) {
+  ViewState state = ViewState::Zero();
+  state[kRoll] = 12.1;
+  EXPECT_EQ(judged(good(), state).end, SearchEnd::look);
+  EXPECT_TRUE(says(judged(good(), state), "mlo: the mammogram asks for another roll, by 12.1"));
+  MatchFigures left = good();
+  left.outline_rms_mm = 5.1;
+  EXPECT_EQ(judged(left, state).end, SearchEnd::no_registration);
+  left = good();
+  left.pattern_correlation.reset();
+  EXPECT_EQ(judged(left, state).end, SearchEnd::no_registration);
 }
 
 TEST(SearchVerdict, LetsADetectorStandWhereDetectorsDo) {
@@ -80,7 +103,7 @@ TEST(SearchVerdict, LetsADetectorStandWhereDetectorsDo) {
   }
   for (const double shift : {-13.0, 43.0}) {
     state[kShiftDepth] = shift;
-    EXPECT_EQ(judged(good(), state, edge).end, SearchEnd::no_registration) << shift;
+    EXPECT_EQ(judged(weak(), state, edge).end, SearchEnd::no_registration) << shift;
   }
 }
 
