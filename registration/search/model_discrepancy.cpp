@@ -13,6 +13,8 @@ const double kNinety = std::sqrt(2 * std::log(10));  // 90 % ellipse over sd
 // Independent pieces of pattern are kPatternPiece_mm wide: that is pi l^2 for this autocorrelation.
 const double kPatternLength_mm = kPatternPiece_mm / std::sqrt(M_PI);
 
+const double kExplained = std::sqrt(2 * std::log(20));  // sds that hold 95 % in the plane
+
 double root_beyond(double squared, double expected) {
   return std::sqrt(std::max(0.0, squared - expected * expected));
 }
@@ -28,7 +30,7 @@ ModelDiscrepancy model_discrepancy(const MatchFigures& left) {
   ModelDiscrepancy d;
   const double r = left.outline_rms_mm;
   d.outline_mm = std::max(root_beyond(r * r, kOutlineSd_mm), r / kNinety);
-  if (left.nipple_mm)
+  if (left.nipple_mm && *left.nipple_mm > kExplained * left.nipple_sd_mm)
     d.nipple_mm = root_beyond(*left.nipple_mm * *left.nipple_mm / 2, left.nipple_sd_mm);
   if (left.pattern_correlation) {
     const double c = std::max(no_registration::kCorrelation, *left.pattern_correlation);

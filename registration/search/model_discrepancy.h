@@ -15,7 +15,8 @@ struct ModelDiscrepancy {
   /// Of the outline's RMS r beyond the sd s = 2 mm with which it was weighed: sqrt(r^2 - s^2); at
   /// least r / sqrt(2 ln 10), with which no 90 % ellipse is narrower than the outline is off.
   double outline_mm = 0;
-  /// Of the nipple's distance d beyond its own sd s each way: sqrt(d^2 / 2 - s^2).
+  /// Of the nipple's distance d beyond its own sd s each way: sqrt(d^2 / 2 - s^2); none within
+  /// sqrt(2 ln 20) s, where 95 % of the nipples lie that are found with that sd.
   double nipple_mm = 0;
   /// Errors of sd e each way smear a pattern whose autocorrelation is exp(-d^2 / (2 l^2)) to a
   /// correlation c0 / (1 + e^2 / l^2), c0 being that of the same breast in place: e = l sqrt(c0 / c

@@ -152,6 +152,9 @@ TEST(ModelDiscrepancy, CountsANippleBeyondWhatIsKnownOfIt) {
   EXPECT_NEAR(model_discrepancy(left).nipple_mm, std::sqrt(191), 1e-12);
   left.nipple_sd_mm = 15;
   EXPECT_EQ(model_discrepancy(left).nipple_mm, 0);
+  // A nipple found with 40 mm that turns out 94 mm off was looked for in the wrong place.
+  left.nipple_mm = 94, left.nipple_sd_mm = 40;
+  EXPECT_EQ(model_discrepancy(left).nipple_mm, 0);
 }
 
 // At half of the correlation in place, errors are as large as the pattern's length, 15 / sqrt(pi).
