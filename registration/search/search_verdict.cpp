@@ -65,12 +65,6 @@ std::vector<std::string> strange_state(const ViewState& state, const EdgePrior& 
   return why;
 }
 
-/// No other breast, view or state shows this pattern.
-bool surely_this_breast(const MatchFigures& left) {
-  return left.pattern_correlation && *left.pattern_correlation >= kCorrelationInPlace &&
-         left.outline_rms_mm <= kPoorOutline_mm;
-}
-
 std::vector<std::string> why_none(const MatchFigures& left, const ViewState& state,
                                   const EdgePrior& edge) {
   std::vector<std::string> why;
@@ -80,7 +74,7 @@ std::vector<std::string> why_none(const MatchFigures& left, const ViewState& sta
   if (left.pattern_correlation && *left.pattern_correlation < no_registration::kCorrelation)
     why.push_back(text_of("the patterns of dense tissue correlate by %.2f only, less than %.1f",
                           *left.pattern_correlation, no_registration::kCorrelation));
-  if (surely_this_breast(left)) return why;
+  if (surely_in_place(left)) return why;
   for (std::string& sentence : strange_state(state, edge)) why.push_back(std::move(sentence));
   return why;
 }
@@ -128,7 +122,7 @@ const char* name_of(SearchEnd end) {
 
 SearchVerdict judge_search(const std::string& view, const MatchFigures& left,
                            const ViewState& state, const EdgePrior& edge, bool complete) {
-  SearchVerdict verdict{SearchEnd::no_registration, {}};
+  SearchVerdict verdict{SearchEnd::no_registration, {}, surely_in_place(left)};
   std::string prefix = view + ": no registration: ";
   std::vector<std::string> why = why_none(left, state, edge);
   if (why.empty()) {
@@ -149,7 +143,7 @@ void judge_together(const std::vector<std::string>& views, std::vector<SearchVer
   for (std::size_t v = 0; v < verdicts.size(); ++v) {
     SearchVerdict& verdict = verdicts[v];
     if (failed(verdict)) continue;
-    const bool doubtful = verdict.end == SearchEnd::look;
+    const bool doubtful = verdict.end == SearchEnd::look && !verdict.in_place;
     verdict.end = doubtful ? SearchEnd::no_registration : SearchEnd::look;
     verdict.reasons.push_back(views[v] + (doubtful ? ": no registration: " : ": registered, but ") +
                               beside);

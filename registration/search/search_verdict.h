@@ -22,6 +22,7 @@ const char* name_of(SearchEnd end);
 struct SearchVerdict {
   SearchEnd end = SearchEnd::none;
   std::vector<std::string> reasons;  ///< sentences with numbers and units
+  bool in_place = false;             ///< surely (view_match.h), whatever else is strange
 };
 
 /// Beyond these a model lies on no mammogram, or on another breast's.
@@ -34,14 +35,14 @@ inline constexpr double kStateDeviations = 2;  ///< of a number's prior
 /// Judges what a search of `view` left: differences, and the state in physical units. A state's
 /// number is held against its prior; the place on the detector and the turn may lie anywhere
 /// between where the plates are (0) and where the edge is expected, or the prior's two standard
-/// deviations beyond. A state beyond that is `look` where the pattern correlates as only that of
-/// the same breast in place does (kCorrelationInPlace) and the outline lies on the mammogram's;
-/// else no registration.
+/// deviations beyond. A state beyond that is `look` where the view is surely in place
+/// (view_match.h), else no registration.
 SearchVerdict judge_search(const std::string& view, const MatchFigures& left,
                            const ViewState& state, const EdgePrior& edge, bool complete);
 
 /// Views are searched together, and their mammograms are of one breast: beside one with no
-/// registration, `ok` becomes `look` and `look` no registration. `views` are their names.
+/// registration, `ok` becomes `look`, and `look` no registration unless it is surely in place.
+/// `views` are their names.
 void judge_together(const std::vector<std::string>& views, std::vector<SearchVerdict>& verdicts);
 
 }  // namespace mammotwin

@@ -63,6 +63,12 @@ Eigen::Vector2d edge_centre(const std::vector<Eigen::Vector2d>& outline) {
 
 }  // namespace
 
+bool surely_in_place(const MatchFigures& left) {
+  constexpr double most_outline_mm = 5;
+  return left.pattern_correlation && *left.pattern_correlation >= kCorrelationInPlace &&
+         left.outline_rms_mm <= most_outline_mm;
+}
+
 ViewEvidence view_evidence(const MammogramImage& image, const MammogramFindings& findings,
                            const Detector& detector) {
   ViewEvidence evidence;

@@ -36,6 +36,10 @@ struct MatchFigures {
   std::optional<double> pattern_correlation;  ///< absent: none to compare
 };
 
+/// The pattern correlates as only that of the same breast in place does, and the outline lies
+/// within 5 mm of the mammogram's.
+bool surely_in_place(const MatchFigures& left);
+
 /// Standard deviations that differences are held against.
 struct MatchNoise {
   double outline_mm;

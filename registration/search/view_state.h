@@ -41,7 +41,7 @@ inline constexpr std::array<const char*, kStates> kStateNames = {
 /// 0.02 to 0.2 kPa/mm, friction as it differs between people and materials (Zhang and Mak 1999).
 inline ViewState prior_sd() {
   ViewState sd;
-  sd << 4, 6, 4, 4, 2, 0.7, 1.1, 0.15, 3, 4, 12;
+  sd << 4, 6, 4, 4, 2, 0.7, 1.1, 0.15, 3, 12, 12;
   return sd;
 }
 

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cmath>
+#include <random>
+
 #include "registration/carry/point_carrier.h"
 #include "registration/search/view_match.h"
 #include "tests/registration/squeezed_box.h"
@@ -12,6 +15,28 @@ inline std::vector<FaceLabels> skin_of(const HermiteMesh& box) {
   skin.fill(FaceLabel::skin);
   skin[3] = FaceLabel::chest_wall;  // y = 0
   return std::vector<FaceLabels>(box.num_elements(), skin);
+}
+
+/// Gland in strands and lumps of 15 to 40 mm, other ones for each seed.
+inline Volume<Fractions> gland(unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> uniform;
+  std::vector<Eigen::Vector4d> waves;
+  for (int n = 0; n < 12; ++n) {
+    const double angle = 2 * M_PI * uniform(random), length = 15 + 25 * uniform(random);
+    waves.push_back({2 * M_PI / length * std::cos(angle), 2 * M_PI / length * std::sin(angle),
+                     0.1 * uniform(random), 2 * M_PI * uniform(random)});
+  }
+  Volume<Fractions> volume({50, 30, 40}, Eigen::Vector3d::Constant(2), {21, -59, -39});
+  for (int k = 0; k < 40; ++k)
+    for (int j = 0; j < 30; ++j)
+      for (int i = 0; i < 50; ++i) {
+        double sum = 0;
+        for (const Eigen::Vector4d& w : waves)
+          sum += std::cos(w.head<3>().dot(volume.position(i, j, k)) + w[3]);
+        volume(i, j, k) = pure_fractions(sum > 0 ? label::fibroglandular : label::fat);
+      }
+  return volume;
 }
 
 /// The squeezed box as a view that gets wider by 5 % a standard deviation of `kThickness`.

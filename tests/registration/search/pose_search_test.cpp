@@ -30,17 +30,17 @@ TEST(PoseSearch, FindsTurnAndShiftThatMadeTheOutline) {
   EXPECT_EQ(found.states[0][kThickness], 0);
 }
 
-// 24 mm, six of its standard deviations, as an edge behind the chest wall asks for. The prior's
-// pull beyond two is 2, so that it moves the optimum by 2 c, c the variance left (0.03): 0.07. A
-// Gaussian's pull of 6 would move it by 0.2.
+// 48 mm, four of its standard deviations, as an edge behind the chest wall asks for. The prior's
+// pull beyond two is 2, so that it moves the optimum by 2 c, c the variance left (0.0034): 0.007. A
+// Gaussian's pull of 4 would move it by 0.014.
 TEST(PoseSearch, FollowsAnEdgeThatStandsCentimetresOff) {
   const BoxView box;
   ViewState truth = ViewState::Zero();
-  truth[kShiftDepth] = -6;
+  truth[kShiftDepth] = -4;
   const ViewMatch match = box.match(truth);
   const PoseEstimate found = search_pose({&match}, {ViewState::Zero()}, true);
   const double left = found.covariances[0](kShiftDepth, kShiftDepth);
-  EXPECT_NEAR(found.states[0][kShiftDepth], -6 + 2 * left, 0.01);
+  EXPECT_NEAR(found.states[0][kShiftDepth], -4 + 2 * left, 0.003);
   EXPECT_LT(left, 0.05);
 }
 

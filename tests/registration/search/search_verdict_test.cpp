@@ -108,8 +108,8 @@ TEST(SearchVerdict, LetsADetectorStandWhereDetectorsDo) {
 }
 
 TEST(SearchVerdict, DoubtsTheViewBesideOneWithoutARegistration) {
-  const auto beside = [](SearchEnd end) {
-    std::vector<SearchVerdict> verdicts{{SearchEnd::no_registration, {}}, {end, {}}};
+  const auto beside = [](SearchEnd end, bool in_place = false) {
+    std::vector<SearchVerdict> verdicts{{SearchEnd::no_registration, {}}, {end, {}, in_place}};
     judge_together({"cc", "mlo"}, verdicts);
     EXPECT_TRUE(verdicts[0].reasons.empty());
     return verdicts[1];
@@ -119,6 +119,7 @@ TEST(SearchVerdict, DoubtsTheViewBesideOneWithoutARegistration) {
   EXPECT_EQ(beside(SearchEnd::look).end, SearchEnd::no_registration);
   EXPECT_TRUE(says(beside(SearchEnd::look), "mlo: what is shown is the prediction without"));
   EXPECT_TRUE(beside(SearchEnd::no_registration).reasons.empty());
+  EXPECT_EQ(beside(SearchEnd::look, true).end, SearchEnd::look);
   std::vector<SearchVerdict> fine{{SearchEnd::ok, {}}, {SearchEnd::look, {}}};
   judge_together({"cc", "mlo"}, fine);
   EXPECT_EQ(fine[0].end, SearchEnd::ok);
