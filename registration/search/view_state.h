@@ -36,9 +36,10 @@ inline constexpr std::array<const char*, kStates> kStateNames = {
 
 /// Standard deviations before any mammogram is looked at. Thickness as read off machines (a few mm:
 /// compression paddles bend); angle and pose as radiographers differ, who roll a breast on the
-/// support by more degrees than they turn the gantry off what the header says; moduli by a factor
-/// of two as the literature does, springs by a factor of three as they are only known to lie in
-/// 0.02 to 0.2 kPa/mm, friction as it differs between people and materials (Zhang and Mak 1999).
+/// support by more degrees than they turn the gantry off what the header says; the place on the
+/// detector by centimetres (its edge: edge_prior.h); moduli by a factor of two as the literature
+/// does, springs by a factor of three as they are only known to lie in 0.02 to 0.2 kPa/mm, friction
+/// as it differs between people and materials (Zhang and Mak 1999).
 inline ViewState prior_sd() {
   ViewState sd;
   sd << 4, 6, 4, 4, 2, 0.7, 1.1, 0.15, 3, 12, 12;
