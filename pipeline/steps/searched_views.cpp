@@ -67,6 +67,7 @@ json search_json(const SearchedView& view) {
           {"before", figures_json(*view.before)},
           {"after", figures_json(*view.after)},
           {"refined", refined},
+          {"baseline", view.baseline_left ? figures_json(*view.baseline_left) : json()},
           {"evidence_variance", view.evidence_variance},
           {"complete", view.complete},
           {"failed_solves", view.failed_solves}};

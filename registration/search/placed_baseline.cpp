@@ -25,19 +25,19 @@ HermiteMesh prone_of(const MeshFile& compressed) {
   return HermiteMesh(compressed.configurations.at("prone"), compressed.mesh.elements());
 }
 
-AffineBaseline placed_baseline(const MeshFile& compressed, CompressedView view, double thickness_mm,
+PlacedBaseline placed_baseline(const MeshFile& compressed, CompressedView view, double thickness_mm,
                                const Eigen::Vector3d& nipple_in_lps, const Detector& detector,
                                const std::optional<ViewEvidence>& evidence) {
   view.thickness_mm = thickness_mm;
   const HermiteMesh prone = prone_of(compressed);
   AffineBaseline baseline(prone, view);
-  if (!evidence) return baseline;
+  if (!evidence) return {baseline, {}};
   const ViewMatch match(rigid_view(prone, baseline), compressed.faces, prone, nullptr,
                         nipple_in_lps, detector, *evidence);
-  const ViewState state =
-      search_pose({&match}, {ViewState::Zero()}, true).states.front().cwiseProduct(prior_sd());
+  const ViewState z = search_pose({&match}, {ViewState::Zero()}, true).states.front();
+  const ViewState state = z.cwiseProduct(prior_sd());
   baseline.place(state[kTurn], {state[kShiftDepth], state[kShiftLateral]});
-  return baseline;
+  return {baseline, match.figures(z)};
 }
 
 }  // namespace mammotwin

@@ -5,9 +5,14 @@
 
 namespace mammotwin {
 
+struct PlacedBaseline {
+  AffineBaseline baseline;
+  std::optional<MatchFigures> left;  ///< to a mammogram, if there is one
+};
+
 /// The baseline of a compressed view at a thickness; with evidence, turned and shifted to the
 /// mammogram's outline and nipple as the model is.
-AffineBaseline placed_baseline(const MeshFile& compressed, CompressedView view, double thickness_mm,
+PlacedBaseline placed_baseline(const MeshFile& compressed, CompressedView view, double thickness_mm,
                                const Eigen::Vector3d& nipple_in_lps, const Detector& detector,
                                const std::optional<ViewEvidence>& evidence);
 

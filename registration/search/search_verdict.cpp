@@ -10,6 +10,7 @@ namespace {
 // What is worth a look. Half of the correlation in place: errors are as large as the pattern's
 // length.
 constexpr double kPoorOutline_mm = 5, kPoorNipple_mm = 10;
+constexpr double kNearer_mm = 1;  // that a baseline explains an outline better
 constexpr double kPoorCorrelation = kCorrelationInPlace / 2;
 
 /// What a number of the state is called, and in what it is counted; of logarithms, the factor.
@@ -80,8 +81,14 @@ std::vector<std::string> why_none(const MatchFigures& left, const ViewState& sta
 }
 
 std::vector<std::string> why_look(const MatchFigures& left, const ViewState& state,
-                                  const EdgePrior& edge, bool complete) {
+                                  const EdgePrior& edge, bool complete,
+                                  const std::optional<MatchFigures>& baseline) {
   std::vector<std::string> why = strange_state(state, edge);
+  if (baseline && baseline->outline_rms_mm + kNearer_mm < left.outline_rms_mm)
+    why.push_back(
+        text_of("a breast without mechanics (the baseline) lies %.1f mm (RMS) off the mammogram's "
+                "outline, nearer than the model's %.1f mm",
+                baseline->outline_rms_mm, left.outline_rms_mm));
   if (left.outline_rms_mm > kPoorOutline_mm) why.push_back(outline_sentence(left.outline_rms_mm));
   if (left.nipple_mm && *left.nipple_mm > std::max(kPoorNipple_mm, 2 * left.nipple_sd_mm))
     why.push_back(
@@ -121,12 +128,13 @@ const char* name_of(SearchEnd end) {
 }
 
 SearchVerdict judge_search(const std::string& view, const MatchFigures& left,
-                           const ViewState& state, const EdgePrior& edge, bool complete) {
+                           const ViewState& state, const EdgePrior& edge, bool complete,
+                           const std::optional<MatchFigures>& baseline) {
   SearchVerdict verdict{SearchEnd::no_registration, {}, surely_in_place(left)};
   std::string prefix = view + ": no registration: ";
   std::vector<std::string> why = why_none(left, state, edge);
   if (why.empty()) {
-    why = why_look(left, state, edge, complete);
+    why = why_look(left, state, edge, complete, baseline);
     verdict.end = why.empty() ? SearchEnd::ok : SearchEnd::look;
     prefix = view + ": ";
   }

@@ -45,7 +45,7 @@ ViewUncertainty uncertainty(const ReducedView& reduced, const ViewState& z,
   return result;
 }
 
-AffineBaseline baseline_of(const SearchInput& input, const CompressedView& view,
+PlacedBaseline baseline_of(const SearchInput& input, const CompressedView& view,
                            const Eigen::Vector3d& nipple_in_lps) {
   return placed_baseline(input.file, view, view.thickness_mm, nipple_in_lps, input.detector,
                          input.evidence);
@@ -60,8 +60,9 @@ EdgePrior edge_of(const SearchInput& input, const Eigen::Vector3d& nipple_in_lps
 SearchedView unmatched(const SearchInput& input, const ReducedView& reduced, const EdgePrior& edge,
                        const Eigen::Vector3d& nipple_in_lps) {
   const CompressedView view = laid_on_detector(input.view, edge.mean);
-  SearchedView result{view, input.file.mesh,
-                      baseline_of(input, input.evidence ? input.view : view, nipple_in_lps)};
+  SearchedView result{
+      view, input.file.mesh,
+      baseline_of(input, input.evidence ? input.view : view, nipple_in_lps).baseline};
   result.uncertainty = uncertainty(reduced, ViewState::Zero(), input.view.frame);
   result.uncertainty.sd = edge.sd;
   result.uncertainty.covariance = edge.covariance;
@@ -90,10 +91,12 @@ SearchedView matched(const SearchInput& input, const ViewToSearch& found, const 
   const ViewState& z = end.states[number];
   const ViewState state = z.cwiseProduct(reduced.sd);
   const CompressedView& view = found.solved.view;
-  SearchedView result{
-      laid_on_detector(view, state),
-      HermiteMesh(in_lps(reduced.nodes_at(z), view.frame), reduced.elements),
-      baseline_of(input, with_thickness(input.view, view.thickness_mm), nipple_in_lps)};
+  const PlacedBaseline baseline =
+      baseline_of(input, with_thickness(input.view, view.thickness_mm), nipple_in_lps);
+  SearchedView result{laid_on_detector(view, state),
+                      HermiteMesh(in_lps(reduced.nodes_at(z), view.frame), reduced.elements),
+                      baseline.baseline};
+  result.baseline_left = baseline.left;
   result.uncertainty = uncertainty(reduced, z, view.frame);
   result.uncertainty.covariance = end.pose.covariances[number];
   result.what_if = what_if_shapes(reduced, z, view.frame);
@@ -166,8 +169,8 @@ std::vector<SearchedView> search_views(const std::vector<SearchInput>& inputs,
     found.push_back(matched(inputs[v], searched[m], end, m, nipple_in_lps));
     found[m].before = before[m];
     names.push_back(inputs[v].view.name);
-    verdicts.push_back(
-        judge_search(names[m], *found[m].after, found[m].state, edges[v], found[m].complete));
+    verdicts.push_back(judge_search(names[m], *found[m].after, found[m].state, edges[v],
+                                    found[m].complete, found[m].baseline_left));
   }
   judge_together(names, verdicts);
   for (std::size_t m = 0; m < searched.size(); ++m) {

@@ -28,7 +28,7 @@ struct SearchedView {
   ViewUncertainty uncertainty{};
   WhatIfShapes what_if{};
   ViewState state = ViewState::Zero(), state_sd = ViewState::Zero();  ///< physical units
-  std::optional<MatchFigures> before{}, after{};
+  std::optional<MatchFigures> before{}, after{}, baseline_left{};
   std::optional<ViewRefinement> refinement{};  ///< of a view that lies on its mammogram
   SearchVerdict verdict{};
   ModelDiscrepancy discrepancy{};  ///< of a view that was searched

@@ -93,6 +93,15 @@ TEST(SearchVerdict, AsksToLookAtAStrangeStateOfSurelyThisBreast) {
   EXPECT_EQ(judged(left, state).end, SearchEnd::no_registration);
 }
 
+TEST(SearchVerdict, SaysThatTheBaselineLiesNearer) {
+  const auto beside = [](double rms_mm) {
+    return judge_search("cc", good(), ViewState::Zero(), {}, true, MatchFigures{rms_mm, {}, 3, {}});
+  };
+  EXPECT_EQ(beside(0.3).end, SearchEnd::ok);  // the model's is 1.2
+  EXPECT_EQ(beside(0.1).end, SearchEnd::look);
+  EXPECT_TRUE(says(beside(0.1), "lies 0.1 mm (RMS) off the mammogram's outline, nearer than"));
+}
+
 TEST(SearchVerdict, LetsADetectorStandWhereDetectorsDo) {
   EdgePrior edge;
   edge.mean[kShiftDepth] = 30, edge.sd[kShiftDepth] = 6;
