@@ -13,6 +13,7 @@ const double kNinety = std::sqrt(2 * std::log(10));  // 90 % ellipse over sd
 // Independent pieces of pattern are kPatternPiece_mm wide: that is pi l^2 for this autocorrelation.
 const double kPatternLength_mm = kPatternPiece_mm / std::sqrt(M_PI);
 
+constexpr double kInPlace = 0.88;
 const double kExplained = std::sqrt(2 * std::log(20));  // sds that hold 95 % in the plane
 
 double root_beyond(double squared, double expected) {
@@ -34,7 +35,7 @@ ModelDiscrepancy model_discrepancy(const MatchFigures& left) {
     d.nipple_mm = root_beyond(*left.nipple_mm * *left.nipple_mm / 2, left.nipple_sd_mm);
   if (left.pattern_correlation) {
     const double c = std::max(no_registration::kCorrelation, *left.pattern_correlation);
-    d.pattern_mm = kPatternLength_mm * std::sqrt(std::max(0.0, kCorrelationInPlace / c - 1));
+    d.pattern_mm = kPatternLength_mm * std::sqrt(std::max(0.0, kInPlace / c - 1));
   }
   return d;
 }

@@ -170,11 +170,12 @@ TEST(ModelDiscrepancy, CountsANippleBeyondWhatIsKnownOfIt) {
 // At half of the correlation in place, errors are as large as the pattern's length, 15 / sqrt(pi).
 TEST(ModelDiscrepancy, GrowsAsThePatternFades) {
   MatchFigures left = good();
-  EXPECT_EQ(model_discrepancy(left).pattern_mm, 0);  // 0.8 is more than 0.755
-  left.pattern_correlation = 0.755 / 2;
+  left.pattern_correlation = 0.9;
+  EXPECT_EQ(model_discrepancy(left).pattern_mm, 0);
+  left.pattern_correlation = 0.88 / 2;
   EXPECT_NEAR(model_discrepancy(left).pattern_mm, 15 / std::sqrt(M_PI), 1e-9);
   left.pattern_correlation = -0.3;
-  EXPECT_NEAR(model_discrepancy(left).pattern_mm, 15 / std::sqrt(M_PI) * std::sqrt(0.755 / 0.2 - 1),
+  EXPECT_NEAR(model_discrepancy(left).pattern_mm, 15 / std::sqrt(M_PI) * std::sqrt(0.88 / 0.2 - 1),
               1e-9);
 }
 
