@@ -45,7 +45,7 @@ contents() {
   contents 'How it works' theory ../segmentation/README ../fitting/README ../fitting/mesh/README ../solver/README \
     ../registration/README ../pipeline/README ../pipeline/report/README ../pipeline/slicer/README \
     ../pipeline/cohort/README ../pipeline/synthesize/README ../pipeline/install/README ../CONTRIBUTING
-  contents 'What was measured' measured/README 'measured/[a-z]*' ../pipeline/evaluate/README \
+  contents 'What was measured' measured/README 'measured/[a-z]*' ../pipeline/evaluate/README ../pipeline/evaluate/registration/README \
     ../pipeline/evaluate/niftysim/README ../pipeline/evaluate/victre/README ../pipeline/validation/README \
     ../tests/benchmarks/README ../tests/fuzz/README 'measured/notes/*' ../sample_data/README '../sample_data/*/README'
 } >> "$pages/docs/index.md"

@@ -65,7 +65,7 @@ DrawnView hard_view(CounterRandom& random, const std::string& name, double angle
 }
 
 /// Patient n, from n alone: body, tissue that is unlike the registering model's, and how each view
-/// was taken. The law is in pipeline/evaluate/README.md. `coarse`: few elements in the truth and in
+/// was taken. The law is in README.md. `coarse`: few elements in the truth and in
 /// the model, so that it takes seconds instead of minutes.
 DrawnPatient draw_registration(int number, Difficulty difficulty, int attempt = 0) {
   const bool hard = difficulty == Difficulty::hard;

@@ -10,7 +10,7 @@ enum class Difficulty { coarse, easy, hard };
 /// Makes synthetic patient n in `folder`: mri.nrrd, cc.png, mlo.png, patient.toml, landmarks.csv
 /// (lesions first, then points spread through the gland) and drawn.json. What is there already is
 /// kept. `coarse`: easy on few elements, to try it out; what is hard stands in
-/// pipeline/evaluate/README.md. Throws std::runtime_error where the truth cannot be made.
+/// README.md. Throws std::runtime_error where the truth cannot be made.
 void make_registration_case(int number, Difficulty difficulty, const std::filesystem::path& folder);
 
 /// Makes patient 042 with tomosynthesis in place of both mammograms: cc.dcm, mlo.dcm (all that
