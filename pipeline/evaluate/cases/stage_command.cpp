@@ -7,6 +7,7 @@
 
 #include <cerrno>
 #include <fstream>
+#include <mutex>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
@@ -33,6 +34,14 @@ std::vector<char*> pointers_to(std::vector<std::string>& words) {
   _exit(127);  // as a shell says that a program was not found
 }
 
+/// One at a time: before each fork ITK joins the threads of its pool, and two that fork at once
+/// would join them twice, which ends the program.
+pid_t fork_alone() {
+  static std::mutex forking;
+  const std::lock_guard<std::mutex> alone(forking);
+  return fork();
+}
+
 double seconds_of(const timeval& time) { return time.tv_sec + 1e-6 * time.tv_usec; }
 
 }  // namespace
@@ -44,7 +53,7 @@ StageEnd run_program(const fs::path& program, const std::vector<std::string>& ar
   const std::vector<char*> argv = pointers_to(words);
   const int output = open(log.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
   if (output < 0) throw std::runtime_error(log.string() + ": cannot be written");
-  const pid_t child = fork();
+  const pid_t child = fork_alone();
   if (child == 0) become(argv.data(), output, most_cpu_seconds);
   close(output);
   if (child < 0) throw std::runtime_error("no process could be made for " + words.front());
