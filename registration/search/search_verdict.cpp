@@ -7,11 +7,10 @@
 namespace mammotwin {
 namespace {
 
-// What is worth a look. Half of the correlation in place: errors are as large as the pattern's
-// length.
+// What is worth a look.
 constexpr double kPoorOutline_mm = 5, kPoorNipple_mm = 10;
 constexpr double kNearer_mm = 1;  // that a baseline explains an outline better
-constexpr double kPoorCorrelation = kCorrelationInPlace / 2;
+constexpr double kPoorCorrelation = 0.65;
 
 /// What a number of the state is called, and in what it is counted; of logarithms, the factor.
 struct Words {

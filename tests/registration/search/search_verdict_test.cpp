@@ -53,7 +53,9 @@ TEST(SearchVerdict, IsNoRegistrationWithAnotherPattern) {
   MatchFigures left = good();
   left.pattern_correlation = 0.07;
   EXPECT_EQ(judged(left).end, SearchEnd::no_registration);
-  EXPECT_TRUE(says(judged(left), "correlate by 0.07 only, less than 0.2"));
+  EXPECT_TRUE(says(judged(left), "correlate by 0.07 only, less than 0.4"));
+  left.pattern_correlation = 0.41;
+  EXPECT_EQ(judged(left).end, SearchEnd::look);
   left.pattern_correlation.reset();  // none to compare tells nothing
   EXPECT_EQ(judged(left).end, SearchEnd::ok);
 }
@@ -175,7 +177,7 @@ TEST(ModelDiscrepancy, GrowsAsThePatternFades) {
   left.pattern_correlation = 0.88 / 2;
   EXPECT_NEAR(model_discrepancy(left).pattern_mm, 15 / std::sqrt(M_PI), 1e-9);
   left.pattern_correlation = -0.3;
-  EXPECT_NEAR(model_discrepancy(left).pattern_mm, 15 / std::sqrt(M_PI) * std::sqrt(0.88 / 0.2 - 1),
+  EXPECT_NEAR(model_discrepancy(left).pattern_mm, 15 / std::sqrt(M_PI) * std::sqrt(0.88 / 0.4 - 1),
               1e-9);
 }
 
