@@ -28,13 +28,13 @@ MammogramImage flipped(const MammogramImage& image, bool columns) {
   return other;
 }
 
+/// By its halves: the outermost columns may be dark.
 bool wall_at_left(const MammogramImage& image) {
-  double left = 0, right = 0;
-  for (int row = 0; row < image.rows; ++row) {
-    left += image.at(0, row);
-    right += image.at(image.columns - 1, row);
-  }
-  return left > right;
+  double left_over_right = 0;
+  for (int row = 0; row < image.rows; ++row)
+    for (int column = 0; column < image.columns / 2; ++column)
+      left_over_right += image.at(column, row) - image.at(image.columns - 1 - column, row);
+  return left_over_right > 0;
 }
 
 using Table = std::vector<std::vector<std::string>>;  // name, MRI (3), CC (2), MLO (2)

@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 MammogramImage picture(float grey, bool wall_at_left) {
   MammogramImage image{40, 30, std::vector<float>(40 * 30, 0)};
   for (int row = 5; row < 25; ++row)
-    for (int depth = 0; depth < 20; ++depth)
+    for (int depth = 1; depth < 20; ++depth)  // the outermost column is dark
       image.at(wall_at_left ? depth : 39 - depth, row) = 20000 + (row < 15 ? grey : 0);
   return image;
 }
