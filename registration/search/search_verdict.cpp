@@ -130,6 +130,7 @@ SearchVerdict judge_search(const std::string& view, const MatchFigures& left,
                            const ViewState& state, const EdgePrior& edge, bool complete,
                            const std::optional<MatchFigures>& baseline) {
   SearchVerdict verdict{SearchEnd::no_registration, {}, surely_in_place(left)};
+  verdict.weak_pattern = left.pattern_correlation && *left.pattern_correlation < kPoorCorrelation;
   std::string prefix = view + ": no registration: ";
   std::vector<std::string> why = why_none(left, state, edge);
   if (why.empty()) {
@@ -143,6 +144,16 @@ SearchVerdict judge_search(const std::string& view, const MatchFigures& left,
 }
 
 void judge_together(const std::vector<std::string>& views, std::vector<SearchVerdict>& verdicts) {
+  if (verdicts.size() > 1 && std::all_of(verdicts.begin(), verdicts.end(),
+                                         [](const SearchVerdict& v) { return v.weak_pattern; }))
+    for (std::size_t v = 0; v < verdicts.size(); ++v) {
+      if (verdicts[v].end == SearchEnd::no_registration) continue;
+      verdicts[v].end = SearchEnd::no_registration;
+      verdicts[v].reasons.push_back(views[v] +
+                                    ": no registration: no view's pattern of dense tissue is "
+                                    "surely this breast's; are CC and MLO exchanged?");
+      verdicts[v].reasons.push_back(what_is_shown(views[v]));
+    }
   const auto failed = [](const SearchVerdict& v) { return v.end == SearchEnd::no_registration; };
   const auto first = std::find_if(verdicts.begin(), verdicts.end(), failed);
   if (first == verdicts.end()) return;

@@ -23,14 +23,14 @@ struct SearchVerdict {
   SearchEnd end = SearchEnd::none;
   std::vector<std::string> reasons;  ///< sentences with numbers and units
   bool in_place = false;             ///< surely (view_match.h), whatever else is strange
+  bool weak_pattern = false;         ///< that alone asks for a look
 };
 
 /// Beyond these a model lies on no mammogram, or on another breast's.
 namespace no_registration {
 inline constexpr double kOutline_mm = 8;  ///< RMS
-/// Of the pattern of dense tissue, at least. Searches against mammograms of other patients or
-/// upside down found 0.2 to 0.36 (and once 0.63, in a state beyond belief); in place, 0.55 and
-/// more.
+/// Of the pattern of dense tissue, at least: searches against mammograms of other patients found
+/// 0.2 to 0.4, breasts in place 0.55 and more.
 inline constexpr double kCorrelation = 0.4;
 inline constexpr double kStateDeviations = 2;  ///< of a number's prior
 }  // namespace no_registration
@@ -46,8 +46,9 @@ SearchVerdict judge_search(const std::string& view, const MatchFigures& left,
                            const std::optional<MatchFigures>& baseline = {});
 
 /// Views are searched together, and their mammograms are of one breast: beside one with no
-/// registration, `ok` becomes `look`, and `look` no registration unless it is surely in place.
-/// `views` are their names.
+/// registration, `ok` becomes `look`, and `look` no registration unless it is surely in place;
+/// views that all have a weak pattern have no registration (so CC and MLO exchanged). `views` are
+/// their names.
 void judge_together(const std::vector<std::string>& views, std::vector<SearchVerdict>& verdicts);
 
 }  // namespace mammotwin

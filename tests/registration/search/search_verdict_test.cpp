@@ -137,6 +137,21 @@ TEST(SearchVerdict, DoubtsTheViewBesideOneWithoutARegistration) {
   EXPECT_EQ(fine[1].end, SearchEnd::look);
 }
 
+TEST(SearchVerdict, BelievesNoViewWhereAllPatternsAreWeak) {
+  MatchFigures left = good();
+  left.pattern_correlation = 0.55;
+  std::vector<SearchVerdict> both{judged(left), judged(left)}, one{judged(good()), judged(left)},
+      alone{judged(left)};
+  judge_together({"cc", "mlo"}, both);
+  EXPECT_EQ(both[0].end, SearchEnd::no_registration);
+  EXPECT_TRUE(says(both[1], "mlo: no registration: no view's pattern"));
+  judge_together({"cc", "mlo"}, one);
+  EXPECT_EQ(one[0].end, SearchEnd::ok);
+  EXPECT_EQ(one[1].end, SearchEnd::look);
+  judge_together({"cc"}, alone);
+  EXPECT_EQ(alone[0].end, SearchEnd::look);
+}
+
 TEST(ModelDiscrepancy, LeavesNoEllipseSmallerThanTheOutlineIsOff) {
   for (const double rms : {0.5, 1.9, 2.1, 5.0, 9.6}) {
     MatchFigures left = good();
