@@ -1,8 +1,6 @@
 #include "registration/search/pose_search.h"
 
 #include <ceres/cost_function.h>
-#include <ceres/problem.h>
-#include <ceres/solver.h>
 #include <tbb/parallel_for.h>
 
 #include <Eigen/Cholesky>
@@ -10,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "registration/search/dense_descent.h"
 #include "registration/search/huber.h"
 
 namespace mammotwin {
@@ -200,15 +199,7 @@ class Search {
     ceres::Problem problem;
     problem.AddResidualBlock(new PoseCost(residuals_, z, with_pattern), nullptr, z.data());
     joint_.bound(problem, z.data());
-    ceres::Solver::Options options;
-    options.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
-    options.max_num_iterations = kMostIterations;
-    options.function_tolerance = kGain;
-    options.initial_trust_region_radius = kFirstRadius;
-    options.logging_type = ceres::SILENT;
-    ceres::Solver::Summary summary;
-    ceres::Solve(options, &problem, &summary);
-    return summary.num_successful_steps;
+    return descend_dense(problem, {kMostIterations, kGain, kFirstRadius});
   }
 
   Joint joint_;

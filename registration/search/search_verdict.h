@@ -30,7 +30,7 @@ struct SearchVerdict {
 namespace no_registration {
 inline constexpr double kOutline_mm = 8;  ///< RMS
 /// Of the pattern of dense tissue, at least: searches against mammograms of other patients found
-/// 0.2 to 0.4, breasts in place 0.55 and more.
+/// 0.26 to 0.42, breasts in place 0.55 and more.
 inline constexpr double kCorrelation = 0.4;
 inline constexpr double kStateDeviations = 2;  ///< of a number's prior
 }  // namespace no_registration

@@ -1,12 +1,12 @@
 #include "registration/search/view_refinement.h"
 
 #include <ceres/cost_function.h>
-#include <ceres/problem.h>
-#include <ceres/solver.h>
 
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+
+#include "registration/search/dense_descent.h"
 
 namespace mammotwin {
 namespace {
@@ -124,14 +124,7 @@ ViewRefinement refine_view(ViewMatch& match, const ViewState& z) {
   Eigen::VectorXd w = Eigen::VectorXd::Zero(cost->parameter_block_sizes()[0]);
   ceres::Problem problem;
   problem.AddResidualBlock(cost, nullptr, w.data());
-  ceres::Solver::Options options;
-  options.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
-  options.max_num_iterations = kMostRefinements;
-  options.function_tolerance = kRefinementGain;
-  options.initial_trust_region_radius = kRefinementRadius;
-  options.logging_type = ceres::SILENT;
-  ceres::Solver::Summary summary;
-  ceres::Solve(options, &problem, &summary);
+  descend_dense(problem, {kMostRefinements, kRefinementGain, kRefinementRadius});
   ViewRefinement refinement{cost->deformation(w), {}};
   match.deform(refinement.deformation);
   refinement.left = match.figures(z);

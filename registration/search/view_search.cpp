@@ -118,9 +118,7 @@ SearchedView refined(SearchedView found, ViewToSearch& searched, const ViewState
   const ReducedView& reduced = searched.match.view();
   const ViewFrame& frame = searched.solved.view.frame;
   found.compressed = HermiteMesh(in_lps(reduced.nodes_at(z), frame), reduced.elements);
-  for (int i = 0; i < kMechanical; ++i)
-    if (!found.uncertainty.varied[i].empty())
-      found.uncertainty.varied[i] = in_lps(reduced.nodes_along_slope(z, i), frame);
+  found.uncertainty.varied = uncertainty(reduced, z, frame).varied;
   found.what_if = what_if_shapes(reduced, z, frame);
   return found;
 }

@@ -1,14 +1,13 @@
 #include "pipeline/evaluate/registration/misfit_case.h"
 
-#include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <sstream>
 #include <stdexcept>
 #include <vector>
 
 #include "pipeline/evaluate/registration/spoilt_case.h"
 #include "pipeline/frame/products.h"
+#include "registration/export/csv.h"
 #include "registration/mammogram/mammogram_picture.h"
 
 namespace mammotwin {
@@ -44,9 +43,7 @@ Table read_table(const fs::path& path) {
   if (!in) throw std::runtime_error(path.string() + ": no such file");
   Table table;
   for (std::string line; std::getline(in, line);) {
-    std::istringstream cells(line);
-    table.emplace_back();
-    for (std::string cell; std::getline(cells, cell, ',');) table.back().push_back(cell);
+    table.push_back(csv::cells(line));
     if (table.back().size() != 8) throw std::runtime_error(path.string() + ": not 8 columns");
   }
   return table;

@@ -33,40 +33,40 @@ constexpr int kHardNumbers = 500;     // beyond these
 constexpr double kNippleOff_mm = 10;  // in every second hard patient's MRI
 constexpr int kPoints = 20;           // landmarks beside the lesions
 
-DrawnView easy_view(CounterRandom& random, const std::string& name, double angle_deg) {
-  DrawnView view;
-  view.name = name;
-  view.header_angle_deg = angle_deg;
-  view.roll_deg = random.uniform(-5, 5);
-  view.turn_deg = random.uniform(-4, 4);
-  view.lift_mm = random.uniform(-5, 5);
-  view.clearance_mm = random.uniform(6, 16);
-  view.shift_mm = random.uniform(-15, 15);
-  view.compressed_fraction = random.uniform(0.45, 0.58);
-  view.thickness_error_mm = random.uniform() < 0.5 ? -3 : 3;
-  return view;
-}
-
+/// What a view is drawn from, each way.
+struct ViewRanges {
+  double roll_deg, turn_deg, lift_mm, shift_mm;
+  double least_compressed, most_compressed;
+};
+constexpr ViewRanges kEasy{5, 4, 5, 15, 0.45, 0.58};
 /// As radiographers differ at most, and not by a standard deviation.
-DrawnView hard_view(CounterRandom& random, const std::string& name, double angle_deg) {
+constexpr ViewRanges kHard{15, 8, 8, 25, 0.4, 0.6};
+
+DrawnView draw_view(CounterRandom& random, bool hard, const std::string& name, double angle_deg) {
+  const ViewRanges& ranges = hard ? kHard : kEasy;
+  const auto either_way = [&](double most) { return random.uniform(-most, most); };
   DrawnView view;
   view.name = name;
   view.header_angle_deg = angle_deg;
-  view.roll_deg = random.uniform(-15, 15);
-  view.turn_deg = random.uniform(-8, 8);
-  view.lift_mm = random.uniform(-8, 8);
+  view.roll_deg = either_way(ranges.roll_deg);
+  view.turn_deg = either_way(ranges.turn_deg);
+  view.lift_mm = either_way(ranges.lift_mm);
   view.clearance_mm = random.uniform(6, 16);
-  view.shift_mm = random.uniform(-25, 25);
-  view.compressed_fraction = random.uniform(0.4, 0.6);
-  view.thickness_error_mm = random.uniform(-8, 8);
+  view.shift_mm = either_way(ranges.shift_mm);
+  view.compressed_fraction = random.uniform(ranges.least_compressed, ranges.most_compressed);
+  if (!hard) {
+    view.thickness_error_mm = random.uniform() < 0.5 ? -3 : 3;
+    return view;
+  }
+  view.thickness_error_mm = either_way(8);
   view.edge_mm = angle_deg == 0 ? random.uniform(-20, 15) : random.uniform(-40, 0);
   view.marker = random.uniform() < 0.5;
   return view;
 }
 
 /// Patient n, from n alone: body, tissue that is unlike the registering model's, and how each view
-/// was taken. The law is in README.md. `coarse`: few elements in the truth and in
-/// the model, so that it takes seconds instead of minutes.
+/// was taken. The law is in README.md. Coarse: few elements in the truth and in the model, so that
+/// it takes seconds instead of minutes.
 DrawnPatient draw_registration(int number, Difficulty difficulty, int attempt = 0) {
   const bool hard = difficulty == Difficulty::hard;
   number += hard ? kHardNumbers : 0;
@@ -91,8 +91,8 @@ DrawnPatient draw_registration(int number, Difficulty difficulty, int attempt = 
   const double factor = number % 2 ? 2 : 0.5;  // off what the registering model assumes
   const CompressionSettings assumed;
   drawn.tissue.stiffness_ratio = factor * assumed.fibroglandular.c1_kpa / assumed.fat.c1_kpa;
-  const auto draw_view = hard ? hard_view : easy_view;
-  drawn.views = {draw_view(random, "cc", 0), draw_view(random, "mlo", random.uniform(40, 50))};
+  drawn.views = {draw_view(random, hard, "cc", 0),
+                 draw_view(random, hard, "mlo", random.uniform(40, 50))};
   if (hard) {
     drawn.tissue.stiffening = random.uniform(0.5, 2.5);
     drawn.tissue.springs = std::exp(random.uniform(std::log(0.4), std::log(4)));
