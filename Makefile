@@ -37,7 +37,7 @@ unexport MAKEFLAGS MAKEOVERRIDES
 
 .PHONY: help patient segment fit unload compress register report slicer paraview synthesize exam cohort verify-results \
         evaluate-segmentation evaluate-fitting evaluate-compression evaluate-unload evaluate-gravity evaluate-registration \
-        evaluate-stability evaluate-stabilisation evaluate-other-meshes evaluate-what-if evaluate-page evaluate-outlines evaluate-mammograms evaluate-mammogram-changes evaluate-tomosynthesis evaluate-real-pairs evaluate-niftysim evaluate-victre measured validate bench chain programs configured \
+        evaluate-stability evaluate-refinement evaluate-stabilisation evaluate-other-meshes evaluate-what-if evaluate-page evaluate-outlines evaluate-mammograms evaluate-mammogram-changes evaluate-tomosynthesis evaluate-real-pairs evaluate-niftysim evaluate-victre measured validate bench chain programs configured \
         configured_to_test install docs test clean
 .NOTPARALLEL:  # ninja itself uses all cores
 .DEFAULT_GOAL := help
@@ -67,6 +67,8 @@ help:
 	@echo 'make evaluate-stability  presses the label maps of CASES again with their input changed in ways that must'
 	@echo '                       not matter: RESULTS/evaluation/stability.json; ONLY="Exam_02-left Exam_04",'
 	@echo '                       CHANGES="turn_5 mirror", VIEWS=cc (hours for all)'
+	@echo 'make evaluate-refinement  presses 042 and the real cases of CASES with coarser and finer meshes:'
+	@echo '                       RESULTS/evaluation/refinement.json; ONLY=Exam_02-left'
 	@echo 'make evaluate-stabilisation  presses 042 and the real cases of CASES with more and less of the term'
 	@echo '                       that keeps the volume of each point: RESULTS/evaluation/stabilisation.json; ONLY=Exam_02-left'
 	@echo 'make evaluate-registration  registers SYNTHETIC=10 patients with mammograms of another model:'
@@ -142,6 +144,10 @@ evaluate-compression: mammotwin-evaluate-compression
 evaluate-stability: mammotwin-evaluate-stability
 	@"$$BIN/mammotwin-evaluate-stability" "$$CASES" "$$RESULTS/evaluation/stability.json" \
 	  $${ONLY:+--only $$ONLY} $${CHANGES:+--changes $$CHANGES} $${VIEWS:+--views $$VIEWS}
+
+evaluate-refinement: mammotwin-evaluate-refinement
+	@"$$BIN/mammotwin-evaluate-refinement" sample_data/042/patient.toml "$$CASES" \
+	  "$$RESULTS/evaluation/refinement.json" $${ONLY:+--only $$ONLY}
 
 evaluate-stabilisation: mammotwin-evaluate-stabilisation
 	@"$$BIN/mammotwin-evaluate-stabilisation" sample_data/042/patient.toml "$$CASES" \
