@@ -141,8 +141,8 @@ void declare_compression(Settings& s, CompressionSettings& c) {
            "Prosthet. Orthot. Int. 23, 1999)");
   s.number("compress.friction_slip_mm", c.friction.slip, {0.001, 1, "mm"},
            "slip up to which friction is elastic");
-  s.number("compress.gap_tolerance_mm", c.options.gap_tolerance, {0.0001, 0.1, "mm"},
-           "largest penetration of a plate");
+  s.number("compress.gap_tolerance_mm", c.options.gap_tolerance, {0.02, 1, "mm"},
+           "mean distance of plates from the skin that they press, weighed by pressure");
   s.number("compress.grad_div", c.options.solid.grad_div, {0, 100},
            "weight of the term that keeps each point's volume, over the shear modulus");
   s.number("compress.grad_div_quartic", c.options.solid.quartic, {0, 1000},

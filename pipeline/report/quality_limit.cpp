@@ -41,6 +41,7 @@ constexpr Limit kLimits[] = {
 
 constexpr Limit kOfViews[] = {
     {"", "volume_change", -limits::volume_change, limits::volume_change, ""},
+    {"", "mean_gap_mm", -kNone, limits::mean_gap_mm, " mm"},
     {"", "max_penetration_mm", -kNone, limits::penetration_mm, " mm"},
     {"", "imbalance_percent", -kNone, limits::imbalance_percent, " %"},
     {"", "J_within_half", limits::share_of_sane_J, kNone, ""},

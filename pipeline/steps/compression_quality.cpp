@@ -37,6 +37,7 @@ json quality_of(const CompressionReport& r, double angle_deg) {
           {"min_J", r.min_J},
           {"max_J", r.max_J},
           {"J_within_half", r.J_within_half},
+          {"mean_gap_mm", r.mean_gap_mm},
           {"max_penetration_mm", r.max_penetration_mm},
           {"imbalance_percent", 100 * r.imbalance},
           {"retained_fraction", r.retained_fraction},
@@ -80,6 +81,9 @@ Outcome judge_compression(const CompressionReport& r, const SidewaysEscape& esca
   doubt(std::abs(r.volume_change) > limits::volume_change,
         sentence("its volume changed by %.2f %%; expected under %.0f %%", 100 * r.volume_change,
                  100 * limits::volume_change));
+  doubt(r.mean_gap_mm > limits::mean_gap_mm,
+        sentence("the plates press %.2f mm beside the skin in the mean; expected under %.2f mm",
+                 r.mean_gap_mm, limits::mean_gap_mm));
   doubt(r.max_penetration_mm > limits::penetration_mm,
         sentence("a plate went %.3f mm into the breast; expected under %.1f mm",
                  r.max_penetration_mm, limits::penetration_mm));

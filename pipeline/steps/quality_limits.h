@@ -7,7 +7,8 @@ namespace mammotwin::limits {
 /// tissue keeps its volume.
 inline constexpr double thickness_error_mm = 0.1;  ///< compressed thickness off the one asked for
 inline constexpr double volume_change = 0.01;      ///< share, either way
-inline constexpr double penetration_mm = 0.1;      ///< of a plate
+inline constexpr double mean_gap_mm = 0.25;        ///< to the plates, weighed by their pressure
+inline constexpr double penetration_mm = 0.55;     ///< of a plate, at most anywhere
 inline constexpr double imbalance_percent = 0.1;   ///< of forces: it moves tissue by some 0.1 mm
 inline constexpr double share_of_sane_J = 0.99;    ///< of points, at least, with J within half of 1
 /// Mammograms show the nipple at the front and the breast spread, not rolled over.

@@ -10,7 +10,6 @@ namespace {
 
 constexpr const char* kPressure = "pressure_kpa";
 constexpr const char* kPlates = "plates";
-constexpr const char* kMultipliers = "contact_multipliers_kpa";
 constexpr const char* kHolds = "friction_holds";
 
 /// The field `plates`, number by number.
@@ -52,8 +51,6 @@ void write_solution(const SolutionRecord& solution, MeshFile& file) {
   std::vector<double>& plates = file.metadata[kPlates];
   plates.clear();
   for (const auto number : kPlateNumbers) plates.push_back(solution.*number);
-  file.metadata.erase(kMultipliers);
-  if (!solution.multipliers_kpa.empty()) file.metadata[kMultipliers] = solution.multipliers_kpa;
   file.metadata.erase(kHolds);
   if (!solution.holds.empty()) file.metadata[kHolds] = numbers_of(solution.holds);
 }
@@ -66,8 +63,6 @@ std::optional<SolutionRecord> read_solution(const MeshFile& file, const std::str
   SolutionRecord solution;
   solution.pressure_kpa = pressure->second;
   for (std::size_t i = 0; i < plates->size(); ++i) solution.*kPlateNumbers[i] = (*plates)[i];
-  if (const auto multipliers = file.metadata.find(kMultipliers); multipliers != file.metadata.end())
-    solution.multipliers_kpa = multipliers->second;
   if (const auto holds = file.metadata.find(kHolds); holds != file.metadata.end())
     solution.holds = holds_from(holds->second, name);
   return solution;
@@ -76,7 +71,6 @@ std::optional<SolutionRecord> read_solution(const MeshFile& file, const std::str
 void erase_solution(MeshFile& file) {
   file.metadata.erase(kPressure);
   file.metadata.erase(kPlates);
-  file.metadata.erase(kMultipliers);
   file.metadata.erase(kHolds);
 }
 

@@ -18,7 +18,6 @@ struct SolutionRecord {
   double lateral_middle_mm = 0;            ///< of the plates, sideways
   double penalty_kpa_per_mm = 0;           ///< of contact
   double target_thickness_mm = 0;          ///< asked of the plates
-  std::vector<double> multipliers_kpa;     ///< of contact, by surface point, then plate
   std::vector<PlateFriction::Hold> holds;  ///< of friction
 };
 

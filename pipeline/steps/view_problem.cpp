@@ -87,7 +87,7 @@ CompressionProblem view_problem(const Patient& patient, const ViewSettings& view
 void remember_solution(const CompressionResult& result, MeshFile& file) {
   write_solution({result.pressure, result.plates.support_height, result.plates.paddle_height,
                   result.plates.edge, result.plates.lateral_middle, result.penalty,
-                  result.report.target_thickness_mm, result.multipliers, result.holds},
+                  result.report.target_thickness_mm, result.holds},
                  file);
 }
 
@@ -104,7 +104,6 @@ std::optional<NearbySolver> nearby_solver(const Patient& patient, const Compress
   result.plates.edge = solution->edge_mm;
   result.plates.lateral_middle = solution->lateral_middle_mm;
   result.penalty = solution->penalty_kpa_per_mm;
-  result.multipliers = solution->multipliers_kpa;
   result.holds = solution->holds;
   result.report.target_thickness_mm = solution->target_thickness_mm;
   result.report.thickness_mm = view.thickness_mm;

@@ -16,7 +16,7 @@ namespace {
 constexpr double kStateNudge = 1e-4;
 // Of the penalty that the compression ended with: the softest at which the breast stays where it
 // is.
-constexpr std::array<double, 3> kSofter = {0.1, 0.3, 1};
+constexpr std::array<double, 2> kSofter = {0.3, 1};
 // Of the friction that holds neighbours [mm]. Against pressing anew at a standard deviation of each
 // number, Coulomb's friction from the solved state finds no equilibrium in a third of the cases;
 // springs of 0.5 to 2 mm come as near, of 5 mm and more let a breast go.
@@ -84,7 +84,6 @@ NearbySolver::NearbySolver(SolvedView base, ProblemAt problem_at)
   CompressionResult near = base_.result;
   // At a softer penalty they would press points that left their plate long since: a breast near
   // the brink of slipping backwards slid out altogether.
-  near.multipliers.clear();
   const double penalty = near.penalty;
   for (const double softer : kSofter) {
     near.penalty = softer * penalty;

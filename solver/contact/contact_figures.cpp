@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 
 namespace mammotwin {
 
@@ -15,10 +16,13 @@ void add_face(const Face& face, const SolidElement::Coefficients& x, const Plate
     const auto y = face.deformed(x, q);
     const Gap gap = contact.plates[plate].gap(y.head<3>());
     const SurfacePoint& point = face.point(q);
-    if (gap.gap >= kTouching && contact.pressure(gap.gap, point, plate) == 0) continue;
+    if (gap.gap >= kTouching && contact.pressure(gap.gap) == 0) continue;
     const double stretch =
         y.segment<3>(3).cross(y.segment<3>(6)).norm() / point.A1.cross(point.A2).norm();
-    Eigen::Vector3d force = contact.pressure(gap.gap, point, plate) * point.area * gap.normal;
+    const double load = contact.pressure(gap.gap) * point.area;
+    Eigen::Vector3d force = load * gap.normal;
+    figures.load += load;
+    figures.mean_gap += load * std::abs(gap.gap);
     if (friction) force += point.area * friction->traction(y.head<3>(), point, plate);
     figures.force += force;
     figures.moment += y.head<3>().cross(force);
@@ -38,24 +42,8 @@ ContactFigures contact_figures(const Model& model, const State& state, const Pla
       if (face.face() == number && face.points1d() == contact.points1d)
         add_face(face, x, contact, plate, friction, figures);
   }
+  if (figures.load > 0) figures.mean_gap /= figures.load;
   return figures;
-}
-
-std::vector<double> contact_pressures(const Model& model, const State& state,
-                                      const PlateContact& contact, const FaceList& faces) {
-  const std::size_t plates = contact.plates.size();
-  std::vector<double> pressures(model.num_surface_points() * plates, 0);
-  for (const auto& [e, number] : faces) {
-    const auto x = model.coefficients(state.x, e);
-    for (const Face& face : model.faces(e)) {
-      if (face.face() != number || face.points1d() != contact.points1d) continue;
-      for (int q = 0; q < face.num_points(); ++q)
-        for (std::size_t p = 0; p < plates; ++p)
-          pressures[face.point(q).index * plates + p] = contact.pressure(
-              contact.plates[p].gap(face.deformed(x, q).head<3>()).gap, face.point(q), p);
-    }
-  }
-  return pressures;
 }
 
 }  // namespace mammotwin

@@ -17,13 +17,11 @@ struct ContactFigures {
   Eigen::Vector3d moment = Eigen::Vector3d::Zero();  ///< of that force about the origin [mN mm]
   double area = 0;         ///< deformed area within 0.1 mm of the plate [mm²]
   double penetration = 0;  ///< largest [mm]
+  double load = 0;         ///< normal forces without their directions [mN]
+  double mean_gap = 0;     ///< mean |gap| weighed by pressure: 0 where contact is exact [mm]
 };
 ContactFigures contact_figures(const Model& model, const State& state, const PlateContact& contact,
                                int plate, const FaceList& faces,
                                const PlateFriction* friction = nullptr);
-
-/// What the plates press each surface point with, as PlateContact::multipliers has it [kPa].
-std::vector<double> contact_pressures(const Model& model, const State& state,
-                                      const PlateContact& contact, const FaceList& faces);
 
 }  // namespace mammotwin

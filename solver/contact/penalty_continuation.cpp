@@ -9,17 +9,11 @@ namespace {
 
 void add(NewtonReport& total, const NewtonReport& part) { total = then(total, part); }
 
-NewtonReport settle(Newton& newton, PlateContact& contact, NewtonOptions options, State& state) {
-  options.stabilise = [&contact](bool on) { contact.with_curvature = !on; };
-  const NewtonReport report = newton.solve(state, options);
-  contact.with_curvature = true;
-  return report;
-}
-
 /// Only has to come near. Friction stays as the last load step left it: of a soft penalty's
 /// pressures it is not the load's, and following them circled for ever on a breast of 1.4 l.
-NewtonReport approach(Newton& newton, PlateContact& contact, NewtonOptions options, State& state) {
-  return settle(newton, contact, loosened(options, 1e-2), state);
+NewtonReport approach(Newton& newton, const NewtonOptions& options, State& state) {
+  constexpr double near = 0.3;
+  return newton.solve(state, loosened(options, near));
 }
 
 }  // namespace
@@ -30,9 +24,10 @@ NewtonReport then(const NewtonReport& first, NewtonReport second) {
   return second;
 }
 
-NewtonReport resettle(Newton& newton, PlateContact& contact, NewtonOptions options, State& state) {
+NewtonReport resettle(Newton& newton, const PlateContact& contact, NewtonOptions options,
+                      State& state) {
   options.following = contact.follow;
-  return settle(newton, contact, std::move(options), state);
+  return newton.solve(state, options);
 }
 
 NewtonReport solve_contact(Newton& newton, PlateContact& contact, double unit,
@@ -42,7 +37,7 @@ NewtonReport solve_contact(Newton& newton, PlateContact& contact, double unit,
     const bool last = factor >= options.last * (1 - 1e-9);
     contact.penalty = factor * unit;
     add(total, last ? resettle(newton, contact, options.newton, state)
-                    : approach(newton, contact, options.newton, state));
+                    : approach(newton, options.newton, state));
     if (last || !total.usable()) return total;
   }
 }

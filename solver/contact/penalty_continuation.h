@@ -25,10 +25,10 @@ NewtonReport then(const NewtonReport& first, NewtonReport second);
 NewtonReport solve_contact(Newton& newton, PlateContact& contact, double unit,
                            const PenaltyOptions& options, State& state);
 
-/// Equilibrium near a state that already is one, after a small change of penalty or plates. The
-/// plates' curvature is left out of a matrix that would be indefinite with it. Friction's pressures
-/// are the state's own in the end.
-NewtonReport resettle(Newton& newton, PlateContact& contact, NewtonOptions options, State& state);
+/// Equilibrium near a state that already is one, after a small change of penalty or plates.
+/// Friction's pressures are the state's own in the end.
+NewtonReport resettle(Newton& newton, const PlateContact& contact, NewtonOptions options,
+                      State& state);
 
 /// Raises the penalty further until the largest penetration is at most `gap_tolerance` [mm] or a
 /// stiffer one finds no equilibrium; the last good state and penalty stay.

@@ -2,12 +2,12 @@
 
 namespace mammotwin {
 
-bool PlateContact::respond(const Eigen::Matrix<double, 9, 1>& y, const SurfacePoint& point,
-                           int order, SurfaceResponse& response) const {
+bool PlateContact::respond(const Eigen::Matrix<double, 9, 1>& y, const SurfacePoint&, int order,
+                           SurfaceResponse& response) const {
   bool touches = false;
   for (std::size_t p = 0; p < plates.size(); ++p) {
     const Gap gap = plates[p].gap(y.head<3>());
-    const double t = pressure(gap.gap, point, p);
+    const double t = pressure(gap.gap);
     if (t == 0) continue;
     if (!touches) {
       response.energy = 0;
@@ -19,7 +19,7 @@ bool PlateContact::respond(const Eigen::Matrix<double, 9, 1>& y, const SurfacePo
     response.gradient.head<3>() -= t * gap.normal;
     if (order < 2) continue;
     response.hessian.topLeftCorner<3, 3>() += penalty * gap.normal * gap.normal.transpose();
-    if (with_curvature) response.hessian.topLeftCorner<3, 3>() -= t * gap.hessian;
+    response.hessian.topLeftCorner<3, 3>() -= t * gap.hessian;
   }
   return touches;
 }

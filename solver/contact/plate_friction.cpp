@@ -81,7 +81,7 @@ void PlateFriction::track(const Model& model, const State& state,
           const Gap gap = contact_->plates[p].gap(x);
           Contact& contact = history_[point.index * plates + p];
           contact.normal = gap.normal.normalized();  // of smoothed facets it is no unit vector
-          const double pressure = contact_->pressure(gap.gap, point, p);
+          const double pressure = contact_->pressure(gap.gap);
           contact.pressure = share * pressure + (1 - share) * contact.pressure;
         }
       });

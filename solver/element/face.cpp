@@ -94,8 +94,23 @@ Eigen::Matrix<double, 9, 1> Face::deformed(const SolidElement::Coefficients& x, 
   return y;
 }
 
+namespace {
+
+void take_convex_part(SurfacePotential::Slots slots, Eigen::Matrix<double, 9, 9>& hessian) {
+  const auto [first, end] = slots;
+  if (first == 0 && end == 1)
+    hessian.topLeftCorner<3, 3>() = convex_part<3>(hessian.topLeftCorner<3, 3>());
+  else if (first == 1)
+    hessian.bottomRightCorner<6, 6>() = convex_part<6>(hessian.bottomRightCorner<6, 6>());
+  else
+    hessian = convex_part<9>(hessian);
+}
+
+}  // namespace
+
 void Face::add(const SurfacePotential& potential, const SolidElement::Coefficients& x,
-               bool with_tangent, ElementSystem& system) const {
+               TangentKind kind, ElementSystem& system) const {
+  const bool with_tangent = kind != TangentKind::none;
   const auto [first, end] = potential.slots();
   const auto& N = table(points1d_).slots;
   Eigen::Matrix<double, kFunctions, 3> c;
@@ -112,6 +127,7 @@ void Face::add(const SurfacePotential& potential, const SolidElement::Coefficien
       residual.setZero();
       if (with_tangent) tangent.setZero();
     }
+    if (kind == TangentKind::convex) take_convex_part(potential.slots(), response.hessian);
     touched = true;
     const double area = points_[q].area;
     system.energy += area * response.energy;

@@ -30,8 +30,8 @@ class Face {
   Eigen::Matrix<double, 9, 1> deformed(const SolidElement::Coefficients& x, int q) const;
 
   /// Adds the potential's energy, residual and (if asked) tangent to the element's.
-  void add(const SurfacePotential& potential, const SolidElement::Coefficients& x,
-           bool with_tangent, ElementSystem& system) const;
+  void add(const SurfacePotential& potential, const SolidElement::Coefficients& x, TangentKind kind,
+           ElementSystem& system) const;
 
   /// Adds the potential's circulation; rows and columns are 16 i + a of component i and face
   /// function a. False where it has none.

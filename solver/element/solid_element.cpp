@@ -157,7 +157,7 @@ double SolidElement::volume() const {
   return volume;
 }
 
-void SolidElement::evaluate(const Coefficients& x, const double* p, bool with_tangent,
+void SolidElement::evaluate(const Coefficients& x, const double* p, TangentKind kind,
                             ElementSystem& system) const {
   static thread_local PointFields fields;
   const PointGradients g = point_gradients(x);
@@ -185,16 +185,16 @@ void SolidElement::evaluate(const Coefficients& x, const double* p, bool with_ta
     system.pressure_residual.head(num_pressures_) +=
         w * (J - 1 - pressure / bulk_[q]) * psi.transpose();
     store_flux(materials_[q]->stress(F) + total * cof, G, q, w, fields.flux);
-    if (!with_tangent) continue;
+    if (kind == TangentKind::none) continue;
     store_flux(cof, G, q, w, fields.volume_flux);
     Tangent A = materials_[q]->tangent(F);
     A += U.curvature * cof.reshaped() * cof.reshaped().transpose();
     add_cofactor_tangent(total, F, A);
-    store_tangent(A, G, q, w, fields.tangent);
+    store_tangent(kind == TangentKind::convex ? convex_part<9>(A) : A, G, q, w, fields.tangent);
   }
   assemble_residual(fields, system);
   system.squared_flow = system.residual.squaredNorm();
-  if (!with_tangent) return;
+  if (kind == TangentKind::none) return;
   assemble_tangent(fields, system);
   assemble_coupling(fields, pressure_functions_, num_pressures_, system);
 }

@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include "solver/element/convex_part.h"
 #include "solver/element/tensor_basis.h"
 #include "solver/material/material.h"
 
@@ -66,7 +67,7 @@ class SolidElement {
   Eigen::Vector3d point_position(int q) const { return positions_.row(q); }  ///< X [mm]
 
   /// Fills `system` at deformed shape x and pressures p; tangent and coupling only if asked.
-  void evaluate(const Coefficients& x, const double* p, bool with_tangent,
+  void evaluate(const Coefficients& x, const double* p, TangentKind kind,
                 ElementSystem& system) const;
 
   /// Fills `system` for the element under a constant force per reference volume [mN/mm³].

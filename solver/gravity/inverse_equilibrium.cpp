@@ -110,7 +110,7 @@ InverseEquilibrium::Evaluation InverseEquilibrium::evaluate(
   std::vector<ElementSystem> systems(count);
   tbb::parallel_for(0, count, [&](int e) {
     systems[e].tangent.resize(0, 0);
-    model.evaluate(e, state, false, systems[e]);
+    model.evaluate(e, state, TangentKind::none, systems[e]);
   });
   now.valid = true;
   now.residual = Eigen::VectorXd::Zero(pattern_.num_columns());

@@ -110,7 +110,7 @@ Balance Assembler::balance(const State& state) const {
   std::vector<Residual> residuals(count);
   tbb::parallel_for(0, count, [&](int e) {
     ElementSystem& system = workspace();
-    model_.evaluate(e, state, false, system);
+    model_.evaluate(e, state, TangentKind::none, system);
     parts[e] = part_of(e, state, system);
     residuals[e] = system.residual;
   });
@@ -121,7 +121,8 @@ Balance Assembler::balance(const State& state) const {
   return sum;
 }
 
-Balance Assembler::linearise(const State& state, const std::vector<HermiteMesh::Node>& pending) {
+Balance Assembler::linearise(const State& state, const std::vector<HermiteMesh::Node>& pending,
+                             TangentKind kind) {
   const int count = model_.num_elements();
   std::fill(values_.begin(), values_.end(), 0.0);
   right_hand_side_ = Eigen::VectorXd::Zero(num_equations());
@@ -131,7 +132,7 @@ Balance Assembler::linearise(const State& state, const std::vector<HermiteMesh::
     tbb::parallel_for(std::size_t{0}, colour.size(), [&](std::size_t k) {
       const int e = colour[k];
       ElementSystem& system = workspace();
-      model_.evaluate(e, state, true, system);
+      model_.evaluate(e, state, kind, system);
       parts[e] = part_of(e, state, system);
       if (!std::isfinite(system.energy)) return;
       add_residual(e, system.residual, 1, residual);
@@ -270,7 +271,7 @@ std::vector<HermiteMesh::Node> Assembler::nodal_residual(const State& state) con
   std::vector<HermiteMesh::Node> residual(mesh.num_nodes(), HermiteMesh::Node::Zero());
   ElementSystem& system = workspace();
   for (int e = 0; e < mesh.num_elements(); ++e) {
-    model_.evaluate(e, state, false, system);
+    model_.evaluate(e, state, TangentKind::none, system);
     for (int i = 0; i < 3; ++i)
       for (int a = 0; a < kFunctions; ++a)
         residual[mesh.corners(e)[corner_of_function(a)]](i, parameter_of_function(a)) +=

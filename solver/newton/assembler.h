@@ -44,7 +44,8 @@ class Assembler {
 
   /// Fills matrix() and right_hand_side() with the condensed tangent and residual. `pending` are
   /// increments of prescribed dofs that this linear step makes too (empty: none).
-  Balance linearise(const State& state, const std::vector<HermiteMesh::Node>& pending);
+  Balance linearise(const State& state, const std::vector<HermiteMesh::Node>& pending,
+                    TangentKind kind = TangentKind::exact);
   const std::vector<double>& matrix() const { return values_; }
   /// The μ-weighted Laplacian of all three components, in the same pattern.
   const std::vector<double>& metric();

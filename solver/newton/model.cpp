@@ -82,12 +82,12 @@ SolidElement::Coefficients Model::coefficients(const std::vector<HermiteMesh::No
   return gather(reference_, x, e);
 }
 
-void Model::evaluate(int e, const State& state, bool with_tangent, ElementSystem& system) const {
+void Model::evaluate(int e, const State& state, TangentKind kind, ElementSystem& system) const {
   const auto x = gather(reference_, state.x, e);
-  elements_[e].evaluate(x, state.pressure.data() + 8 * e, with_tangent, system);
+  elements_[e].evaluate(x, state.pressure.data() + 8 * e, kind, system);
   if (!std::isfinite(system.energy)) return;  // J <= 0: nothing else is defined
   for (const auto& [face, potential] : potentials_[e])
-    faces_[e][face].add(*potential, x, with_tangent, system);
+    faces_[e][face].add(*potential, x, kind, system);
   if (loads_.empty()) return;
   system.energy -= loads_[e].cwiseProduct(x).sum();
   system.residual -= loads_[e].reshaped();

@@ -53,7 +53,7 @@ class Model {
   SolidElement::Coefficients coefficients(const std::vector<HermiteMesh::Node>& x, int e) const;
 
   /// All terms of one element at a state.
-  void evaluate(int e, const State& state, bool with_tangent, ElementSystem& system) const;
+  void evaluate(int e, const State& state, TangentKind kind, ElementSystem& system) const;
 
   /// What potentials on one element's faces add to ∂residual/∂x that is not symmetric, face by
   /// face.

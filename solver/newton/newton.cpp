@@ -16,6 +16,7 @@ constexpr double kEquilibrium = 1e-4;  // of the flow: nearer, unstable states a
 // of the flow: nearer, potentials that hold something fixed follow the state. Farther off, points
 // stand deep in a plate, and friction of such pressures would hold all that touches.
 constexpr double kFollow = 1;
+constexpr double kFarFromBalance = 0.1;  // of the flow
 constexpr int kMostFalls = 5;
 constexpr double kFirstDamping = 0.4;  // shift after a step that no part of lowered the merit
 
@@ -70,35 +71,30 @@ bool Newton::factor(double shift, NewtonReport& report) {
   return definite;
 }
 
-void Newton::linearise(const State& state, const NewtonOptions& options,
-                       const std::vector<HermiteMesh::Node>& pending, bool stabilised) {
-  if (options.stabilise) options.stabilise(stabilised);
-  assembler_.linearise(state, pending);
-  if (options.stabilise) options.stabilise(false);
-}
-
-bool Newton::factor_shifted(const State& state, const NewtonOptions& options,
-                            const std::vector<HermiteMesh::Node>& pending, NewtonReport& report) {
-  constexpr double first_shift = 0.05, near_shift = 1e-3, growth = 4, decay = 0.25;
-  const bool near = report.residual < kNearBalance;
-  const bool hopeless = !near && (cut_while_indefinite_ || shift_ * decay >= first_shift / 2);
-  const bool tried = damping_ == 0 && !hopeless;
-  if (tried || near || !options.stabilise) linearise(state, options, pending, false);
-  indefinite_ = true;
-  if (tried && factor(0, report)) {
+/// Far from balance the exact matrix is seldom positive definite, and is not tried. Where it stays
+/// indefinite near balance it is shifted: the convex parts' does not know the way that leads out of
+/// an unstable equilibrium.
+bool Newton::factor_definite(const State& state, const NewtonOptions& options,
+                             const std::vector<HermiteMesh::Node>& pending, NewtonReport& report) {
+  constexpr double first_shift = 1e-3, growth = 4, decay = 0.25;
+  constexpr int patience = 4;
+  const bool near = report.residual < kNearBalance && indefinite_for_ >= patience;
+  const bool tried = damping_ == 0 && report.residual < kFarFromBalance;
+  if (tried || near) assembler_.linearise(state, pending);
+  indefinite_ = !(tried && factor(0, report));
+  indefinite_for_ = indefinite_ && report.residual < kNearBalance ? indefinite_for_ + 1 : 0;
+  if (!indefinite_) {
     shift_ = 0;
-    indefinite_ = false;
     return true;
   }
-  if (!near && options.stabilise) linearise(state, options, pending, true);
-  const double least = near ? near_shift : first_shift;
-  shift_ = std::max(damping_, shift_ * decay < least / 2 ? 0 : shift_ * decay);
-  if (shift_ == 0 && (near || !options.stabilise)) shift_ = least;
-  while (shift_ <= options.max_shift) {
-    if (factor(shift_, report)) return true;
+  if (!near) assembler_.linearise(state, pending, TangentKind::convex);
+  shift_ = std::max(damping_, shift_ * decay < first_shift / 2 ? 0 : shift_ * decay);
+  if (shift_ == 0 && near) shift_ = first_shift;
+  while (!factor(shift_, report)) {
     shift_ = shift_ == 0 ? first_shift : shift_ * growth;
+    if (shift_ > options.max_shift) return false;
   }
-  return false;
+  return true;
 }
 
 /// Brings what is followed up to the state, and the balance with it; false where it is held.
@@ -261,7 +257,8 @@ NewtonReport Newton::iterate(State& state, const NewtonOptions& options,
   };
   merit_.forget();  // no solve hangs on another
   shift_ = damping_ = 0;
-  indefinite_ = cut_while_indefinite_ = false;
+  indefinite_ = false;
+  indefinite_for_ = 0;
   if (is_zero(pending)) pending.clear();
   Nearest nearest;
   int falls = 0;
@@ -300,13 +297,12 @@ NewtonReport Newton::iterate(State& state, const NewtonOptions& options,
     }
     if (report.iterations == options.max_iterations)
       return stop("no equilibrium within the allowed iterations");
-    if (!factor_shifted(state, options, pending, report))
+    if (!factor_definite(state, options, pending, report))
       return stop("the tangent stays indefinite under the largest shift");
     const Step step = solve_step(state, balance, pending);
     const State before = state;
     const double fraction = search(state, step, balance, options);
     if (following_ && options.following.step) options.following.step(before, state);
-    cut_while_indefinite_ = indefinite_ && fraction < 1;
     if (fraction == 0 && shift_ >= options.max_shift / 4) return stop("no step lowers the energy");
     if (fraction == 0)
       damping_ = std::max(kFirstDamping, 8 * std::max(damping_, shift_));

@@ -18,9 +18,6 @@ struct NewtonOptions {
   /// Where the iterations stall (a bifurcation, contact that chatters), a residual and a volume
   /// error of at most this still count as equilibrium; NewtonReport::residual says what is left.
   double acceptable = 1e-4;
-  /// Leaves destabilising parts out of the model's tangent (true) or takes them in again (false);
-  /// may be empty. The residual stays exact, so only the speed of convergence changes.
-  std::function<void(bool)> stabilise;
   /// Each step's merit is the energy of its start; the step itself knows that what is followed will
   /// move (SurfacePotential::circulation).
   Following following;
@@ -51,8 +48,9 @@ struct NewtonReport {
 /// correction, Nocedal and Wright, section 18.3), else cut. With friction, which has no energy, a
 /// step is also taken that lowers the norm of the residual; where many come no nearer to balance,
 /// pressures of friction are held until the rest is in balance and then follow by a half, and where
-/// that comes no nearer either, a solve ends in its nearest state. A matrix that is not positive
-/// definite is stabilised, then shifted by the μ-weighted Laplacian until it is.
+/// that comes no nearer either, a solve ends in its nearest state. Far from balance, and where the
+/// matrix is not positive definite, it is that of the energy's convex parts (convex_part.h), and
+/// shifted by the μ-weighted Laplacian where steps stay short.
 class Newton {
  public:
   Newton(const Model& model, const DofMap& dofs);
@@ -83,10 +81,8 @@ class Newton {
     double merit = 0;
   };
   bool factor(double shift, NewtonReport& report);
-  void linearise(const State& state, const NewtonOptions& options,
-                 const std::vector<HermiteMesh::Node>& pending, bool stabilised);
-  bool factor_shifted(const State& state, const NewtonOptions& options,
-                      const std::vector<HermiteMesh::Node>& pending, NewtonReport& report);
+  bool factor_definite(const State& state, const NewtonOptions& options,
+                       const std::vector<HermiteMesh::Node>& pending, NewtonReport& report);
   bool refresh(const State& state, Balance& balance, const NewtonOptions& options);
   bool fall(State& state, Balance& balance, const NewtonOptions& options, NewtonReport& report);
   Eigen::VectorXd softest_direction();
@@ -107,11 +103,11 @@ class Newton {
   Cholesky cholesky_;
   CondensedEnergy merit_;
   double shift_ = 0;
-  double damping_ = 0;                 ///< shift that short steps ask for
-  bool indefinite_ = false;            ///< the last matrix was not the exact one
-  bool following_ = false;             ///< what is followed is refreshed before each step
-  bool held_ = false;                  ///< or, after steps that circled, in balance only
-  bool cut_while_indefinite_ = false;  ///< and its step was cut: the next will be no better
+  double damping_ = 0;       ///< shift that short steps ask for
+  bool indefinite_ = false;  ///< the last matrix was not the exact one
+  int indefinite_for_ = 0;   ///< so many iterations near balance
+  bool following_ = false;   ///< what is followed is refreshed before each step
+  bool held_ = false;        ///< or, after steps that circled, in balance only
 };
 
 }  // namespace mammotwin

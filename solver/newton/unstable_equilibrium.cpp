@@ -33,7 +33,7 @@ Eigen::VectorXd Newton::softest_direction() {
 bool Newton::fall(State& state, Balance& balance, const NewtonOptions& options,
                   NewtonReport& report) {
   constexpr double first_length = 1, shortest = 1e-3;  // [mm], of the node that moves most
-  linearise(state, options, {}, false);
+  assembler_.linearise(state, {});
   for (shift_ = 1e-3; !factor(shift_, report); shift_ *= 4)
     if (shift_ > options.max_shift) return false;
   const auto nodes = assembler_.nodal_step(softest_direction(), {});

@@ -168,7 +168,7 @@ void Compression::record(const LoadSteppingReport& load, const State& state,
 
 void Compression::judge(const LoadSteppingReport& load, const State& state) {
   // What "reached" means: nearer than anything that a breast is asked about. [mm] and of the flow.
-  constexpr double most_error = 0.5, most_penetration = 0.5, most_imbalance = 1e-2;
+  constexpr double most_error = 0.5, most_penetration = 1, most_imbalance = 1e-2;
   const double error = std::abs(report_.thickness_mm - problem_.plates.thickness);
   const double apart = press_.placed().paddle_height - press_.placed().support_height;
   if (report_.slipped_out)
@@ -178,7 +178,7 @@ void Compression::judge(const LoadSteppingReport& load, const State& state) {
     report_.reason = load.reason;
   else if (error > std::max(most_error, options_.thickness_tolerance))
     report_.reason = "the thickness stays " + in_mm(error) + " off";
-  else if (report_.max_penetration_mm > std::max(most_penetration, options_.gap_tolerance))
+  else if (report_.max_penetration_mm > most_penetration)
     report_.reason = "a point stays " + in_mm(report_.max_penetration_mm) + " inside a plate";
   else if (report_.imbalance > most_imbalance)
     report_.reason = "forces stay out of balance by " +
@@ -256,16 +256,15 @@ LoadSteppingReport Compression::close_plates(State& state) {
 }
 
 CompressionResult Compression::result_at(const State& state) const {
-  return {state.x,          good_.found,          state.pressure,      press_.placed(),
-          press_.penalty(), press_.multipliers(), press_.holds(state), {},
-          report_};
+  return {
+      state.x, good_.found, state.pressure, press_.placed(), press_.penalty(), press_.holds(state),
+      {},      report_};
 }
 
 CompressionResult Compression::run() {
   const auto start = std::chrono::steady_clock::now();
   State state;
-  if (!begin(state))
-    return {state.x, state.x, state.pressure, press_.placed(), 0, {}, {}, {}, report_};
+  if (!begin(state)) return {state.x, state.x, state.pressure, press_.placed(), 0, {}, {}, report_};
   const LoadSteppingReport load = close_plates(state);
   measure_compression(press_, state, report_);
   judge(load, state);
@@ -290,7 +289,6 @@ CompressionResult Compression::run_from(const CompressionResult& near) {
   press_.move_paddle(press_.placed().support_height + problem_.plates.thickness + apart -
                          near.report.target_thickness_mm,
                      good_.tilt);
-  press_.set_multipliers(near.multipliers);
   press_.hold_by_friction(near.holds, state);
   NewtonReport newton = press_.squeeze(state, near.penalty);
   if (newton.usable()) newton = then(newton, press_.resettle(state));

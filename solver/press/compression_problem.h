@@ -32,7 +32,7 @@ enum class Moving {
 struct CompressionOptions {
   SolidOptions solid;
   Moving moving = Moving::both;
-  double gap_tolerance = 0.08;        ///< largest penetration [mm] > 0
+  double gap_tolerance = 0.2;         ///< ContactFigures::mean_gap [mm] > 0
   double thickness_tolerance = 0.05;  ///< |measured − asked| [mm] > 0
   double first_step = 1;              ///< of the way, in (0, 1]
   double longest_move = 10;           ///< of a plate in one load step [mm] > 0

@@ -36,6 +36,7 @@ struct CompressionReport {
   double volume_change = 0;      ///< fraction
   double min_J = 1, max_J = 1;
   double J_within_half = 0;  ///< fraction of quadrature points with J in [0.5, 1.5]
+  double mean_gap_mm = 0;    ///< of what a plate presses (ContactFigures), the larger of both
   double max_penetration_mm = 0;
   double imbalance = 0;          ///< of forces, over their flow (Balance)
   double retained_fraction = 1;  ///< of the tissue in front of the plates' edges, how much stays
@@ -48,13 +49,12 @@ struct CompressionReport {
 };
 
 struct CompressionResult {
-  std::vector<HermiteMesh::Node> deformed;  ///< at the last good step
-  std::vector<HermiteMesh::Node> found;     ///< as the plates found the breast: at rest
-  std::vector<double> pressure;             ///< 8 an element (State::pressure)
-  PlacedPlates plates;                      ///< where they ended
-  double penalty = 0;                       ///< of contact in the end [kPa/mm]
-  std::vector<double> multipliers;          ///< of contact (PlateContact::multipliers); empty: none
-  std::vector<PlateFriction::Hold> holds;   ///< of friction in the end; empty without
+  std::vector<HermiteMesh::Node> deformed;   ///< at the last good step
+  std::vector<HermiteMesh::Node> found;      ///< as the plates found the breast: at rest
+  std::vector<double> pressure;              ///< 8 an element (State::pressure)
+  PlacedPlates plates;                       ///< where they ended
+  double penalty = 0;                        ///< of contact in the end [kPa/mm]
+  std::vector<PlateFriction::Hold> holds;    ///< of friction in the end; empty without
   std::map<std::string, PointField> fields;  ///< press/solution_fields.h; empty if not usable
   CompressionReport report;
 };

@@ -30,23 +30,22 @@ struct Place {
   State state;
   PlacedPlates plates;
   double penalty = 0;
-  std::vector<double> multipliers;
   bool loose = true;
 };
 
 constexpr double kLoosely = 1e-2;  // residual of rounds
-// Residual of the last state: under a thousandth of a mm. Below it friction's points can change
+// Residual of the last state: under a hundredth of a mm. Below it friction's points can change
 // between sticking and sliding for thirty iterations, and nothing else does.
-constexpr double kSettled = 1e-5;
-// Of the penalty in a round. Multipliers close contact at any, but points that a face cannot carry
-// out of a plate's edge sooner at a stiffer one; 3 and more bring chatter.
+constexpr double kSettled = 1e-4;
+// Of the penalty in a round; 3 and more bring chatter.
 constexpr double kLeastGrowth = 1.5, kMostGrowth = 2;
-constexpr double kComesOut = 0.75;  // of what is inside a plate, in such a round
-constexpr double kNearly = 0.09;    // [mm]: an error with which a breast still counts as compressed
-constexpr double kFar = 1;  // [mm]: stiff contact does not follow a paddle that moves by more
+constexpr double kComesOut = 0.75;   // of what is inside a plate, in such a round
+constexpr double kDeepest = 0.5;     // [mm] inside a plate: half of what its edge's rounding hides
+constexpr double kNearlyDone = 1.1;  // of a tolerance
+constexpr double kNearly = 0.09;  // [mm]: an error with which a breast still counts as compressed
+constexpr double kFar = 1;        // [mm]: stiff contact does not follow a paddle that moves by more
 
-/// Rounds that each close contact further, move the paddle, or do both. Contact is closed by
-/// multipliers that take over the pressures of the round before, at a penalty that grows a little.
+/// Rounds that each close contact further, by a stiffer penalty, move the paddle, or do both.
 class Finish {
  public:
   Finish(Press& press, double penalty) : press_(press), penalty_(penalty) {}
@@ -54,14 +53,16 @@ class Finish {
 
  private:
   struct Errors {
-    double excess;     ///< penetration over the tolerance
-    double inside;     ///< both plates' penetrations together [mm]
+    double excess;     ///< of the mean gap over its tolerance
+    double deep;       ///< deepest point over its tolerance
+    double inside;     ///< both plates' mean gaps together [mm]
     double thickness;  ///< [mm]
     double tilt;       ///< [deg]
-    double largest;    ///< of thickness and penetration [mm]
     bool off, leans;   ///< by more than the tolerance
-    bool closed() const { return excess <= 1 && !leans; }
-    bool near_enough() const { return largest <= kNearly && !leans; }
+    bool closed() const { return excess <= 1 && deep <= 1 && !leans; }
+    bool near_enough() const {
+      return std::max(excess, deep) <= kNearlyDone && std::abs(thickness) <= kNearly && !leans;
+    }
   };
   Errors errors(const State& state) const;
   void remember(const Errors& now, const State& state);
@@ -87,33 +88,34 @@ Finish::Errors Finish::errors(const State& state) const {
   const CompressionOptions& options = press_.options();
   const double thickness = press_.thickness(state) - press_.problem().plates.thickness;
   const double tilt = press_.tilt_error(state);
-  const double support = press_.figures(state, Press::kSupport).penetration;
-  const double paddle = press_.figures(state, Press::kPaddle).penetration;
-  const double penetration = std::max(support, paddle);
-  return {penetration / options.gap_tolerance,
-          support + paddle,
+  const ContactFigures support = press_.figures(state, Press::kSupport),
+                       paddle = press_.figures(state, Press::kPaddle);
+  const double gap = std::max(support.mean_gap, paddle.mean_gap),
+               penetration = std::max(support.penetration, paddle.penetration);
+  return {gap / options.gap_tolerance,
+          penetration / kDeepest,
+          support.mean_gap + paddle.mean_gap,
           thickness,
           tilt,
-          std::max(std::abs(thickness), penetration),
           std::abs(thickness) > options.thickness_tolerance,
           std::abs(tilt) > kTiltTolerance};
 }
 
 void Finish::remember(const Errors& now, const State& state) {
-  if (!(now.closed() || now.near_enough()) || now.largest >= best_error_) return;
+  const double error = std::abs(now.thickness);
+  if (!(now.closed() || now.near_enough()) || error >= best_error_) return;
   best_ = here(state);
-  best_error_ = now.largest;
+  best_error_ = error;
 }
 
 Place Finish::here(const State& state) const {
-  return {state, press_.placed(), press_.penalty(), press_.multipliers(), loose_};
+  return {state, press_.placed(), press_.penalty(), loose_};
 }
 
 void Finish::go_back_to(const Place& place, State& state) {
   state = place.state;
   press_.put(place.plates);
   press_.set_penalty(place.penalty);
-  press_.set_multipliers(place.multipliers);
   press_.track_friction(state);
   loose_ = place.loose;
 }
@@ -148,11 +150,7 @@ bool Finish::improve(const Errors& now, bool closing, double growth, State& stat
       press_.move_paddle(press_.placed().paddle_height + move,
                          press_.placed().paddle_tilt - (now.leans ? now.tilt / kTiltSlope : 0));
     loose_ = true;
-    if (from_soft_ || std::abs(move) > kFar) {
-      press_.set_multipliers({});
-      return press_.squeeze(trial, penalty_);
-    }
-    if (closing) press_.set_multipliers(press_.pressures(trial));
+    if (from_soft_ || std::abs(move) > kFar) return press_.squeeze(trial, penalty_);
     press_.set_penalty(press_.penalty() * growth);
     return press_.resettle(trial, kLoosely);
   });
@@ -168,8 +166,7 @@ bool Finish::settle(State& state) {
 
 NewtonReport Finish::run(State& state) {
   constexpr int most_rounds = 16;
-  // The deepest point lies at an edge of contact and gives way more slowly than the penalty grows.
-  constexpr double headroom = 1.2, slowness = 1.5;
+  constexpr double headroom = 1.2;
   // Skin between contact points snaps from one place to another, and the extent with it.
   constexpr int patience = 4;
   // At another penalty points do not circle, or settle into a minimum.
@@ -186,8 +183,8 @@ NewtonReport Finish::run(State& state) {
     if (now.closed() && !now.off && (settled || ++unsettled > most_unsettled)) return total_;
     remember(now, state);
     if (now.closed() && ++closed >= patience && best_error_ <= kNearly) break;
-    const bool closing = now.excess > 1 || !settled;
-    const double growth = closing ? std::clamp(std::pow(headroom * now.excess, slowness),
+    const bool closing = now.excess > 1 || now.deep > 1 || !settled;
+    const double growth = closing ? std::clamp(headroom * std::max(now.excess, now.deep),
                                                std::min(kLeastGrowth, most_growth), most_growth)
                                   : 1;
     const bool good = improve(now, closing, growth, state);

@@ -4,9 +4,9 @@
 
 namespace mammotwin {
 
-/// At the end of the way: closes contact by multipliers and, in the same solves, moves the paddle
-/// until the thickness is the one asked and turns it until its spring is balanced.
-/// What cannot be bettered stays as it is: the best state found. `penalty`: of the last load step.
+/// At the end of the way: closes contact by stiffer penalties and, in the same solves, moves the
+/// paddle until the thickness is the one asked and turns it until its spring is balanced. What
+/// cannot be bettered stays as it is: the best state found. `penalty`: of the last load step.
 /// Returns the iterations spent.
 NewtonReport finish_compression(Press& press, double penalty, State& state);
 

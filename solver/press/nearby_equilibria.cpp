@@ -37,7 +37,6 @@ NearbyEquilibria::Posed NearbyEquilibria::posed(const CompressionProblem& proble
       frame.place(asked.support_height, asked.support_height + apart, problem.plates.paddle_tilt);
   posed.breast.contact->plates = {posed.plates.support, posed.plates.paddle};
   posed.breast.contact->penalty = near_.penalty;
-  set_multipliers(posed.breast, near_.multipliers);
   hold_by_friction(posed.breast, near_.holds, state_, options_.frozen_friction);
   posed.assembler = std::make_unique<Assembler>(*posed.breast.model, *posed.breast.dofs);
   posed.assembler->linearise(state_, {});

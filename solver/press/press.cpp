@@ -10,7 +10,7 @@ namespace mammotwin {
 
 namespace {
 
-constexpr double kStepTolerance = 1e-2;  // of load steps before the last
+constexpr double kStepTolerance = 5e-2;  // of load steps before the last
 constexpr double kNearlyClosed = 0.5;  // [mm] penetration that a load step may leave: far less than
                                        // an edge's rounding, so that tissue keeps to its side
 
@@ -61,12 +61,8 @@ double Press::penetration(const State& state) const {
   return std::max(figures(state, kSupport).penetration, figures(state, kPaddle).penetration);
 }
 
-void Press::set_multipliers(std::vector<double> all) {
-  mammotwin::set_multipliers(breast_, std::move(all));
-}
-
-std::vector<double> Press::pressures(const State& state) const {
-  return contact_pressures(*breast_.model, state, *breast_.contact, breast_.contact_faces);
+double Press::mean_gap(const State& state) const {
+  return std::max(figures(state, kSupport).mean_gap, figures(state, kPaddle).mean_gap);
 }
 
 double Press::paddle_force(const State& state) const {

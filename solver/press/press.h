@@ -35,13 +35,6 @@ class Press {
   Newton& newton() { return newton_; }
   double penalty() const { return breast_.contact->penalty; }  ///< [kPa/mm]
   void set_penalty(double penalty) { breast_.contact->penalty = penalty; }
-  const std::vector<double>& multipliers() const { return breast_.contact->multipliers; }
-  /// Throws std::invalid_argument unless there are none or one for each point and plate.
-  void set_multipliers(std::vector<double> all);
-
-  /// Of every surface point, then plate [kPa]: the multipliers that hold a state without help of
-  /// the penalty.
-  std::vector<double> pressures(const State& state) const;
 
   void put(const PlacedPlates& placed);
   void move_paddle(double height, double tilt);  ///< up · x [mm], [deg]
@@ -52,6 +45,7 @@ class Press {
   double thickness(const State& state) const { return frame_.extent(state.x); }  ///< [mm]
   ContactFigures figures(const State& state, PlateNumber plate) const;
   double penetration(const State& state) const;   ///< largest, of both plates [mm]
+  double mean_gap(const State& state) const;      ///< likewise
   double paddle_force(const State& state) const;  ///< [N]
 
   /// By how much the spring would have the paddle tilt further [deg]; 0 for a rigid one.

@@ -39,15 +39,6 @@ PressedBreast make_pressed_breast(const CompressionProblem& problem, const Solid
   return breast;
 }
 
-void set_multipliers(PressedBreast& breast, std::vector<double> multipliers) {
-  const std::size_t points = breast.model->num_surface_points() * breast.contact->plates.size();
-  if (!multipliers.empty() && multipliers.size() != points)
-    throw std::invalid_argument("contact has " + std::to_string(multipliers.size()) +
-                                " multipliers; expected " + std::to_string(points) +
-                                ": they belong to another mesh");
-  breast.contact->multipliers = std::move(multipliers);
-}
-
 void hold_by_friction(PressedBreast& breast, const std::vector<PlateFriction::Hold>& holds,
                       const State& state, double frozen_mm) {
   if (!breast.friction) return;

@@ -20,7 +20,6 @@ struct PressedBreast : BreastModel {
 PressedBreast make_pressed_breast(const CompressionProblem& problem, const SolidOptions& solid);
 
 /// Throws std::invalid_argument unless there are none or one for each surface point and plate.
-void set_multipliers(PressedBreast& breast, std::vector<double> multipliers);
 
 /// Friction as it held a state that was solved elsewhere; frozen_mm: PlateFriction::freeze; 0: not.
 void hold_by_friction(PressedBreast& breast, const std::vector<PlateFriction::Hold>& holds,

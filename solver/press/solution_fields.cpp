@@ -130,7 +130,7 @@ Means contact_means(const Press& press, const State& state, const BezierMesh& be
         const Eigen::Vector3d at = face.deformed(x, q).head<3>();
         double pressure = 0;
         for (std::size_t p = 0; p < contact.plates.size(); ++p)
-          pressure += contact.pressure(contact.plates[p].gap(at).gap, face.point(q), p);
+          pressure += contact.pressure(contact.plates[p].gap(at).gap);
         means.add(e,
                   point_on_face(number, points[q % contact.points1d], points[q / contact.points1d]),
                   face.point(q).area, Eigen::Vector2d(nearest_gap(press, at), pressure));

@@ -19,18 +19,20 @@ void TangentBlockKernel(benchmark::State& state) {
 }
 BENCHMARK(TangentBlockKernel)->Unit(benchmark::kMicrosecond);
 
-void evaluate(benchmark::State& state, bool with_tangent) {
+void evaluate(benchmark::State& state, TangentKind kind) {
   const CylinderProblem problem(1);
   ElementSystem system;
   for (auto _ : state) {
-    problem.model.evaluate(0, problem.state, with_tangent, system);
+    problem.model.evaluate(0, problem.state, kind, system);
     benchmark::DoNotOptimize(system.residual.data());
   }
 }
-void ElementResidual(benchmark::State& state) { evaluate(state, false); }
-void ElementTangentAndResidual(benchmark::State& state) { evaluate(state, true); }
+void ElementResidual(benchmark::State& state) { evaluate(state, TangentKind::none); }
+void ElementTangentAndResidual(benchmark::State& state) { evaluate(state, TangentKind::exact); }
 BENCHMARK(ElementResidual)->Unit(benchmark::kMicrosecond);
+void ElementConvexTangent(benchmark::State& state) { evaluate(state, TangentKind::convex); }
 BENCHMARK(ElementTangentAndResidual)->Unit(benchmark::kMicrosecond);
+BENCHMARK(ElementConvexTangent)->Unit(benchmark::kMicrosecond);
 
 }  // namespace
 }  // namespace mammotwin

@@ -75,7 +75,8 @@ class RealPatient : public PatientCase {
     for (const char* view : {"cc.vtu", "mlo.vtu"}) {
       const json q = sidecar(name, view)["quality"];
       EXPECT_NEAR(q["thickness_mm"].get<double>(), q["target_thickness_mm"].get<double>(), 0.1);
-      EXPECT_LE(q["max_penetration_mm"].get<double>(), 0.1);
+      EXPECT_LE(q["mean_gap_mm"].get<double>(), 0.2);
+      EXPECT_LE(q["max_penetration_mm"].get<double>(), 0.5);
     }
   }
 };

@@ -54,7 +54,8 @@ void Patient042::expect_sane_compression(const std::string& view) {
   const json q = quality(view + ".vtu");
   EXPECT_NEAR(q["thickness_mm"].get<double>(), q["target_thickness_mm"].get<double>(), 0.1) << view;
   EXPECT_LE(std::abs(q["volume_change"].get<double>()), 0.01) << view;
-  EXPECT_LE(q["max_penetration_mm"], 0.1) << view;
+  EXPECT_LE(q["mean_gap_mm"], 0.2) << view;
+  EXPECT_LE(q["max_penetration_mm"], 0.5) << view;
 }
 
 void Patient042::expect_sane_unloading() {

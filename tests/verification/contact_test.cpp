@@ -60,8 +60,7 @@ struct PressedBody {
         for (int q = 0; q < face.num_points(); ++q) {
           const Eigen::Vector3d x =
               face.deformed(model.coefficients(state.x, e), q).template head<3>();
-          visit(x, contact->pressure(contact->plates[0].gap(x).gap, face.point(q), 0),
-                face.point(q).area);
+          visit(x, contact->pressure(contact->plates[0].gap(x).gap), face.point(q).area);
         }
   }
 };

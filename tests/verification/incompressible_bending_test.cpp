@@ -90,7 +90,7 @@ struct BondedStrip {
     double energy = 0;
     ElementSystem system;
     for (int e = 0; e < model.num_elements(); ++e) {
-      model.evaluate(e, state, false, system);
+      model.evaluate(e, state, TangentKind::none, system);
       energy += system.energy;
     }
     return 2 * energy / (half_width * kHalfHeight * kStrain * kStrain);

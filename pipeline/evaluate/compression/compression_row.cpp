@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "pipeline/evaluate/cases/stage_command.h"
+#include "pipeline/steps/quality_limits.h"
 
 namespace mammotwin {
 namespace {
@@ -14,7 +15,6 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 
 // What "reached" means.
-constexpr double kThicknessErrorMm = 0.1, kPenetrationMm = 0.1, kShareOfSaneJ = 0.99;
 constexpr double kLeastFraction = 0.05;  // less than this is no compression
 
 template <class... Values>
@@ -57,7 +57,7 @@ json sidecar_after(const StageEnd& end, const fs::path& sidecar, int most_cpu_se
 void judge_row(json& row, const json& sidecar) {
   const json quality = sidecar.value("quality", json::object());
   for (const char* key :
-       {"compressed_fraction", "thickness_mm", "min_J", "max_J", "J_within_half",
+       {"compressed_fraction", "thickness_mm", "min_J", "max_J", "J_within_half", "mean_gap_mm",
         "max_penetration_mm", "swing_mm", "roll_deg", "force_N", "contact_area_cm2",
         "volume_change", "steps", "cutbacks", "newton_iterations", "indefinite_matrices", "dof"})
     row[key] = quality.contains(key) ? quality[key] : json();
@@ -68,12 +68,15 @@ void judge_row(json& row, const json& sidecar) {
   }
   const double error =
       quality.at("thickness_mm").get<double>() - row.at("target_thickness_mm").get<double>();
-  const double inside = quality.at("max_penetration_mm"), sane = quality.at("J_within_half");
-  if (!(std::abs(error) <= kThicknessErrorMm))
+  const double apart = quality.at("mean_gap_mm"), inside = quality.at("max_penetration_mm"),
+               sane = quality.at("J_within_half");
+  if (!(std::abs(error) <= limits::thickness_error_mm))
     row["reason"] = sentence("%.2f mm off the thickness asked", error);
-  else if (!(inside < kPenetrationMm))
+  else if (!(apart <= limits::mean_gap_mm))
+    row["reason"] = sentence("plates press %.3f mm beside the skin in the mean", apart);
+  else if (!(inside < limits::penetration_mm))
     row["reason"] = sentence("a point stays %.3f mm inside a plate", inside);
-  else if (!(sane >= kShareOfSaneJ))
+  else if (!(sane >= limits::share_of_sane_J))
     row["reason"] = sentence("J is within 0.5 to 1.5 at %.2f %% of the points only", 100 * sane);
   else
     row["reached"] = true;

@@ -62,7 +62,7 @@ LagrangeNewton::Balance LagrangeNewton::linearise(const State& state, bool with_
   std::vector<Eigen::Triplet<double>> entries;
   ElementSystem system;
   for (int e = 0; e < model_.num_elements(); ++e) {
-    model_.evaluate(e, fine, with_tangent, system);
+    model_.evaluate(e, fine, with_tangent ? TangentKind::exact : TangentKind::none, system);
     sum.energy += system.energy;
     if (!std::isfinite(sum.energy)) return sum;
     const Eigen::VectorXd residual = reduce(system.residual);

@@ -36,7 +36,9 @@ TEST(CompressionQuality, WhatIsNotQuiteReachedIsToBeLookedAtAndSaysByHowMuch) {
   EXPECT_EQ(imbalanced.status, Status::look);
   EXPECT_NE(imbalanced.reasons.at(0).find("by 0.25 %"), std::string::npos);
   EXPECT_EQ(outcome(&CompressionReport::thickness_mm, 50.2).status, Status::look);
-  EXPECT_EQ(outcome(&CompressionReport::max_penetration_mm, 0.2).status, Status::look);
+  EXPECT_EQ(outcome(&CompressionReport::mean_gap_mm, 0.2).status, Status::ok);
+  EXPECT_EQ(outcome(&CompressionReport::mean_gap_mm, 0.3).status, Status::look);
+  EXPECT_EQ(outcome(&CompressionReport::max_penetration_mm, 0.6).status, Status::look);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <cmath>
 #include <random>
 
 #include "solver/contact/plate.h"
@@ -66,23 +67,18 @@ TEST(PlateContact, PushesOnlyWhatIsInside) {
   EXPECT_NEAR((response.gradient.head<3>() + 0.7 * paddle().normal).norm(), 0, 1e-12);
 }
 
-// λ 2, 7 kPa/mm: a point is pressed from 2/7 mm off the plate on, at the plate with λ.
-TEST(PlateContact, MultipliersPressWhatIsNotYetInside) {
-  PlateContact contact;
-  contact.plates = {paddle()};
-  contact.penalty = 7;
-  contact.multipliers = {2};
-  SurfaceResponse response;
-  Eigen::Matrix<double, 9, 1> y = Eigen::Matrix<double, 9, 1>::Zero();
-  y.head<3>() = at(paddle(), 0.3, -5, 0);
-  EXPECT_FALSE(contact.respond(y, {}, 2, response));
-  for (const double above : {0.1, 0.0, -0.1}) {
-    y.head<3>() = at(paddle(), above, -5, 0);
-    ASSERT_TRUE(contact.respond(y, {}, 2, response));
-    const double pressure = 2 - 7 * above;
-    EXPECT_NEAR(response.energy, pressure * pressure / 14, 1e-12);
-    EXPECT_NEAR((response.gradient.head<3>() + pressure * paddle().normal).norm(), 0, 1e-12);
-  }
+// The top of a block of 20 mm under a plate that leans into it, by 0.01 x: ∫gap²/∫gap.
+TEST(ContactFigures, MeanGapIsWeighedByPressure) {
+  constexpr double slope = 0.01;
+  const HermiteMesh mesh = box_mesh({20, 20, 10}, {1, 1, 1});
+  Model model(mesh, uniform(std::make_shared<NeoHookean>(1)), {});
+  const auto contact = std::make_shared<PlateContact>();
+  contact->penalty = 7;
+  contact->plates = {{{0, 10, 10}, {-slope, 0, -std::sqrt(1 - slope * slope)}, {0, 1, 0}, 0, true}};
+  model.add_surface_potential(0, 5, contact, contact->points1d);
+  const ContactFigures figures = contact_figures(model, model.rest(), *contact, 0, {{0, 5}});
+  EXPECT_NEAR(figures.mean_gap, 2.0 / 3 * 20 * slope, 1e-12);
+  EXPECT_NEAR(figures.load, 7 * 10 * slope * 400, 1e-9);
 }
 
 // A trough 1 mm deep across a block of 20 mm, z = 10 − c x (20 − x), that touches a plate at its

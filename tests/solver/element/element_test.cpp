@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <Eigen/Eigenvalues>
+
 #include "solver/element/dilation.h"
 #include "solver/element/face.h"
 #include "solver/element/gauss.h"
@@ -37,15 +39,15 @@ double& unknown(State& state, const HermiteMesh& mesh, int k) {
 void expect_consistent(OneElement& one) {
   constexpr double h = 1e-5;
   ElementSystem exact, plus, minus;
-  one.model.evaluate(0, one.state, true, exact);
+  one.model.evaluate(0, one.state, TangentKind::exact, exact);
   const double scale = exact.tangent.cwiseAbs().maxCoeff();
   for (int k = 0; k < kUnknowns; ++k) {
     double& x = unknown(one.state, one.mesh, k);
     const double kept = x;
     x = kept + h;
-    one.model.evaluate(0, one.state, false, plus);
+    one.model.evaluate(0, one.state, TangentKind::none, plus);
     x = kept - h;
-    one.model.evaluate(0, one.state, false, minus);
+    one.model.evaluate(0, one.state, TangentKind::none, minus);
     x = kept;
     EXPECT_NEAR((plus.energy - minus.energy) / (2 * h), exact.residual[k], 1e-6 * scale) << k;
     const auto difference = ((plus.residual - minus.residual) / (2 * h)).eval();
@@ -89,6 +91,37 @@ TEST(SolidElement, ResidualAndTangentAreDerivatives) {
   }
 }
 
+double smallest_eigenvalue(const ElementSystem& system) {
+  const Eigen::MatrixXd full = system.tangent.selfadjointView<Eigen::Lower>();
+  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(full, Eigen::EigenvaluesOnly)
+      .eigenvalues()[0];
+}
+
+// Pressures of 25 times the shear modulus, as iterates far from balance have them.
+TEST(SolidElement, ConvexTangentIsSemidefiniteWhereTheExactOneIsNot) {
+  OneElement one;
+  for (int m = 0; m < 8; ++m) one.state.pressure[m] *= 160;
+  ElementSystem exact, convex;
+  one.model.evaluate(0, one.state, TangentKind::exact, exact);
+  one.model.evaluate(0, one.state, TangentKind::convex, convex);
+  const double scale = exact.tangent.cwiseAbs().maxCoeff();
+  EXPECT_LT(smallest_eigenvalue(exact), -1e-3 * scale);
+  EXPECT_GT(smallest_eigenvalue(convex), -1e-12 * scale);
+  EXPECT_EQ(convex.residual, exact.residual);
+}
+
+TEST(SolidElement, ConvexTangentIsTheExactOneAtRest) {
+  OneElement one;
+  one.state = one.model.rest();
+  ElementSystem exact, convex;
+  one.model.evaluate(0, one.state, TangentKind::exact, exact);
+  one.model.evaluate(0, one.state, TangentKind::convex, convex);
+  const double scale = exact.tangent.cwiseAbs().maxCoeff();
+  const Eigen::MatrixXd change = exact.tangent - convex.tangent;
+  EXPECT_LT(change.triangularView<Eigen::Lower>().toDenseMatrix().cwiseAbs().maxCoeff(),
+            1e-12 * scale);
+}
+
 // U'' and U' of the stabilisation by central differences, each better than 1e-8 of its size; the
 // quartic part alone is what is more than without it.
 TEST(Dilation, SlopeAndCurvatureAreDerivatives) {
@@ -107,13 +140,13 @@ TEST(Dilation, SlopeAndCurvatureAreDerivatives) {
 TEST(SolidElement, PressureResidualIsDerivativeOfEnergy) {
   OneElement one;
   ElementSystem exact, plus, minus;
-  one.model.evaluate(0, one.state, false, exact);
+  one.model.evaluate(0, one.state, TangentKind::none, exact);
   for (int m = 0; m < 8; ++m) {  // the energy is quadratic in p: differences are exact to rounding
     State other = one.state;
     other.pressure[m] += 0.5;
-    one.model.evaluate(0, other, false, plus);
+    one.model.evaluate(0, other, TangentKind::none, plus);
     other.pressure[m] -= 1;
-    one.model.evaluate(0, other, false, minus);
+    one.model.evaluate(0, other, TangentKind::none, minus);
     EXPECT_NEAR(plus.energy - minus.energy, exact.pressure_residual[m], 1e-9);
   }
 }

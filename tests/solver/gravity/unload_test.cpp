@@ -49,9 +49,9 @@ void expect_consistent(Changeable one) {
     const double kept = one.unknown(k);
     ElementSystem plus, minus;
     one.unknown(k) = kept + h;
-    one.model().evaluate(0, one.state, false, plus);
+    one.model().evaluate(0, one.state, TangentKind::none, plus);
     one.unknown(k) = kept - h;
-    one.model().evaluate(0, one.state, false, minus);
+    one.model().evaluate(0, one.state, TangentKind::none, minus);
     one.unknown(k) = kept;
     const auto force = ((plus.residual - minus.residual) / (2 * h)).eval();
     const auto volume = ((plus.pressure_residual - minus.pressure_residual) / (2 * h)).eval();
@@ -79,7 +79,7 @@ TEST(ReferenceTangent, CouplingIsThatOfTheForwardProblem) {
   ReferenceSystem reference;
   ElementSystem forward;
   one.model().evaluate_reference(0, one.state, kBodyForce, reference);
-  one.model().evaluate(0, one.state, true, forward);
+  one.model().evaluate(0, one.state, TangentKind::exact, forward);
   EXPECT_NEAR((reference.coupling - forward.coupling).norm(), 0, 1e-10 * forward.coupling.norm());
 }
 

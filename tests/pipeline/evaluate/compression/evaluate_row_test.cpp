@@ -13,7 +13,8 @@ json good_sidecar() {
           {"reasons", json::array()},
           {"quality",
            {{"thickness_mm", 55.05},
-            {"max_penetration_mm", 0.05},
+            {"mean_gap_mm", 0.15},
+            {"max_penetration_mm", 0.4},
             {"J_within_half", 0.995},
             {"compressed_fraction", 0.5}}}};
 }
@@ -31,7 +32,7 @@ json judged_with(const char* key, double value) {
   return judged(sidecar);
 }
 
-TEST(CompressionRow, ReachedWhereAllThreeFiguresHold) {
+TEST(CompressionRow, ReachedWhereAllFiguresHold) {
   const json row = judged(good_sidecar());
   EXPECT_TRUE(row["reached"]);
   EXPECT_TRUE(row["reason"].is_null());
@@ -39,8 +40,10 @@ TEST(CompressionRow, ReachedWhereAllThreeFiguresHold) {
 }
 
 TEST(CompressionRow, NotReachedWithAReasonWhereOneFigureDoesNotHold) {
-  const std::pair<const char*, double> faults[] = {
-      {"thickness_mm", 55.2}, {"max_penetration_mm", 0.11}, {"J_within_half", 0.989}};
+  const std::pair<const char*, double> faults[] = {{"thickness_mm", 55.2},
+                                                   {"mean_gap_mm", 0.26},
+                                                   {"max_penetration_mm", 0.56},
+                                                   {"J_within_half", 0.989}};
   for (const auto& [key, value] : faults) {
     const json row = judged_with(key, value);
     EXPECT_FALSE(row["reached"]) << key;
