@@ -1,7 +1,6 @@
 #include "solver/contact/penalty_continuation.h"
 
 #include <algorithm>
-#include <utility>
 
 namespace mammotwin {
 

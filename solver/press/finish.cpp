@@ -40,7 +40,6 @@ constexpr double kSettled = 1e-4;
 // Of the penalty in a round; 3 and more bring chatter.
 constexpr double kLeastGrowth = 1.5, kMostGrowth = 2;
 constexpr double kComesOut = 0.75;   // of what is inside a plate, in such a round
-constexpr double kDeepest = 0.5;     // [mm] inside a plate: half of what its edge's rounding hides
 constexpr double kNearlyDone = 1.1;  // of a tolerance
 constexpr double kNearly = 0.09;  // [mm]: an error with which a breast still counts as compressed
 constexpr double kFar = 1;        // [mm]: stiff contact does not follow a paddle that moves by more
@@ -93,7 +92,7 @@ Finish::Errors Finish::errors(const State& state) const {
   const double gap = std::max(support.mean_gap, paddle.mean_gap),
                penetration = std::max(support.penetration, paddle.penetration);
   return {gap / options.gap_tolerance,
-          penetration / kDeepest,
+          penetration / Press::kDeepest,
           support.mean_gap + paddle.mean_gap,
           thickness,
           tilt,

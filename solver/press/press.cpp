@@ -11,8 +11,6 @@ namespace mammotwin {
 namespace {
 
 constexpr double kStepTolerance = 5e-2;  // of load steps before the last
-constexpr double kNearlyClosed = 0.5;  // [mm] penetration that a load step may leave: far less than
-                                       // an edge's rounding, so that tissue keeps to its side
 
 PenaltyOptions penalties_of_steps() {
   PenaltyOptions penalties;
@@ -90,7 +88,7 @@ NewtonReport Press::squeeze(State& state, double penalty, bool near) {
   const NewtonReport report = solve_contact(newton_, *breast_.contact, unit, penalties, state);
   if (!report.usable()) return report;
   return then(report, close_gap(
-                          newton_, *breast_.contact, kNearlyClosed,
+                          newton_, *breast_.contact, kDeepest,
                           [&](const State& s) { return penetration(s); }, penalties.newton, state));
 }
 

@@ -20,6 +20,9 @@ constexpr double kTiltSlope = -1.5;
 class Press {
  public:
   enum PlateNumber { kSupport, kPaddle };
+  /// Penetration that is left [mm]: far less than an edge's rounding, so that tissue keeps to its
+  /// side.
+  static constexpr double kDeepest = 0.5;
 
   /// Throws std::invalid_argument that names what is wrong with the problem. It must outlive this.
   Press(const CompressionProblem& problem, const CompressionOptions& options);

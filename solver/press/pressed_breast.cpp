@@ -1,9 +1,5 @@
 #include "solver/press/pressed_breast.h"
 
-#include <stdexcept>
-#include <string>
-#include <utility>
-
 namespace mammotwin {
 
 namespace {

@@ -19,8 +19,6 @@ struct PressedBreast : BreastModel {
 /// Throws std::invalid_argument as make_breast_model does.
 PressedBreast make_pressed_breast(const CompressionProblem& problem, const SolidOptions& solid);
 
-/// Throws std::invalid_argument unless there are none or one for each surface point and plate.
-
 /// Friction as it held a state that was solved elsewhere; frozen_mm: PlateFriction::freeze; 0: not.
 void hold_by_friction(PressedBreast& breast, const std::vector<PlateFriction::Hold>& holds,
                       const State& state, double frozen_mm);
