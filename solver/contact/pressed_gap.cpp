@@ -1,5 +1,11 @@
 #include "solver/contact/pressed_gap.h"
 
+#include <CGAL/Alpha_shape_2.h>
+#include <CGAL/Alpha_shape_face_base_2.h>
+#include <CGAL/Alpha_shape_vertex_base_2.h>
+#include <CGAL/Delaunay_triangulation_2.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+
 #include <Eigen/Geometry>
 #include <algorithm>
 
@@ -9,15 +15,21 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kFacing = 0.5;   // cosine: skin that turns away by 60 degrees looks aside
-constexpr double kOnHull = 1e-9;  // [mm²] of rounding
+constexpr double kFacing = 0.5;  // cosine: skin that turns away by 60 degrees looks aside
+constexpr double kPocket = 15;   // [mm], radius
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Vertex = CGAL::Alpha_shape_vertex_base_2<Kernel>;
+using Triangle = CGAL::Alpha_shape_face_base_2<Kernel>;
+using AlphaShape = CGAL::Alpha_shape_2<
+    CGAL::Delaunay_triangulation_2<Kernel, CGAL::Triangulation_data_structure_2<Vertex, Triangle>>>;
 
 struct FacingPoint {
   Vector2d place;  ///< along the plate [mm]
   WeighedGap weighed;
 };
 
-double cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
+Kernel::Point_2 cgal_point(const Vector2d& p) { return {p.x(), p.y()}; }
 
 void add_facing_points(const Face& face, const SolidElement::Coefficients& x, const Plate& plate,
                        std::vector<FacingPoint>& points) {
@@ -34,32 +46,6 @@ void add_facing_points(const Face& face, const SolidElement::Coefficients& x, co
   }
 }
 
-/// Counter-clockwise, by Andrew's monotone chain; a point or a line where there is no area.
-std::vector<Vector2d> convex_hull(std::vector<Vector2d> points) {
-  std::sort(points.begin(), points.end(), [](const Vector2d& a, const Vector2d& b) {
-    return a.x() < b.x() || (a.x() == b.x() && a.y() < b.y());
-  });
-  std::vector<Vector2d> hull;
-  for (int side = 0; side < 2; ++side) {
-    const std::size_t first = hull.size();
-    for (const Vector2d& p : points) {
-      while (hull.size() >= first + 2 &&
-             cross(hull.back() - hull[hull.size() - 2], p - hull.back()) <= 0)
-        hull.pop_back();
-      hull.push_back(p);
-    }
-    if (!hull.empty()) hull.pop_back();
-    std::reverse(points.begin(), points.end());
-  }
-  return hull;
-}
-
-bool is_within(const Vector2d& p, const std::vector<Vector2d>& hull) {
-  for (std::size_t k = 0; k < hull.size(); ++k)
-    if (cross(hull[(k + 1) % hull.size()] - hull[k], p - hull[k]) < -kOnHull) return false;
-  return hull.size() > 2;
-}
-
 }  // namespace
 
 std::vector<WeighedGap> pressed_gaps(const Model& model, const State& state, const Plate& plate,
@@ -71,13 +57,15 @@ std::vector<WeighedGap> pressed_gaps(const Model& model, const State& state, con
       if (face.face() == number && face.points1d() == points1d)
         add_facing_points(face, x, plate, points);
   }
-  std::vector<Vector2d> touching;
+  std::vector<Kernel::Point_2> touching;
   for (const FacingPoint& point : points)
-    if (point.weighed.gap <= 0) touching.push_back(point.place);
-  const std::vector<Vector2d> hull = convex_hull(std::move(touching));
+    if (point.weighed.gap <= 0) touching.push_back(cgal_point(point.place));
+  AlphaShape pressed(touching.begin(), touching.end(), kPocket * kPocket);
+  if (pressed.dimension() < 2) return {};
   std::vector<WeighedGap> gaps;
   for (const FacingPoint& point : points)
-    if (is_within(point.place, hull)) gaps.push_back(point.weighed);
+    if (pressed.classify(cgal_point(point.place)) != AlphaShape::EXTERIOR)
+      gaps.push_back(point.weighed);
   return gaps;
 }
 
