@@ -190,7 +190,8 @@ void SolidElement::evaluate(const Coefficients& x, const double* p, TangentKind 
     Tangent A = materials_[q]->tangent(F);
     A += U.curvature * cof.reshaped() * cof.reshaped().transpose();
     add_cofactor_tangent(total, F, A);
-    store_tangent(kind == TangentKind::convex ? convex_part<9>(A) : A, G, q, w, fields.tangent);
+    store_tangent(kind == TangentKind::convex ? isotropic_convex_part(A, F) : A, G, q, w,
+                  fields.tangent);
   }
   assemble_residual(fields, system);
   system.squared_flow = system.residual.squaredNorm();
