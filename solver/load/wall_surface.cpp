@@ -2,7 +2,10 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
+#include <map>
 #include <stdexcept>
 
 #include "fitting/mesh/hermite_basis.h"
@@ -14,7 +17,12 @@ namespace {
 
 constexpr int kProjectionSteps = 30;  // Newton converges in 3 to 6
 constexpr int kHalvings = 8;  // of a step that leads away from the point: Newton alone can cycle
+constexpr double kRounding = 1e-12;  // [mm] of a distance
+constexpr double kBeyondRim = 60;    // [mm] that it goes on by: breasts slide by centimetres
 constexpr double kRimTolerance = 1e-9;
+// Of a patch's side; the next is rounding. With 1e-8 forces were rough enough to keep a breast from
+// coming to rest.
+constexpr double kLastStep = 1e-11;
 
 /// Hermite functions continued by their tangents outside [0, 1], so that the surface is.
 HermiteValues extended(double t, int order) {
@@ -47,6 +55,10 @@ SurfaceJet jet(const Eigen::Matrix<double, 3, 16>& c, const Eigen::Vector2d& xi)
   }
   return {combine(c, h[0], g[0]), combine(c, h[1], g[0]), combine(c, h[0], g[1]),
           combine(c, h[2], g[0]), combine(c, h[1], g[1]), combine(c, h[0], g[2])};
+}
+
+Eigen::Vector3d position(const Eigen::Matrix<double, 3, 16>& c, const Eigen::Vector2d& xi) {
+  return combine(c, extended(xi[0], 0), extended(xi[1], 0));
 }
 
 /// Newton step towards the foot of x; falls back on Gauss-Newton where the distance is not convex.
@@ -99,20 +111,84 @@ Eigen::Matrix<double, 3, 16> face_coefficients(const HermiteMesh& mesh, int elem
   return coefficients;
 }
 
+namespace {
+
+using Coefficients = Eigen::Matrix<double, 3, 16>;
+
+/// The patch that goes straight on from a patch's end (0 or 1) of direction d, `ahead` times as far
+/// as it is wide.
+Coefficients straight_on(const Coefficients& c, int d, int end, double ahead) {
+  Coefficients next;
+  for (int b = 0; b < 4; ++b) {
+    const auto at = [&](int a) { return d == 0 ? a + 4 * b : b + 4 * a; };
+    const Eigen::Vector3d value = c.col(at(2 * end)), way = ahead * c.col(at(2 * end + 1));
+    next.col(at(0)) = end == 1 ? value : (value - way).eval();
+    next.col(at(2)) = end == 1 ? (value + way).eval() : value;
+    next.col(at(1)) = next.col(at(3)) = way;
+  }
+  return next;
+}
+
+double mean_side(const std::vector<Coefficients>& patches) {
+  double sum = 0;
+  for (const Coefficients& c : patches)
+    sum += (c.col(2) - c.col(0)).norm() + (c.col(8) - c.col(0)).norm();
+  return sum / (2 * patches.size());
+}
+
+/// Sides that only one face has: of each face, by direction and end.
+std::vector<std::array<std::array<bool, 2>, 2>> sides_at_rim(
+    const HermiteMesh& mesh, const std::vector<std::pair<int, int>>& faces) {
+  const auto side = [&](const std::pair<int, int>& of, int d, int end) {
+    const int first = d == 0 ? 2 * end : 8 * end, second = first + (d == 0 ? 8 : 2);
+    return std::minmax({face_parameter(mesh, of.first, of.second, first).first,
+                        face_parameter(mesh, of.first, of.second, second).first});
+  };
+  std::map<std::pair<int, int>, int> shared;
+  for (const auto& face : faces)
+    for (int d = 0; d < 2; ++d)
+      for (int end = 0; end < 2; ++end) ++shared[side(face, d, end)];
+  std::vector<std::array<std::array<bool, 2>, 2>> at_rim(faces.size());
+  for (std::size_t n = 0; n < faces.size(); ++n)
+    for (int d = 0; d < 2; ++d)
+      for (int end = 0; end < 2; ++end) at_rim[n][d][end] = shared[side(faces[n], d, end)] == 1;
+  return at_rim;
+}
+
+}  // namespace
+
 WallSurface::WallSurface(const HermiteMesh& mesh, const std::vector<std::pair<int, int>>& faces) {
   if (faces.empty()) throw std::invalid_argument("the chest wall has no faces");
-  for (const auto& [element, face] : faces) {
-    Patch patch;
-    patch.coefficients = face_coefficients(mesh, element, face);
-    for (int k = 0; k < kSamples1d * kSamples1d; ++k) {
-      const Eigen::Vector2d xi(k % kSamples1d, k / kSamples1d);
-      patch.samples.col(k) = jet(patch.coefficients, xi / (kSamples1d - 1.0)).s;
-    }
+  std::vector<Coefficients> patches;
+  for (const auto& [element, face] : faces)
+    patches.push_back(face_coefficients(mesh, element, face));
+  const double ahead = kBeyondRim / mean_side(patches);
+  const auto at_rim = sides_at_rim(mesh, faces);
+  for (std::size_t n = 0; n < faces.size(); ++n) {
+    const int face = faces[n].second;
     const double outward = (face / 2 == 1 ? -1 : 1) * (face % 2 ? 1 : -1);
-    patch.orientation = -outward;
-    patch.box = bezier_box(patch.coefficients);
-    patches_.push_back(patch);
+    add_patch(patches[n], -outward);
+    for (int end = 0; end < 2; ++end) {
+      if (at_rim[n][1][end]) add_patch(straight_on(patches[n], 1, end, ahead), -outward);
+      if (!at_rim[n][0][end]) continue;
+      const Coefficients beside = straight_on(patches[n], 0, end, ahead);
+      add_patch(beside, -outward);
+      for (int other = 0; other < 2; ++other)
+        if (at_rim[n][1][other]) add_patch(straight_on(beside, 1, other, ahead), -outward);
+    }
   }
+}
+
+void WallSurface::add_patch(const Coefficients& coefficients, double orientation) {
+  Patch patch;
+  patch.coefficients = coefficients;
+  for (int k = 0; k < kSamples1d * kSamples1d; ++k) {
+    const Eigen::Vector2d xi(k % kSamples1d, k / kSamples1d);
+    patch.samples.col(k) = position(coefficients, xi / (kSamples1d - 1.0));
+  }
+  patch.orientation = orientation;
+  patch.box = bezier_box(coefficients);
+  patches_.push_back(patch);
 }
 
 WallSurface::Foot WallSurface::project_from(const Patch& patch, Eigen::Vector2d xi,
@@ -120,18 +196,19 @@ WallSurface::Foot WallSurface::project_from(const Patch& patch, Eigen::Vector2d 
   SurfaceJet here = jet(patch.coefficients, xi);
   for (int step = 0; step < kProjectionSteps; ++step) {
     Eigen::Vector2d delta = foot_step(here, x);
-    const double distance = (x - here.s).norm();
+    const bool last = delta.cwiseAbs().maxCoeff() < kLastStep;
+    const double farthest = (x - here.s).norm() + kRounding;
     SurfaceJet there = jet(patch.coefficients, xi + delta);
-    for (int halving = 0; halving < kHalvings && (x - there.s).norm() > distance; ++halving) {
+    for (int halving = 0; halving < kHalvings && (x - there.s).norm() > farthest; ++halving) {
       delta /= 2;
       there = jet(patch.coefficients, xi + delta);
     }
     xi += delta;
     here = there;
-    if (delta.cwiseAbs().maxCoeff() < 1e-14) break;
+    if (last) break;
   }
   const Eigen::Vector2d clamped = xi.cwiseMax(0).cwiseMin(1);
-  return {&patch, xi, (x - jet(patch.coefficients, clamped).s).norm(),
+  return {&patch, xi, (x - position(patch.coefficients, clamped)).norm(),
           (xi - clamped).cwiseAbs().maxCoeff() <= kRimTolerance};
 }
 
@@ -154,12 +231,15 @@ WallSurface::Foot WallSurface::project(const Patch& patch, const Eigen::Vector3d
 
 /// Patches are asked in the order of their boxes' distance, until no box is nearer than a foot.
 WallSurface::Foot WallSurface::nearest_foot(const Eigen::Vector3d& x) const {
-  static thread_local std::vector<std::pair<double, const Patch*>> order;
-  order.clear();
-  for (const Patch& patch : patches_) order.push_back({patch.box.exteriorDistance(x), &patch});
-  std::sort(order.begin(), order.end());
+  static thread_local std::vector<std::pair<double, const Patch*>> queue;
+  queue.clear();
+  for (const Patch& patch : patches_) queue.push_back({patch.box.exteriorDistance(x), &patch});
+  std::make_heap(queue.begin(), queue.end(), std::greater<>());
   Foot best{nullptr, {}, 0, false};
-  for (const auto& [at_least, patch] : order) {
+  while (!queue.empty()) {
+    std::pop_heap(queue.begin(), queue.end(), std::greater<>());
+    const auto [at_least, patch] = queue.back();
+    queue.pop_back();
     if (best.patch && at_least > best.distance + kRimTolerance) break;
     const Foot foot = project(*patch, x);
     const double lead = best.distance - foot.distance;

@@ -19,8 +19,9 @@ std::pair<int, int> face_parameter(const HermiteMesh& mesh, int element, int fac
 /// All 16 of a face, as columns.
 Eigen::Matrix<double, 3, 16> face_coefficients(const HermiteMesh& mesh, int element, int face);
 
-/// The undeformed chest wall: bicubic Hermite patches, continued straight on beyond their rim, and
-/// the signed distance to them.
+/// The undeformed chest wall: bicubic Hermite patches, continued straight on beyond their rim by
+/// patches that join without a kink, and the signed distance to them. Were each only continued by
+/// itself, the distance would leap where a point beyond the rim changes from one to the next.
 class WallSurface {
  public:
   /// faces: (element, face) of the mesh. Throws std::invalid_argument if there are none.
@@ -43,6 +44,7 @@ class WallSurface {
     double distance;  ///< to the foot clamped to the patch [mm]
     bool inside;
   };
+  void add_patch(const Eigen::Matrix<double, 3, 16>& coefficients, double orientation);
   Foot project_from(const Patch& patch, Eigen::Vector2d xi, const Eigen::Vector3d& x) const;
   Foot project(const Patch& patch, const Eigen::Vector3d& x) const;
   Foot nearest_foot(const Eigen::Vector3d& x) const;

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <numbers>
 #include <random>
 
 #include "solver/load/smooth_wall.h"
@@ -56,13 +57,39 @@ TEST(WallSurface, NormalAndHessianAreDerivativesOfTheGap) {
     for (int k = 0; k < 3; ++k) {
       const Eigen::Vector3d dx = h * Eigen::Vector3d::Unit(k);
       const Gap plus = wall.gap(x + dx), minus = wall.gap(x - dx);
-      if ((plus.hessian - minus.hessian).norm() > 1e-4) continue;  // across a patch's border
+      if ((plus.hessian - minus.hessian).norm() > 1e-6) continue;  // across a patch's border
       ++compared;
       EXPECT_NEAR((plus.gap - minus.gap) / (2 * h), exact.normal[k], 1e-7);
       EXPECT_NEAR(((plus.normal - minus.normal) / (2 * h) - exact.hessian.col(k)).norm(), 0, 1e-6);
     }
   }
   EXPECT_GT(compared, 150);
+}
+
+/// A slab of 80 x 80 mm with waves, so that its sides go on in directions that differ from node to
+/// node.
+HermiteMesh wavy_slab() {
+  return mapped_mesh({4, 4, 1}, [](const Eigen::Vector3d& xi) {
+    const double x = 80 * (xi.x() - 0.5), y = 80 * (xi.y() - 0.5);
+    return Eigen::Vector3d(x + 4 * std::sin(y / 11), y + 4 * std::sin(x / 13),
+                           6 * std::sin(x / 12 + 0.4) * std::cos(y / 9) + 10 * xi.z());
+  });
+}
+
+// Along circles that cross the lines which go on from the rim's nodes.
+TEST(WallSurface, TheDistanceDoesNotLeapBeyondTheRim) {
+  const WallSurface wall = wall_of(wavy_slab());
+  constexpr int steps = 4000;
+  for (const double height : {-4.0, 0.0, 4.0})
+    for (const double reach : {50.0, 60.0, 80.0}) {
+      const auto gap_at = [&](int n) {
+        const double a = 2 * std::numbers::pi * n / steps;
+        return wall.gap({reach * std::cos(a), reach * std::sin(a), height}).gap;
+      };
+      const double way = 2 * std::numbers::pi * reach / steps;
+      for (int n = 0; n < steps; ++n)
+        EXPECT_LE(std::abs(gap_at(n + 1) - gap_at(n)), 1.001 * way) << reach << ' ' << n;
+    }
 }
 
 /// One patch of 40 x 40 mm whose nodal derivatives are drawn, so that the surface and the speed
