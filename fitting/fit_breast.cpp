@@ -21,15 +21,12 @@ namespace {
 constexpr int smallest_breast_voxels = 20000;  // 20 ml at 1 mm
 // Columns along x and z that are tried in turn for an accuracy.
 constexpr std::array<int, 7> column_counts = {4, 5, 6, 7, 8, 10, 12};
-// With one column fewer a breast of 12.2 cm² a column was 0.54 mm (RMS) off its labels, and another
-// one of 12.2 0.92 mm (95 %). Areas are of a skin smoothed by 1 mm.
-constexpr double largest_column_mm2 = 1100;
+// By what tissue pressed with 16 x 16 x 3 elements does (docs/measured/refinement.md): a layer more
+// brings nothing. Areas are of a skin smoothed by 1 mm.
+constexpr double largest_column_mm2 = 600;
 constexpr int more_columns = 2;  // where a skin is too uneven for as many as its area asks for
 constexpr double worth_pulling_in_mm = 1;  // RMS of the skin, beyond which an edge is given up
-constexpr int fewest_columns = 7, most_columns = 12, layers = 2;
-// A scan is smoother than labels of 1 mm, and pressed to half its thickness such a breast strays by
-// 0.35 mm from a refined mesh with 7 x 7.
-constexpr int fewest_columns_of_scan = 9;
+constexpr int fewest_columns = 9, most_columns = 12, layers = 2;
 
 void check(const FitOptions& o) {
   const auto require = [](bool good, const std::string& message) {
@@ -127,7 +124,7 @@ class BreastFit {
 
   /// As asked, else as many columns as the skin is large.
   Eigen::Vector3i elements() const {
-    return options_.elements.value_or(elements_for(area_mm2(skin_.surface), scan_ != nullptr));
+    return options_.elements.value_or(elements_for(area_mm2(skin_.surface)));
   }
 
   /// Where the fit goes wrong at the region's edge, that edge is pulled in, twice at most.
@@ -247,10 +244,9 @@ FitProgress growing(const FitProgress& progress) {
 
 }  // namespace
 
-Eigen::Vector3i elements_for(double skin_area_mm2, bool scanned) {
+Eigen::Vector3i elements_for(double skin_area_mm2) {
   const int needed = static_cast<int>(std::ceil(std::sqrt(skin_area_mm2 / largest_column_mm2)));
-  const int columns =
-      std::clamp(needed, scanned ? fewest_columns_of_scan : fewest_columns, most_columns);
+  const int columns = std::clamp(needed, fewest_columns, most_columns);
   return {columns, columns, layers};
 }
 

@@ -31,8 +31,8 @@ struct FitOptions {
   int verbosity = 0;
 };
 
-/// The default elements for a skin of this area; a scan's are finer.
-Eigen::Vector3i elements_for(double skin_area_mm2, bool scanned);
+/// The default elements for a skin of this area.
+Eigen::Vector3i elements_for(double skin_area_mm2);
 
 /// A skin that was scanned, in the segmentation's frame.
 struct ScannedSkin {

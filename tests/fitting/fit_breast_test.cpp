@@ -213,11 +213,10 @@ TEST(SkinToFit, LeavesOutAnEdgeThatTheSkinGrazesAndSaysSo) {
 }
 
 TEST(FitBreast, TakesAsManyColumnsAsTheSkinIsLarge) {
-  EXPECT_EQ(elements_for(30000, false), Eigen::Vector3i(7, 7, 2));
-  // 60000 mm² / 1100 mm² = 54.5, the square of 7.4.
-  EXPECT_EQ(elements_for(60000, false), Eigen::Vector3i(8, 8, 2));
-  EXPECT_EQ(elements_for(30000, true), Eigen::Vector3i(9, 9, 2));
-  EXPECT_EQ(elements_for(1e7, false), Eigen::Vector3i(12, 12, 2));
+  EXPECT_EQ(elements_for(30000), Eigen::Vector3i(9, 9, 2));
+  // 65000 mm² / 600 mm² = 108.3, the square of 10.4.
+  EXPECT_EQ(elements_for(65000), Eigen::Vector3i(11, 11, 2));
+  EXPECT_EQ(elements_for(1e7), Eigen::Vector3i(12, 12, 2));
 }
 
 TEST(FitBreast, RefusesOptionsOutOfRange) {
