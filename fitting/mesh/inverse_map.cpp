@@ -158,13 +158,14 @@ double InverseMap::descend(const Vector3d& x, MeshPoint& p) const {
         direction[a] = 0;
       }
     const Vector3d dxi = normal.inverse() * direction;
+    if ((clamp(p.xi + dxi, 0, 1) - p.xi).norm() < xi_tolerance) break;
     bool moved = false;
     for (double part = 1; part > 1e-3 && !moved; part /= 2) {
       const MeshPoint trial{p.element, clamp(p.xi + part * dxi, 0, 1)};
       const PositionAndJacobian there = evaluate(elements_[p.element], trial.xi);
       const double d = (x - there.x).squaredNorm();
       if (d < squared_distance) {
-        moved = (trial.xi - p.xi).norm() > 1e-12;
+        moved = true;
         p = trial;
         at = there;
         squared_distance = d;
