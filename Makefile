@@ -29,10 +29,11 @@ override HARD := $(value HARD)
 override OTHERS := $(value OTHERS)
 override TABLE := $(value TABLE)
 override UNLOAD := $(value UNLOAD)
+override MESHES := $(value MESHES)
 ifeq ($(RESULTS),)
 $(error RESULTS is empty: name the folder that results go to)
 endif
-export P DATA RESULTS FORCE BIN SEED PATIENTS JOBS ONLY ENGINE CONFIG PREFIX CASES SYNTHETIC CHANGES VIEWS SPOIL MISFIT HARD OTHERS TABLE UNLOAD PRESET PRESS AXE
+export P DATA RESULTS FORCE BIN SEED PATIENTS JOBS ONLY ENGINE CONFIG PREFIX CASES SYNTHETIC CHANGES VIEWS SPOIL MISFIT HARD OTHERS TABLE UNLOAD PRESET PRESS AXE MESHES
 unexport MAKEFLAGS MAKEOVERRIDES
 
 .PHONY: help patient segment fit unload compress register report slicer paraview synthesize exam cohort verify-results \
@@ -64,11 +65,11 @@ help:
 	@echo 'make evaluate-unload   takes gravity off every breast of CASES: RESULTS/evaluation/unload.json'
 	@echo 'make evaluate-compression   compresses SYNTHETIC=200 drawn breasts and those of CASES=folder in'
 	@echo '                       both views: RESULTS/evaluation/compression.json; JOBS=2 at a time'
-	@echo 'make evaluate-stability  presses the label maps of CASES again with their input changed in ways that must'
+	@echo 'make evaluate-stability  presses label maps and MRI of CASES again with their input changed in ways that must'
 	@echo '                       not matter: RESULTS/evaluation/stability.json; ONLY="Exam_02-left Exam_04",'
 	@echo '                       CHANGES="turn_5 mirror", VIEWS=cc (hours for all)'
 	@echo 'make evaluate-refinement  presses 042 and the real cases of CASES with coarser and finer meshes:'
-	@echo '                       RESULTS/evaluation/refinement.json; ONLY=Exam_02-left'
+	@echo '                       RESULTS/evaluation/refinement.json; ONLY=Exam_02-left; MESHES="16x16x3 9x9x2"'
 	@echo 'make evaluate-stabilisation  presses 042 and the real cases of CASES with more and less of the term'
 	@echo '                       that keeps the volume of each point: RESULTS/evaluation/stabilisation.json; ONLY=Exam_02-left'
 	@echo 'make evaluate-registration  registers SYNTHETIC=10 patients with mammograms of another model:'
@@ -143,11 +144,11 @@ evaluate-compression: mammotwin-evaluate-compression
 
 evaluate-stability: mammotwin-evaluate-stability
 	@"$$BIN/mammotwin-evaluate-stability" "$$CASES" "$$RESULTS/evaluation/stability.json" \
-	  $${ONLY:+--only $$ONLY} $${CHANGES:+--changes $$CHANGES} $${VIEWS:+--views $$VIEWS}
+	  $${ONLY:+--only $$ONLY} $${CHANGES:+--changes $$CHANGES} $${VIEWS:+--views $$VIEWS} $${JOBS:+--jobs "$$JOBS"}
 
 evaluate-refinement: mammotwin-evaluate-refinement
 	@"$$BIN/mammotwin-evaluate-refinement" sample_data/042/patient.toml "$$CASES" \
-	  "$$RESULTS/evaluation/refinement.json" $${ONLY:+--only $$ONLY}
+	  "$$RESULTS/evaluation/refinement.json" $${ONLY:+--only $$ONLY} $${MESHES:+--meshes $$MESHES}
 
 evaluate-stabilisation: mammotwin-evaluate-stabilisation
 	@"$$BIN/mammotwin-evaluate-stabilisation" sample_data/042/patient.toml "$$CASES" \

@@ -21,7 +21,7 @@ std::vector<BreastToPress> breasts_to_press(const fs::path& patient_toml, const 
     fs::create_directories(breast.folder);
     write_text_atomically(
         breast.patient_toml,
-        real.patient_toml + "[views.cc]\nthickness_mm = 55\n[views.mlo]\nthickness_mm = 55\n");
+        patient_toml_of(real) + "[views.cc]\nthickness_mm = 55\n[views.mlo]\nthickness_mm = 55\n");
     breasts.push_back(breast);
   }
   return breasts;

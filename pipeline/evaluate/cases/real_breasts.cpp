@@ -1,6 +1,7 @@
 #include "pipeline/evaluate/cases/real_breasts.h"
 
 #include <algorithm>
+#include <array>
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -19,11 +20,12 @@ constexpr const char* kContours = "lesions_radiologist.json";  // beside mri/
 RealBreast mri_breast(const fs::path& patient) {
   const auto radiologist = json::parse(std::ifstream(patient / kContours));
   const json& lesion = radiologist.at("mri").at(0);
-  const Side side = lesion.at("side") == "L" ? Side::left : Side::right;
-  std::ostringstream toml;
-  toml << side_toml(side) << "[mri]\npath = " << json(fs::canonical(patient / "mri").string())
-       << "\n[[lesions]]\npoint_lps_mm = " << lesion.at("centroid_lps_mm") << "\n";
-  return {patient.filename().string(), side, toml.str()};
+  const auto centroid = lesion.at("centroid_lps_mm").get<std::array<double, 3>>();
+  return {patient.filename().string(),
+          lesion.at("side") == "L" ? Side::left : Side::right,
+          patient / "mri",
+          false,
+          {Eigen::Vector3d(centroid.data())}};
 }
 
 }  // namespace
@@ -36,6 +38,19 @@ std::string labels_toml(const fs::path& label_map) {
   std::ostringstream toml;
   toml << "[labels]\npath = " << json(fs::canonical(label_map).string()) << "\n";
   for (const auto& [tissue, list] : values) toml << tissue << " = " << list << "\n";
+  return toml.str();
+}
+
+std::string patient_toml_of(const RealBreast& breast) {
+  std::ostringstream toml;
+  toml << side_toml(breast.side);
+  if (!breast.preset.empty()) toml << "materials.preset = " << json(breast.preset) << "\n";
+  if (breast.is_label_map)
+    toml << labels_toml(breast.image);
+  else
+    toml << "[mri]\npath = " << json(fs::canonical(breast.image).string()) << "\n";
+  for (const Eigen::Vector3d& x : breast.lesions)
+    toml << "[[lesions]]\npoint_lps_mm = " << json{x.x(), x.y(), x.z()} << "\n";
   return toml.str();
 }
 
@@ -52,7 +67,7 @@ bool is_asked(const std::string& name, const std::vector<std::string>& only) {
 std::vector<RealBreast> real_breasts(const fs::path& cases) {
   std::vector<RealBreast> all;
   for (const LabelMapBreast& map : label_map_breasts(cases))
-    all.push_back({map.exam, map.side, side_toml(map.side) + labels_toml(map.file)});
+    all.push_back({map.exam, map.side, map.file});
   for (const fs::path& entry : sorted_entries(cases))
     if (fs::exists(entry / kContours)) all.push_back(mri_breast(entry));
   return all;

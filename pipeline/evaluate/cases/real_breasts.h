@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -18,8 +19,14 @@ std::string labels_toml(const std::filesystem::path& label_map);
 struct RealBreast {
   std::string name;
   Side side = Side::left;
-  std::string patient_toml;
+  std::filesystem::path image;  ///< the label map, or the MRI's folder or file
+  bool is_label_map = true;
+  std::vector<Eigen::Vector3d> lesions = {};  ///< [mm, LPS], of an MRI
+  std::string preset = {};                    ///< materials.preset, where one is asked for
 };
+
+/// The patient.toml of that breast.
+std::string patient_toml_of(const RealBreast& breast);
 
 /// "Exam_02-left".
 std::string name_and_side(const RealBreast& breast);

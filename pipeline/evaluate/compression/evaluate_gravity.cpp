@@ -51,9 +51,7 @@ std::vector<RealBreast> breasts_asked(const Arguments& args) {
 int run(const Arguments& args) {
   EvaluationTable table(args.table);
   auto breasts = breasts_asked(args);
-  if (!args.preset.empty())
-    for (RealBreast& breast : breasts)
-      breast.patient_toml = "materials.preset = \"" + args.preset + "\"\n" + breast.patient_toml;
+  for (RealBreast& breast : breasts) breast.preset = args.preset;
   std::optional<OutlinePopulation> population;
   if (!args.population.empty()) population.emplace(args.population);
   work_through(breasts.size(), args.jobs, [&](std::size_t n) {

@@ -5,7 +5,6 @@
 
 #include "pipeline/evaluate/cases/case_arguments.h"
 #include "pipeline/evaluate/cases/evaluation_table.h"
-#include "pipeline/evaluate/cases/real_breasts.h"
 #include "pipeline/evaluate/compression/stability_rows.h"
 #include "pipeline/frame/command_line.h"
 
@@ -17,17 +16,17 @@ namespace fs = std::filesystem;
 struct Arguments {
   fs::path cases, table;
   std::vector<std::string> only, changes, views;
+  int jobs = 2;
 };
 
 void declare(CommandLine& command, Arguments& args) {
-  command.option("cases", args.cases, "folder with label_maps/*.nii.gz")
-      .required()
-      .existing_folder();
+  declare_cases(command, args.cases);
   declare_table(command, args.table, "stability");
   declare_only(command, args.only);
   command.option("--changes", args.changes,
                  "turn_1, turn_3, turn_5, mirror, half_voxel, elements, thickness (default: all)");
   command.option("--views", args.views, "cc, mlo (default: both)");
+  command.option("--jobs", args.jobs, "breasts at a time [1 to 64]").between(1, 64).with_default();
 }
 
 std::vector<InputChange> changes_asked(const Arguments& args) {
@@ -44,16 +43,17 @@ std::vector<InputChange> changes_asked(const Arguments& args) {
 
 int run(const Arguments& args) {
   EvaluationTable table(args.table);
-  std::size_t breasts = 0;
-  for (const LabelMapBreast& breast : label_map_breasts(args.cases)) {
-    const std::string name = breast_name(breast);
+  std::vector<StabilityCase> asked;
+  for (const RealBreast& breast : real_breasts(args.cases)) {
+    const std::string name = name_and_side(breast);
     if (!is_asked(name, args.only)) continue;
-    StabilityCase asked{breast, table.folder() / "stability" / name, changes_asked(args)};
-    if (!args.views.empty()) asked.views = args.views;
-    add_stability_rows(asked, [&](const nlohmann::json& row) { table.add(breasts, row); });
-    ++breasts;
+    asked.push_back({breast, table.folder() / "stability" / name, changes_asked(args)});
+    if (!args.views.empty()) asked.back().views = args.views;
   }
-  if (breasts == 0) throw std::runtime_error(args.cases.string() + ": no such breast in it");
+  if (asked.empty()) throw std::runtime_error(args.cases.string() + ": no such breast in it");
+  work_through(asked.size(), args.jobs, [&](std::size_t n) {
+    add_stability_rows(asked[n], [&](const nlohmann::json& row) { table.add(n, row); });
+  });
   return 0;
 }
 
@@ -62,9 +62,9 @@ int run(const Arguments& args) {
 
 int main(int argc, char** argv) {
   using namespace mammotwin;
-  return run_plain_command<Arguments>(
-      argc, argv, "evaluate-stability",
-      "Presses label maps again with their input changed in ways that must not matter, and writes "
-      "how far tissue moves",
-      declare, run);
+  return run_plain_command<Arguments>(argc, argv, "evaluate-stability",
+                                      "Presses label maps and patients' MRI again with their input "
+                                      "changed in ways that must not matter, and writes "
+                                      "how far tissue moves",
+                                      declare, run);
 }

@@ -105,7 +105,7 @@ json gravity_row(const RealBreast& breast, const fs::path& folder,
   const std::string fractions = fractions_beside(segmentation).string();
   try {
     fs::create_directories(folder);
-    write_text_atomically(toml, breast.patient_toml);
+    write_text_atomically(toml, patient_toml_of(breast));
     run_to_product({"segment", {}, segmentation, toml});
     run_to_product({"fit", {segmentation.string(), fractions}, prone, toml});
     fs::remove(unloaded);

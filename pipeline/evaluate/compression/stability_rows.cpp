@@ -7,15 +7,16 @@
 #include <optional>
 #include <sstream>
 #include <stdexcept>
+#include <type_traits>
+#include <variant>
 
-#include "pipeline/evaluate/cases/real_breasts.h"
 #include "pipeline/evaluate/cases/sorted_figures.h"
 #include "pipeline/evaluate/cases/stage_command.h"
 #include "pipeline/evaluate/compression/pressed_places.h"
 #include "pipeline/frame/products.h"
-#include "pipeline/synthesize/option_table.h"
 #include "segmentation/files/read_labels.h"
 #include "segmentation/files/write_image_file.h"
+#include "segmentation/mri/read_mri.h"
 
 namespace mammotwin {
 namespace {
@@ -28,19 +29,45 @@ constexpr int kMostPressCpuSeconds = 1800;
 
 /// What one compression needs, and where its products go.
 struct StabilityInputs {
-  fs::path folder, labels, segmentation, prone;
-  Side side = Side::left;
+  fs::path folder;
+  RealBreast breast;
+  fs::path segmentation, prone;
 };
 
-void write_labels(const fs::path& path, const Volume<std::uint16_t>& labels) {
-  const std::vector<std::uint8_t> values(labels.values.begin(), labels.values.end());
-  const auto& [size, spacing, origin, all] = labels;
-  write_nrrd(path,
-             {{size.x(), size.y(), size.z()},
-              {spacing.x(), spacing.y(), spacing.z()},
-              {origin.x(), origin.y(), origin.z()}},
-             values.data(), 1, {});
-}
+/// A label map or an MRI, whichever the breast has.
+class BreastImage {
+ public:
+  explicit BreastImage(const RealBreast& breast) {
+    if (breast.is_label_map)
+      image_ = read_labels(breast.image);
+    else
+      image_ = read_mri(breast.image).image;
+  }
+
+  double mirror_plane() const {
+    return std::visit([](const auto& image) { return mammotwin::mirror_plane(image); }, image_);
+  }
+
+  void write(const fs::path& path, const InputChange& change) const {
+    std::visit([&](const auto& image) { write_values(path, changed_image(image, change)); },
+               image_);
+  }
+
+ private:
+  template <class T>
+  static void write_values(const fs::path& path, const Volume<T>& image) {
+    using Written = std::conditional_t<std::is_same_v<T, float>, float, std::uint8_t>;
+    const std::vector<Written> values(image.values.begin(), image.values.end());
+    const auto& [size, spacing, origin, all] = image;
+    write_nrrd(path,
+               {{size.x(), size.y(), size.z()},
+                {spacing.x(), spacing.y(), spacing.z()},
+                {origin.x(), origin.y(), origin.z()}},
+               values.data(), 1, {});
+  }
+
+  std::variant<Volume<std::uint16_t>, Volume<float>> image_;
+};
 
 /// CPU seconds.
 double run_stage(const std::string& stage, std::vector<std::string> arguments,
@@ -52,7 +79,7 @@ double run_stage(const std::string& stage, std::vector<std::string> arguments,
 void write_patient(const StabilityInputs& inputs, double thickness_mm,
                    const std::optional<Eigen::Vector3i>& elements) {
   std::ostringstream toml;
-  toml << side_toml(inputs.side) << labels_toml(inputs.labels);
+  toml << patient_toml_of(inputs.breast);
   if (elements)
     toml << "[fit]\nelements = [" << elements->x() << ", " << elements->y() << ", " << elements->z()
          << "]\n";
@@ -67,11 +94,20 @@ void segment_and_fit(const StabilityInputs& inputs, bool segments) {
             inputs, inputs.prone, kMostStageCpuSeconds);
 }
 
-StabilityInputs base_inputs(const StabilityCase& asked) {
-  StabilityInputs inputs{asked.folder / "base", asked.breast.file, {}, {}, asked.breast.side};
-  inputs.segmentation = inputs.folder / "segmentation.seg.nrrd";
-  inputs.prone = inputs.folder / "prone.vtu";
-  fs::create_directories(inputs.folder);
+RealBreast mirrored(RealBreast breast, double plane) {
+  breast.side = breast.side == Side::left ? Side::right : Side::left;
+  for (Eigen::Vector3d& x : breast.lesions) x.x() = 2 * plane - x.x();
+  return breast;
+}
+
+/// An MRI's base, too, is read from the file that is written here: what its headers said is lost to
+/// all alike.
+StabilityInputs base_inputs(const StabilityCase& asked, const BreastImage& image) {
+  const fs::path folder = asked.folder / "base";
+  StabilityInputs inputs{folder, asked.breast, folder / "segmentation.seg.nrrd",
+                         folder / "prone.vtu"};
+  fs::create_directories(folder);
+  if (!asked.breast.is_label_map) image.write(inputs.breast.image = folder / "image.nrrd", {});
   write_patient(inputs, kPressedTo_mm, {});
   segment_and_fit(inputs, true);
   return inputs;
@@ -79,25 +115,24 @@ StabilityInputs base_inputs(const StabilityCase& asked) {
 
 /// What the change leaves as it is stays the base's.
 StabilityInputs changed_inputs(const StabilityInputs& base, const InputChange& change,
-                               const Volume<std::uint16_t>& labels) {
+                               const BreastImage& image) {
   StabilityInputs inputs = base;
   inputs.folder = base.folder.parent_path() / change.name;
   fs::create_directories(inputs.folder);
-  if (change.of_labels()) {
-    inputs.labels = inputs.folder / "labels.nrrd";
+  if (change.mirror) inputs.breast = mirrored(inputs.breast, image.mirror_plane());
+  if (change.of_image()) {
+    image.write(inputs.breast.image = inputs.folder / "image.nrrd", change);
     inputs.segmentation = inputs.folder / "segmentation.seg.nrrd";
-    write_labels(inputs.labels, changed_labels(labels, change));
   }
-  if (change.mirror) inputs.side = base.side == Side::left ? Side::right : Side::left;
   std::optional<Eigen::Vector3i> elements;
   if (change.more_elements != 0) {
     const std::array<int, 3> n = stage_sidecar(base.prone).at("quality").at("elements");
     elements = Eigen::Vector3i(n[0], n[1], n[2]).array() + change.more_elements;
   }
   write_patient(inputs, kPressedTo_mm + change.thicker_mm, elements);
-  if (!change.of_labels() && !elements) return inputs;
+  if (!change.of_image() && !elements) return inputs;
   inputs.prone = inputs.folder / "prone.vtu";
-  segment_and_fit(inputs, change.of_labels());
+  segment_and_fit(inputs, change.of_image());
   return inputs;
 }
 
@@ -112,7 +147,7 @@ json press_view(const StabilityInputs& inputs, const std::string& view, double& 
 
 json new_stability_row(const StabilityCase& asked, const std::string& view,
                        const std::string& change) {
-  json row{{"name", breast_name(asked.breast)}, {"view", view}, {"change", change}};
+  json row{{"name", name_and_side(asked.breast)}, {"view", view}, {"change", change}};
   for (const char* key : {"lesion_mm", "tissue_median_mm", "tissue_p95_mm", "force_change",
                           "swing_mm", "roll_deg", "newton_iterations", "cpu_seconds", "reason"})
     row[key] = nullptr;
@@ -124,8 +159,8 @@ class StabilityRun {
  public:
   StabilityRun(const StabilityCase& asked)
       : asked_(asked),
-        labels_(read_labels(asked.breast.file)),
-        base_(base_inputs(asked)),
+        image_(asked.breast),
+        base_(base_inputs(asked, image_)),
         followed_(base_.segmentation, base_.prone) {}
 
   json base_row(const std::string& view) {
@@ -143,7 +178,7 @@ class StabilityRun {
     }
     try {
       if (!changed_.contains(change.name))
-        changed_.emplace(change.name, changed_inputs(base_, change, labels_));
+        changed_.emplace(change.name, changed_inputs(base_, change, image_));
     } catch (const std::exception& error) {
       row["reason"] = error.what();
       return row;
@@ -170,7 +205,7 @@ class StabilityRun {
 
   void compare_into(json& row, const StabilityInputs& inputs, const std::string& view,
                     bool mirror) const {
-    const double plane = mirror_plane(labels_);
+    const double plane = image_.mirror_plane();
     const auto counterpart = [&](Eigen::Vector3d x) {
       if (mirror) x.x() = 2 * plane - x.x();
       return x;
@@ -188,7 +223,7 @@ class StabilityRun {
   }
 
   const StabilityCase& asked_;
-  const Volume<std::uint16_t> labels_;
+  const BreastImage image_;
   const StabilityInputs base_;
   const FollowedPoints followed_;
   std::map<std::string, json> base_force_;          ///< by view; null: it was not pressed
@@ -196,10 +231,6 @@ class StabilityRun {
 };
 
 }  // namespace
-
-std::string breast_name(const LabelMapBreast& breast) {
-  return breast.exam + "-" + name_of(breast.side);
-}
 
 void add_stability_rows(const StabilityCase& asked,
                         const std::function<void(const nlohmann::json&)>& add) {

@@ -123,7 +123,7 @@ json fit(const BreastToFit& breast, const fs::path& folder, const FitRun& run) {
 BreastToFit to_fit(const RealBreast& breast) {
   return {
       breast.name, "patient", breast.side, [breast](const fs::path& folder) {
-        write_text_atomically(folder / "patient.toml", breast.patient_toml);
+        write_text_atomically(folder / "patient.toml", patient_toml_of(breast));
         run_to_product({"segment", {}, folder / "segmentation.seg.nrrd", folder / "patient.toml"});
       }};
 }

@@ -1,0 +1,156 @@
+#include "pipeline/evaluate/compression/changed_image.h"
+
+#include <itkBSplineInterpolateImageFunction.h>
+#include <itkImage.h>
+#include <tbb/parallel_for.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+namespace mammotwin {
+namespace {
+
+std::uint16_t label_at(const Volume<std::uint16_t>& labels, const Eigen::Vector3d& x) {
+  const Eigen::Vector3d index = labels.index(x), low = index.array().floor();
+  std::vector<std::pair<std::uint16_t, double>> shares;
+  for (int corner = 0; corner < 8; ++corner) {
+    const Eigen::Vector3d step(corner & 1, corner >> 1 & 1, corner >> 2);
+    const Eigen::Vector3i at = (low + step).cast<int>();
+    const double share =
+        (1 - (index - low - step).array().abs()).prod();  // falls to 0 one voxel away
+    const std::uint16_t label =
+        labels.contains(at.x(), at.y(), at.z()) ? labels(at.x(), at.y(), at.z()) : 0;
+    const auto known =
+        std::find_if(shares.begin(), shares.end(), [&](auto& s) { return s.first == label; });
+    if (known == shares.end())
+      shares.emplace_back(label, share);
+    else
+      known->second += share;
+  }
+  return std::max_element(shares.begin(), shares.end(),
+                          [](const auto& a, const auto& b) { return a.second < b.second; })
+      ->first;
+}
+
+/// What stands at a place between voxels.
+template <class T>
+class Between;
+
+template <>
+class Between<std::uint16_t> {
+ public:
+  explicit Between(const Volume<std::uint16_t>& labels) : labels_(labels) {}
+  std::uint16_t at(const Eigen::Vector3d& x) const { return label_at(labels_, x); }
+
+ private:
+  const Volume<std::uint16_t>& labels_;
+};
+
+template <>
+class Between<float> {
+ public:
+  explicit Between(const Volume<float>& grey) : grey_(grey) {
+    const auto image = Image::New();
+    image->SetRegions(Image::SizeType{static_cast<itk::SizeValueType>(grey.size.x()),
+                                      static_cast<itk::SizeValueType>(grey.size.y()),
+                                      static_cast<itk::SizeValueType>(grey.size.z())});
+    image->Allocate();
+    std::copy(grey.values.begin(), grey.values.end(), image->GetBufferPointer());
+    spline_->SetSplineOrder(3);
+    spline_->SetInputImage(image);
+  }
+
+  float at(const Eigen::Vector3d& x) const {
+    const Eigen::Vector3d index = grey_.index(x);
+    const Spline::ContinuousIndexType place(index.data());
+    if (!spline_->IsInsideBuffer(place)) return 0;
+    return std::max(0.0F, static_cast<float>(spline_->EvaluateAtContinuousIndex(place)));
+  }
+
+ private:
+  using Image = itk::Image<float, 3>;
+  using Spline = itk::BSplineInterpolateImageFunction<Image, double, float>;
+  const Volume<float>& grey_;
+  Spline::Pointer spline_ = Spline::New();
+};
+
+/// On another grid, whose place x shows what stands at `from(x)`.
+template <class T, class From>
+Volume<T> resampled(const Volume<T>& image, Volume<T> onto, From from) {
+  const Between<T> between(image);
+  tbb::parallel_for(0, onto.size.z(), [&](int k) {
+    for (int j = 0; j < onto.size.y(); ++j)
+      for (int i = 0; i < onto.size.x(); ++i)
+        onto(i, j, k) = between.at(from(onto.position(i, j, k)));
+  });
+  return onto;
+}
+
+/// Turned on a grid that holds all of it, then back on its own.
+template <class T>
+Volume<T> turned_and_back(const Volume<T>& image, double deg) {
+  const Eigen::Matrix3d turn(
+      Eigen::AngleAxisd(deg * std::numbers::pi / 180, Eigen::Vector3d::UnitZ()));
+  const Eigen::Vector3d extent = image.spacing.cwiseProduct(image.size.template cast<double>());
+  const Eigen::Vector3d middle = image.origin + (extent - image.spacing) / 2;
+  const double margin = std::abs(std::sin(deg * std::numbers::pi / 180)) * extent.maxCoeff() / 2;
+  const Eigen::Vector3d more(std::ceil(margin / image.spacing.x()),
+                             std::ceil(margin / image.spacing.y()), 0);
+  const Volume<T> wide(image.size + 2 * more.cast<int>(), image.spacing,
+                       image.origin - image.spacing.cwiseProduct(more));
+  const Volume<T> there = resampled(image, wide, [&](const Eigen::Vector3d& x) {
+    return (middle + turn.transpose() * (x - middle)).eval();
+  });
+  return resampled(there, image,
+                   [&](const Eigen::Vector3d& x) { return (middle + turn * (x - middle)).eval(); });
+}
+
+template <class T>
+Volume<T> mirrored(const Volume<T>& image) {
+  Volume<T> result = image;
+  for (int k = 0; k < image.size.z(); ++k)
+    for (int j = 0; j < image.size.y(); ++j)
+      for (int i = 0; i < image.size.x(); ++i)
+        result(i, j, k) = image(image.size.x() - 1 - i, j, k);
+  return result;
+}
+
+template <class T>
+Volume<T> half_a_voxel_off(const Volume<T>& image) {
+  const Volume<T> grid(image.size - Eigen::Vector3i::Ones(), image.spacing,
+                       image.origin + image.spacing / 2);
+  return resampled(image, grid, [](const Eigen::Vector3d& x) { return x; });
+}
+
+template <class T>
+Volume<T> changed(const Volume<T>& image, const InputChange& change) {
+  if (change.turn_deg != 0) return turned_and_back(image, change.turn_deg);
+  if (change.mirror) return mirrored(image);
+  if (change.half_voxel) return half_a_voxel_off(image);
+  return image;
+}
+
+}  // namespace
+
+const std::vector<InputChange>& input_changes() {
+  static const std::vector<InputChange> all = {
+      {.name = "turn_1", .turn_deg = 1},          {.name = "turn_3", .turn_deg = 3},
+      {.name = "turn_5", .turn_deg = 5},          {.name = "mirror", .mirror = true},
+      {.name = "half_voxel", .half_voxel = true}, {.name = "elements", .more_elements = 1},
+      {.name = "thickness", .thicker_mm = 0.1}};
+  return all;
+}
+
+Volume<std::uint16_t> changed_image(const Volume<std::uint16_t>& labels,
+                                    const InputChange& change) {
+  return changed(labels, change);
+}
+
+Volume<float> changed_image(const Volume<float>& grey, const InputChange& change) {
+  return changed(grey, change);
+}
+
+}  // namespace mammotwin
