@@ -37,6 +37,7 @@ constexpr double kLoosely = 1e-2;  // residual of rounds
 // Residual of the last state: under a hundredth of a mm. Below it friction's points can change
 // between sticking and sliding for thirty iterations, and nothing else does.
 constexpr double kSettled = 1e-4;
+constexpr double kOnTheWay = 5e-2;  // residual of a state that is no balance and worth keeping
 // Of the penalty in a round; 3 and more bring chatter.
 constexpr double kLeastGrowth = 1.5, kMostGrowth = 2;
 constexpr double kComesOut = 0.75;   // of what is inside a plate, in such a round
@@ -155,12 +156,19 @@ bool Finish::improve(const Errors& now, bool closing, double growth, State& stat
   });
 }
 
-/// False where the state finds no balance, or none that is stable, with contact as it is.
+/// False where the state finds no balance, or none that is stable, with contact as it is. What lies
+/// on an edge falls, farther than one solve goes: the next begins where that one ended.
 bool Finish::settle(State& state) {
-  return !loose_ || better(state, [&](State& trial) {
+  if (!loose_) return true;
+  const Place before = here(state);
+  const NewtonReport report = press_.resettle(state, kSettled);
+  total_ = then(total_, report);
+  if (report.usable())
     loose_ = false;
-    return press_.resettle(trial, kSettled);
-  });
+  else if (!(report.residual <= kOnTheWay))
+    go_back_to(before, state);
+  press_.track_friction(state);
+  return report.usable();
 }
 
 NewtonReport Finish::run(State& state) {
@@ -195,7 +203,8 @@ NewtonReport Finish::run(State& state) {
     secant_ = {};
   }
   if (std::isfinite(best_error_)) go_back_to(best_, state);
-  settle(state);
+  const Place last = here(state);
+  if (!settle(state)) go_back_to(last, state);
   return total_;
 }
 
