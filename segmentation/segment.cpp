@@ -4,8 +4,10 @@
 #include <stdexcept>
 
 #include "segmentation/body/breast_region.h"
+#include "segmentation/body/fullest_box.h"
 #include "segmentation/body/judge_region.h"
 #include "segmentation/body/nipple.h"
+#include "segmentation/body/tissue_columns.h"
 #include "segmentation/files/markups_point.h"
 #include "segmentation/image/crop.h"
 #include "segmentation/image/distance.h"
@@ -33,6 +35,19 @@ void crop(SegmentResult& result) {
   s.labels = cropped(s.labels, box.low, box.high);
   s.fractions = cropped(s.fractions, box.low, box.high);
   if (!result.image.values.empty()) result.image = cropped(result.image, box.low, box.high);
+}
+
+/// Over the breastbone's border, beside a breast whose medial edge slants.
+void set_wall_back(const FoundRegion& found, Segmentation& s, SegmentQuality& quality) {
+  const Volume<std::uint8_t> before = s.labels;
+  set_muscle_back(s.labels, found.region, least_tissue_mm);
+  for (std::size_t v = 0; v < before.values.size(); ++v)
+    if (s.labels.values[v] != before.values[v])
+      s.fractions.values[v] = pure_fractions(s.labels.values[v]);
+  quality.notes.push_back(
+      "over " + std::to_string(std::lround(found.thin_mm2 / 100)) +
+      " cm2 beside the breast the chest wall lay less than 5 mm under the skin; "
+      "it was set back to there, so that the region holds the breast");
 }
 
 /// What shows the nipple: the image, fat at 1, with papilla and gland brighter than fat; or gland.
@@ -170,6 +185,7 @@ SegmentResult segment(const SegmentInput& input, const SegmentOptions& options,
   crop(result);
   const FoundRegion found = find_region(s.labels, s.region.side, LabelsHold::one_side);
   s.region = found.region;
+  if (found.thin_mm2 > 0) set_wall_back(found, s, q);
   if (result.judge_in_region) result.judge_in_region(s.region, q);
   place_nipple(input, result);
   judge_region(found, s, q);

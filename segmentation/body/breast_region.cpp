@@ -18,7 +18,9 @@ constexpr double thick_share = 0.35;  // of the column through the apex
 constexpr double beyond_thick_mm = 15;
 constexpr double least_apex_mm = 15;  // a breast thinner than this is none
 constexpr double flank_worth = 0.1;   // of tissue behind the breastbone's skin, over that before it
-constexpr double most_outside = 0.03;  // of the pendant tissue, before the region is widened
+constexpr double most_outside = 0.03;        // of the pendant tissue, before the region is widened
+constexpr double worth_setting_back = 0.02;  // of the pendant tissue: for less no muscle is moved
+constexpr double surely_breast_mm = 10;  // in front of the breastbone's skin: the breast, for sure
 
 /// The columns of one side, from the medial end on.
 ColumnBox side_columns(const Volume<std::uint8_t>& labels, const TissueColumns& columns, Side side,
@@ -101,6 +103,39 @@ ColumnBox pendant_box(const Volume<std::uint8_t>& labels, const ColumnBox& half,
   return {half.i0, half.i1, slice(pendant.z_low), slice(pendant.z_high)};
 }
 
+/// The columns with muscle close under the skin as if it lay least_tissue_mm deep, so far medially
+/// as the breast stands out in front of the breastbone's skin.
+TissueColumns thickened(const TissueColumns& columns, const PendantTissue& pendant,
+                        const ColumnBox& pendant_rows, const Apex& apex, Side side) {
+  const int medially = side == Side::left ? -1 : 1;
+  int end = apex.i;
+  for (int k = pendant_rows.k0; k <= pendant_rows.k1; ++k) {
+    int i = apex.i;
+    const auto stands = [&](int at) {
+      return at >= 0 && at < columns.nx &&
+             columns.front[columns.at(at, k)] + pendant.sternal_y > surely_breast_mm;
+    };
+    while (stands(i + medially)) i += medially;
+    end = side == Side::left ? std::min(end, i) : std::max(end, i);
+  }
+  TissueColumns thick = columns;
+  for (int k = pendant_rows.k0; k <= pendant_rows.k1; ++k)
+    for (int i = end; i != apex.i; i -= medially)
+      if (const std::size_t n = columns.at(i, k); columns.on_muscle[n])
+        thick.tissue[n] = std::max(thick.tissue[n], least_tissue_mm);
+  return thick;
+}
+
+double thin_area(const TissueColumns& columns, const Volume<std::uint8_t>& labels,
+                 const BreastRegion& region) {
+  double count = 0;
+  for (int k = 0; k < columns.nz; ++k)
+    for (int i = 0; i < columns.nx; ++i)
+      count += columns.tissue[columns.at(i, k)] < least_tissue_mm &&
+               region.contains(labels.position(i, 0, k));
+  return count * labels.spacing.x() * labels.spacing.z();
+}
+
 void hold_lesions(const Volume<std::uint8_t>& labels, const ColumnBox& half, ColumnBox& box) {
   for (int k = half.k0; k <= half.k1; ++k)
     for (int j = 0; j < labels.size.y(); ++j)
@@ -129,20 +164,30 @@ FoundRegion find_region(const Volume<std::uint8_t>& labels, Side side, LabelsHol
   FoundRegion found;
   found.pendant = find_pendant_tissue(labels, columns, half, apex.i, apex.k, side);
   const std::vector<double> worth = worth_of(columns, found.pendant.sternal_y);
-  const auto fullest_within = [&](const ColumnBox& within) {
-    ColumnBox box = fullest_box(columns, worth, within, apex.i, apex.k, {side});
+  const auto fullest_within = [&](const TissueColumns& of, const ColumnBox& within) {
+    ColumnBox box = fullest_box(of, worth, within, apex.i, apex.k, {side});
     hold_lesions(labels, half, box);
     return region_of(box, labels, side);
   };
+  const auto take_if_better = [&](const BreastRegion& other, double by) {
+    const OutsideRegion less = outside_region(found.pendant, labels, other);
+    const bool better = less.share < found.outside.share - by;
+    if (better) found.region = other, found.outside = less;
+    return better;
+  };
   const ColumnBox usual = widened(thick_box(columns, half, apex), half, labels, side);
-  found.region = fullest_within(usual);
+  found.region = fullest_within(columns, usual);
   found.outside = outside_region(found.pendant, labels, found.region);
   if (found.outside.share <= most_outside) return found;
   ColumnBox wider = pendant_box(labels, half, found.pendant);
+  ColumnBox rows = wider;  // as far laterally as usual
   wider.hold(usual.i0, usual.k0), wider.hold(usual.i1, usual.k1);
-  const BreastRegion other = fullest_within(wider);
-  const OutsideRegion less = outside_region(found.pendant, labels, other);
-  if (less.share < found.outside.share) found.region = other, found.outside = less;
+  take_if_better(fullest_within(columns, wider), 0);
+  if (found.outside.share <= most_outside) return found;
+  const TissueColumns thick = thickened(columns, found.pendant, rows, apex, side);
+  (side == Side::left ? rows.i1 : rows.i0) = side == Side::left ? usual.i1 : usual.i0;
+  if (take_if_better(fullest_within(thick, rows), worth_setting_back))
+    found.thin_mm2 = thin_area(columns, labels, found.region);
   return found;
 }
 

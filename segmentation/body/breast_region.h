@@ -17,6 +17,8 @@ struct FoundRegion {
   BreastRegion region;
   PendantTissue pendant;
   OutsideRegion outside;
+  /// [mm²] of columns in which the muscle has to be set back (set_muscle_back) to least_tissue_mm.
+  double thin_mm2 = 0;
 };
 
 /// The rectangle in the coronal plane that bounds one breast, from labels as in tissue.h, of both
@@ -30,7 +32,9 @@ struct FoundRegion {
 ///              the slices of that tissue and the end of the labels;
 /// and is, of all rectangles within these bounds of whose columns every one has 5 mm of tissue (8
 /// mm in the lateral edge's), the one with most tissue, that behind the breastbone's skin counting
-/// a tenth; then pushed out to hold every lesion of that side.
+/// a tenth; then pushed out to hold every lesion of that side. Where that leaves out more than 3 %
+/// still, muscle close under the skin beside the breast, where its medial edge slants over the
+/// breastbone, counts as 5 mm of tissue, if more of the breast is held so.
 ///
 /// Throws std::runtime_error if that side holds no breast that stands out from the chest.
 FoundRegion find_region(const Volume<std::uint8_t>& labels, Side side,

@@ -6,10 +6,12 @@
 
 namespace mammotwin {
 
+inline constexpr double least_tissue_mm = 5;
+
 struct FullestBoxRules {
   Side side = Side::left;
-  double least_mm = 5;          ///< of tissue, in every column
-  double least_lateral_mm = 8;  ///< in those of the lateral edge
+  double least_mm = least_tissue_mm;  ///< in every column
+  double least_lateral_mm = 8;        ///< in those of the lateral edge
 };
 
 /// Of all boxes within `within` that hold the column (i, k) and no column with too little tissue,

@@ -1,6 +1,7 @@
 #include "segmentation/body/tissue_columns.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "segmentation/image/components.h"
@@ -13,20 +14,35 @@ TissueColumns measure_columns(const Volume<std::uint8_t>& labels) {
     muscle.values[v] = labels.values[v] == label::muscle;
   muscle = without_small_components(muscle, least_muscle_ml);
 
-  TissueColumns columns{labels.size.x(), labels.size.z(), {}, {}};
+  TissueColumns columns{labels.size.x(), labels.size.z(), {}, {}, {}};
   const double dy = labels.spacing.y();
   for (int k = 0; k < columns.nz; ++k)
     for (int i = 0; i < columns.nx; ++i) {
       double tissue = 0, front = -std::numeric_limits<double>::infinity();
-      for (int j = 0; j < labels.size.y() && !muscle(i, j, k); ++j) {
+      int j = 0;
+      for (; j < labels.size.y() && !muscle(i, j, k); ++j) {
         if (!label::is_breast(labels(i, j, k))) continue;
         if (tissue == 0) front = -labels.position(i, j, k).y();
         tissue += dy;
       }
       columns.tissue.push_back(tissue);
       columns.front.push_back(front);
+      columns.on_muscle.push_back(j < labels.size.y());
     }
   return columns;
+}
+
+void set_muscle_back(Volume<std::uint8_t>& labels, const BreastRegion& region, double least_mm) {
+  const int deep = static_cast<int>(std::ceil(least_mm / labels.spacing.y()));
+  for (int k = 0; k < labels.size.z(); ++k)
+    for (int i = 0; i < labels.size.x(); ++i) {
+      if (!region.contains(labels.position(i, 0, k))) continue;
+      int first = 0;
+      while (first < labels.size.y() && labels(i, first, k) == label::air) ++first;
+      for (int j = first; j < std::min(first + deep, labels.size.y()); ++j)
+        if (labels(i, j, k) == label::muscle)
+          labels(i, j, k) = j == first ? label::skin : label::fat;
+    }
 }
 
 void ColumnBox::hold(int i, int k) {

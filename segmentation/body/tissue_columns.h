@@ -17,13 +17,18 @@ inline constexpr double least_muscle_ml = 2;
 /// `least_muscle_ml` are none.
 struct TissueColumns {
   int nx = 0, nz = 0;
-  std::vector<double> tissue;  ///< [mm]
-  std::vector<double> front;   ///< how far forward (-y) the skin reaches [mm]; -infinity: empty
+  std::vector<double> tissue;   ///< [mm]
+  std::vector<double> front;    ///< how far forward (-y) the skin reaches [mm]; -infinity: empty
+  std::vector<char> on_muscle;  ///< 1: there is muscle behind the tissue, or muscle alone
 
   std::size_t at(int i, int k) const { return static_cast<std::size_t>(k) * nx + i; }
 };
 
 TissueColumns measure_columns(const Volume<std::uint8_t>& labels);
+
+/// Where the muscle's front lies nearer to the skin than `least_mm`, in the columns that a region
+/// holds, it is set back to there: what is in front becomes fat, under one voxel of skin.
+void set_muscle_back(Volume<std::uint8_t>& labels, const BreastRegion& region, double least_mm);
 
 /// Columns in the coronal plane, all ends included.
 struct ColumnBox {

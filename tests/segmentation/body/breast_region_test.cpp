@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "segmentation/body/fullest_box.h"
+#include "segmentation/body/tissue_columns.h"
 #include "tests/segmentation/message.h"
 
 namespace mammotwin {
@@ -162,6 +164,48 @@ TEST(BreastRegion, IsWidenedWhereTheThickPartLeavesBreastOut) {
       }
   const FoundRegion found = find_region(labels, Side::left);
   EXPECT_LT(found.outside.share, 0.03);
+}
+
+/// A left breast that leans outwards from its foot to its head; above its middle, muscle lies close
+/// under the skin on its medial side.
+Volume<std::uint8_t> leaning_breast() {
+  Volume<std::uint8_t> labels({90, 70, 90}, Eigen::Vector3d::Constant(2), {2, -51, -89},
+                              label::air);
+  for (int k = 0; k < labels.size.z(); ++k)
+    for (int j = 0; j < labels.size.y(); ++j)
+      for (int i = 0; i < labels.size.x(); ++i) {
+        const Eigen::Vector3d x = labels.position(i, j, k);
+        const double from_middle = (x.x() - 85 - 0.5 * x.z()) / 45;
+        const double height =
+            70 * std::sqrt(std::max(0.0, 1 - from_middle * from_middle - x.z() * x.z() / 6400));
+        const double cover = x.z() > 0 && from_middle < -1 ? 2 : coat;
+        if (x.y() > chest_front)
+          labels(i, j, k) = label::muscle;
+        else if (x.y() > chest_front - cover - height)
+          labels(i, j, k) = label::fat;
+      }
+  return labels;
+}
+
+TEST(BreastRegion, HoldsABreastWhoseMedialEdgeSlantsOverTheBreastbone) {
+  auto labels = leaning_breast();
+  const FoundRegion found = find_region(labels, Side::left, LabelsHold::one_side);
+  EXPECT_LT(found.outside.share, 0.03);
+  EXPECT_GT(found.thin_mm2, 100);
+  set_muscle_back(labels, found.region, least_tissue_mm);
+  const TissueColumns columns = measure_columns(labels);
+  int within = 0;
+  for (int k = 0; k < columns.nz; ++k)
+    for (int i = 0; i < columns.nx; ++i)
+      if (found.region.contains(labels.position(i, 0, k))) {
+        ++within;
+        EXPECT_GE(columns.tissue[columns.at(i, k)], least_tissue_mm) << i << ' ' << k;
+      }
+  EXPECT_GT(within, 1000);
+}
+
+TEST(BreastRegion, MovesNoMuscleWhereTheBreastIsHeldAnyway) {
+  EXPECT_EQ(find_region(two_breasts(), Side::left).thin_mm2, 0);
 }
 
 TEST(BreastRegion, RefusesASideWithoutABreast) {

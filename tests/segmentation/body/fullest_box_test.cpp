@@ -10,7 +10,7 @@ namespace {
 constexpr int nx = 9, nz = 8, apex_i = 4, apex_k = 3;
 
 TissueColumns random_columns(int seed) {
-  TissueColumns columns{nx, nz, {}, {}};
+  TissueColumns columns{nx, nz, {}, {}, {}};
   std::mt19937 random(seed);
   for (int n = 0; n < nx * nz; ++n)
     columns.tissue.push_back(random() % 6 == 0 ? 3 : random() % 3 == 0 ? 6 : 20 + random() % 30);
