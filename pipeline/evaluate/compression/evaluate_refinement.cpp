@@ -1,7 +1,7 @@
 // evaluate-refinement: breasts pressed with coarser and finer meshes -> one table.
 
 #include "pipeline/evaluate/cases/case_arguments.h"
-#include "pipeline/evaluate/cases/evaluation_table.h"
+#include "pipeline/evaluate/compression/breast_stages.h"
 #include "pipeline/evaluate/compression/refinement_rows.h"
 #include "pipeline/frame/command_line.h"
 
@@ -21,18 +21,16 @@ void declare(CommandLine& command, Arguments& args) {
   declare_table(command, args.table, "refinement");
   declare_only(command, args.only);
   command.option("--meshes", args.meshes,
-                 "elements, the finest first: 16x16x3, default, ... (default: 16x16x3, 12x12x3, "
-                 "9x9x3, 7x7x2 and what fit chooses)");
+                 "elements, the finest first: 16x16x3, default (what fit chooses), ... (default: "
+                 "16x16x3, 12x12x2, 10x10x2, 9x9x2, 8x8x2, 7x7x2)");
 }
 
 int run(Arguments args) {
-  if (args.meshes.empty()) args.meshes = {"16x16x3", "12x12x3", "9x9x3", "7x7x2", "default"};
-  EvaluationTable table(args.table);
-  const auto breasts =
-      breasts_to_press(args.patient, args.cases, args.only, table.folder() / "refinement");
-  for (std::size_t n = 0; n < breasts.size(); ++n)
-    add_refinement_rows(breasts[n], args.meshes,
-                        [&](const nlohmann::json& row) { table.add(n, row); });
+  if (args.meshes.empty())
+    args.meshes = {"16x16x3", "12x12x2", "10x10x2", "9x9x2", "8x8x2", "7x7x2"};
+  tabulate_breasts(
+      args.patient, args.cases, args.only, args.table,
+      [&](const auto& breast, const auto& add) { add_refinement_rows(breast, args.meshes, add); });
   return 0;
 }
 

@@ -2,10 +2,9 @@
 // volume -> one table.
 
 #include "pipeline/evaluate/cases/case_arguments.h"
-#include "pipeline/evaluate/cases/evaluation_table.h"
+#include "pipeline/evaluate/compression/breast_stages.h"
 #include "pipeline/evaluate/compression/stabilisation_rows.h"
 #include "pipeline/frame/command_line.h"
-#include "pipeline/synthesize/option_table.h"
 
 namespace mammotwin {
 namespace {
@@ -25,11 +24,7 @@ void declare(CommandLine& command, Arguments& args) {
 }
 
 int run(const Arguments& args) {
-  EvaluationTable table(args.table);
-  const auto breasts =
-      breasts_to_press(args.patient, args.cases, args.only, table.folder() / "stabilisation");
-  for (std::size_t n = 0; n < breasts.size(); ++n)
-    add_stabilisation_rows(breasts[n], [&](const nlohmann::json& row) { table.add(n, row); });
+  tabulate_breasts(args.patient, args.cases, args.only, args.table, add_stabilisation_rows);
   return 0;
 }
 

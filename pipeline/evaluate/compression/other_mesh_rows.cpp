@@ -3,7 +3,7 @@
 #include <stdexcept>
 
 #include "pipeline/evaluate/cases/stage_command.h"
-#include "pipeline/evaluate/compression/pressed_places.h"
+#include "pipeline/evaluate/compression/breast_stages.h"
 
 namespace mammotwin {
 namespace {
@@ -15,28 +15,20 @@ using nlohmann::json;
 class OtherMeshRun {
  public:
   OtherMeshRun(const BreastToPress& breast, const fs::path& other)
-      : breast_(breast),
-        other_(other),
-        segmentation_(breast.folder / "segmentation.seg.nrrd"),
-        prone_(breast.folder / "prone.vtu") {
-    fs::create_directories(breast.folder / "other");
-    run_to_product({"segment", {}, segmentation_, breast.patient_toml});
-    run_to_product({"fit",
-                    {segmentation_.string(), fractions_beside(segmentation_).string()},
-                    prone_,
-                    breast.patient_toml});
+      : stages_(breast), other_(other), prone_(breast.folder / "prone.vtu") {
+    stages_.fit(prone_);
   }
 
   json row(const std::string& view) const {
-    json row{{"name", breast_.name}, {"view", view}, {"reason", nullptr}};
+    json row{{"name", stages_.breast().name}, {"view", view}, {"reason", nullptr}};
     for (const char* key : {"force_N", "force_change", "lesion_median_mm", "lesion_max_mm",
                             "tissue_median_mm", "tissue_max_mm", "cpu_seconds"})
       row[key] = nullptr;
     try {
       row["elements"] = read_mesh_file(prone_).mesh.num_elements();
       row["other_elements"] = read_mesh_file(other_).mesh.num_elements();
-      const fs::path ours = breast_.folder / (view + ".vtu"),
-                     theirs = breast_.folder / "other" / (view + ".vtu");
+      const fs::path ours = stages_.breast().folder / (view + ".vtu"),
+                     theirs = stages_.breast().folder / "other" / (view + ".vtu");
       row["cpu_seconds"] = press(view, prone_, ours);
       press(view, other_, theirs);
       compare(ours, theirs, row);
@@ -49,11 +41,7 @@ class OtherMeshRun {
  private:
   double press(const std::string& view, const fs::path& mesh, const fs::path& pressed) const {
     try {
-      return run_to_product(
-          {"compress",
-           {view, segmentation_.string(), fractions_beside(segmentation_).string(), mesh.string()},
-           pressed,
-           breast_.patient_toml});
+      return stages_.press(view, mesh, pressed);
     } catch (const std::exception& error) {
       throw std::runtime_error((mesh == other_ ? "other mesh, " : "our mesh, ") +
                                std::string(error.what()));
@@ -61,18 +49,13 @@ class OtherMeshRun {
   }
 
   void compare(const fs::path& ours, const fs::path& theirs, json& row) const {
-    const auto force = [](const fs::path& pressed) {
-      return stage_sidecar(pressed).at("quality").at("force_N").get<double>();
-    };
-    row["force_N"] = force(ours);
-    row["force_change"] = force(ours) / force(theirs) - 1;
-    const std::string view = row.at("view");
-    add_moves(FollowedPoints(segmentation_, prone_), PressedPlaces(theirs, view, segmentation_),
-              PressedPlaces(ours, view, segmentation_), row);
+    row["force_N"] = stage_sidecar(ours).at("quality").at("force_N");
+    stages_.compare(FollowedPoints(stages_.segmentation(), prone_), row.at("view"), theirs, ours,
+                    row);
   }
 
-  const BreastToPress& breast_;
-  const fs::path other_, segmentation_, prone_;
+  const BreastStages stages_;
+  const fs::path other_, prone_;
 };
 
 }  // namespace

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "pipeline/evaluate/cases/stage_command.h"
-#include "pipeline/evaluate/compression/pressed_places.h"
+#include "pipeline/evaluate/compression/breast_stages.h"
 
 namespace mammotwin {
 namespace {
@@ -13,19 +13,14 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-/// One breast under way: segmented, then fitted and pressed mesh by mesh.
+/// One breast under way: fitted and pressed mesh by mesh.
 class RefinementRun {
  public:
   RefinementRun(const BreastToPress& breast, std::string finest)
-      : breast_(breast),
-        finest_(std::move(finest)),
-        segmentation_(breast.folder / "segmentation.seg.nrrd") {
-    fs::create_directories(breast.folder);
-    run_to_product({"segment", {}, segmentation_, breast.patient_toml});
-  }
+      : stages_(breast), finest_(std::move(finest)) {}
 
   json row(const std::string& mesh, const std::string& view) const {
-    json row{{"name", breast_.name}, {"view", view}, {"mesh", mesh}, {"reason", nullptr}};
+    json row{{"name", stages_.breast().name}, {"view", view}, {"mesh", mesh}, {"reason", nullptr}};
     for (const char* key :
          {"force_N", "force_change", "contact_area_cm2", "gap_p95_mm", "max_penetration_mm",
           "lesion_median_mm", "lesion_max_mm", "tissue_median_mm", "tissue_max_mm", "dof",
@@ -34,7 +29,7 @@ class RefinementRun {
     try {
       fit(mesh);
       row["elements"] = read_mesh_file(prone(mesh)).mesh.num_elements();
-      row["cpu_seconds"] = press(mesh, view);
+      row["cpu_seconds"] = stages_.press(view, prone(mesh), pressed(mesh, view));
       describe(mesh, view, row);
     } catch (const std::exception& error) {
       row["reason"] = error.what();
@@ -43,31 +38,17 @@ class RefinementRun {
   }
 
  private:
-  fs::path prone(const std::string& mesh) const { return breast_.folder / mesh / "prone.vtu"; }
+  fs::path folder(const std::string& mesh) const { return stages_.breast().folder / mesh; }
+  fs::path prone(const std::string& mesh) const { return folder(mesh) / "prone.vtu"; }
   fs::path pressed(const std::string& mesh, const std::string& view) const {
-    return breast_.folder / mesh / (view + ".vtu");
+    return folder(mesh) / (view + ".vtu");
   }
 
   void fit(const std::string& mesh) const {
-    fs::create_directories(prone(mesh).parent_path());
-    ProductRun run{"fit",
-                   {segmentation_.string(), fractions_beside(segmentation_).string()},
-                   prone(mesh),
-                   breast_.patient_toml};
-    if (mesh != "default") {
-      std::string elements = mesh;
-      std::replace(elements.begin(), elements.end(), 'x', ',');
-      run.options = {"--elements", "[" + elements + "]"};
-    }
-    run_to_product(run);
-  }
-
-  double press(const std::string& mesh, const std::string& view) const {
-    return run_to_product({"compress",
-                           {view, segmentation_.string(), fractions_beside(segmentation_).string(),
-                            prone(mesh).string()},
-                           pressed(mesh, view),
-                           breast_.patient_toml});
+    if (mesh == "default") return stages_.fit(prone(mesh));
+    std::string elements = mesh;
+    std::replace(elements.begin(), elements.end(), 'x', ',');
+    stages_.fit(prone(mesh), {"--elements", "[" + elements + "]"});
   }
 
   void describe(const std::string& mesh, const std::string& view, json& row) const {
@@ -77,16 +58,12 @@ class RefinementRun {
       row[key] = quality.at(key);
     const fs::path best = pressed(finest_, view);
     if (mesh == finest_ || !fs::exists(best)) return;
-    const double force = stage_sidecar(best).at("quality").at("force_N");
-    row["force_change"] = row.at("force_N").get<double>() / force - 1;
-    add_moves(FollowedPoints(segmentation_, prone(finest_)),
-              PressedPlaces(best, view, segmentation_),
-              PressedPlaces(pressed(mesh, view), view, segmentation_), row);
+    stages_.compare(FollowedPoints(stages_.segmentation(), prone(finest_)), view, best,
+                    pressed(mesh, view), row);
   }
 
-  const BreastToPress& breast_;
+  const BreastStages stages_;
   const std::string finest_;
-  const fs::path segmentation_;
 };
 
 }  // namespace

@@ -3,9 +3,8 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "pipeline/evaluate/cases/sorted_figures.h"
 #include "pipeline/evaluate/cases/stage_command.h"
-#include "pipeline/evaluate/compression/pressed_places.h"
+#include "pipeline/evaluate/compression/breast_stages.h"
 #include "solver/element/solid_element.h"
 
 namespace mammotwin {
@@ -35,21 +34,14 @@ std::vector<Stabilisation> stabilisations() {
 class StabilisationRun {
  public:
   explicit StabilisationRun(const BreastToPress& breast)
-      : breast_(breast),
-        segmentation_(breast.folder / "segmentation.seg.nrrd"),
-        prone_(breast.folder / "prone.vtu") {
-    fs::create_directories(breast.folder);
-    run_to_product({"segment", {}, segmentation_, breast.patient_toml});
-    run_to_product({"fit",
-                    {segmentation_.string(), fractions_beside(segmentation_).string()},
-                    prone_,
-                    breast.patient_toml});
-    followed_.emplace(segmentation_, prone_);
+      : stages_(breast), prone_(breast.folder / "prone.vtu") {
+    stages_.fit(prone_);
+    followed_.emplace(stages_.segmentation(), prone_);
   }
 
   json row(const std::string& view, const Stabilisation& s) const {
-    json row{{"name", breast_.name},        {"view", view},       {"weight", s.weight},
-             {"quartic", s.quartic},        {"converged", false}, {"reason", nullptr},
+    json row{{"name", stages_.breast().name}, {"view", view},       {"weight", s.weight},
+             {"quartic", s.quartic},          {"converged", false}, {"reason", nullptr},
              {"is_default", s.is_default()}};
     for (const char* key :
          {"force_N", "force_change", "lesion_median_mm", "lesion_max_mm", "tissue_median_mm",
@@ -71,31 +63,22 @@ class StabilisationRun {
 
  private:
   fs::path pressed(const std::string& view, const Stabilisation& s) const {
-    return breast_.folder / s.name() / (view + ".vtu");
+    return stages_.breast().folder / s.name() / (view + ".vtu");
   }
 
   double press(const std::string& view, const Stabilisation& s) const {
-    fs::create_directories(pressed(view, s).parent_path());
-    return run_to_product(
-        {"compress",
-         {view, segmentation_.string(), fractions_beside(segmentation_).string(), prone_.string()},
-         pressed(view, s),
-         breast_.patient_toml,
-         {"--grad-div", json(s.weight).dump(), "--grad-div-quartic", json(s.quartic).dump()}});
+    return stages_.press(
+        view, prone_, pressed(view, s),
+        {"--grad-div", json(s.weight).dump(), "--grad-div-quartic", json(s.quartic).dump()});
   }
 
   void compare_with_default(const std::string& view, const Stabilisation& s, json& row) const {
     const fs::path base = pressed(view, stabilisations().front());
-    if (!fs::exists(base)) return;
-    const double force = stage_sidecar(base).at("quality").at("force_N");
-    row["force_change"] = row.at("force_N").get<double>() / force - 1;
-    const PressedPlaces before(base, view, segmentation_),
-        after(pressed(view, s), view, segmentation_);
-    add_moves(*followed_, before, after, row);
+    if (fs::exists(base)) stages_.compare(*followed_, view, base, pressed(view, s), row);
   }
 
-  const BreastToPress& breast_;
-  const fs::path segmentation_, prone_;
+  const BreastStages stages_;
+  const fs::path prone_;
   std::optional<FollowedPoints> followed_;
 };
 

@@ -95,10 +95,5 @@ TEST(ChangedImage, GreyValuesAreThoseOfASplineThroughTheVoxels) {
   EXPECT_LT(largest_error(changed_image(blob(), change("half_voxel"))), 0.3);
 }
 
-TEST(ChangedImage, AMirroredImageIsTheOtherSides) {
-  const Volume<float> before = blob(), after = changed_image(before, change("mirror"));
-  for (int i = 0; i < 40; ++i) EXPECT_EQ(after(i, 10, 9), before(39 - i, 10, 9)) << i;
-}
-
 }  // namespace
 }  // namespace mammotwin
