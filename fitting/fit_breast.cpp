@@ -21,8 +21,8 @@ namespace {
 constexpr int smallest_breast_voxels = 20000;  // 20 ml at 1 mm
 // Columns along x and z that are tried in turn for an accuracy.
 constexpr std::array<int, 7> column_counts = {4, 5, 6, 7, 8, 10, 12};
-// By what tissue pressed with 16 x 16 x 3 elements does (docs/measured/refinement.md): a layer more
-// brings nothing. Areas are of a skin smoothed by 1 mm.
+// By what tissue pressed with 16 x 16 x 3 elements does (docs/measured/refinement.md). Areas are of
+// a skin smoothed by 1 mm.
 constexpr double largest_column_mm2 = 600;
 constexpr int more_columns = 2;  // where a skin is too uneven for as many as its area asks for
 constexpr double worth_pulling_in_mm = 1;  // RMS of the skin, beyond which an edge is given up

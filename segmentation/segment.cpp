@@ -4,7 +4,6 @@
 #include <stdexcept>
 
 #include "segmentation/body/breast_region.h"
-#include "segmentation/body/fullest_box.h"
 #include "segmentation/body/judge_region.h"
 #include "segmentation/body/nipple.h"
 #include "segmentation/body/tissue_columns.h"

@@ -6,8 +6,6 @@
 
 namespace mammotwin {
 
-inline constexpr double least_tissue_mm = 5;
-
 struct FullestBoxRules {
   Side side = Side::left;
   double least_mm = least_tissue_mm;  ///< in every column

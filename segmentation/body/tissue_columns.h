@@ -8,6 +8,8 @@
 
 namespace mammotwin {
 
+/// A column of a breast's region has as much [mm]: elements stand on it.
+inline constexpr double least_tissue_mm = 5;
 /// Smaller pieces of muscle are vessels or noise.
 inline constexpr double least_muscle_ml = 2;
 

@@ -22,10 +22,10 @@ Eigen::Matrix<double, N, N> convex_part(const Eigen::Matrix<double, N, N>& matri
          eigen.eigenvectors().transpose();
 }
 
-/// The same of a tangent ∂P/∂F (as Material::Tangent has it) of an isotropic law at F, a quarter of
-/// the work: in the axes of F's singular vectors it is three 2x2 blocks and one of 3x3 (Smith, de
-/// Goes, Kim, Analytic eigensystems for isotropic distortion energies, ACM Transactions on Graphics
-/// 38, 2019).
+/// The same of a tangent ∂P/∂F (as Material::Tangent has it) of an isotropic law at F, in less
+/// work: in the axes of F's singular vectors it is three 2x2 blocks and one of 3x3 (Smith, de Goes,
+/// Kim, Analytic eigensystems for isotropic distortion energies, ACM Transactions on Graphics 38,
+/// 2019).
 Eigen::Matrix<double, 9, 9> isotropic_convex_part(const Eigen::Matrix<double, 9, 9>& tangent,
                                                   const Eigen::Matrix3d& F);
 

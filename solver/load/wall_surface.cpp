@@ -18,11 +18,9 @@ namespace {
 constexpr int kProjectionSteps = 30;  // Newton converges in 3 to 6
 constexpr int kHalvings = 8;  // of a step that leads away from the point: Newton alone can cycle
 constexpr double kRounding = 1e-12;  // [mm] of a distance
-constexpr double kBeyondRim = 60;    // [mm] that it goes on by: breasts slide by centimetres
+constexpr double kBeyondRim = 60;    // [mm] that it goes on by, about: breasts slide by centimetres
 constexpr double kRimTolerance = 1e-9;
-// Of a patch's side; the next is rounding. With 1e-8 forces were rough enough to keep a breast from
-// coming to rest.
-constexpr double kLastStep = 1e-11;
+constexpr double kLastStep = 1e-11;  // of a patch's side: the next is rounding
 
 /// Hermite functions continued by their tangents outside [0, 1], so that the surface is.
 HermiteValues extended(double t, int order) {

@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "segmentation/body/fullest_box.h"
 #include "segmentation/body/tissue_columns.h"
 #include "tests/segmentation/message.h"
 
