@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <memory>
+#include <stdexcept>
 #include <utility>
 
 #include "solver/newton/stability.h"
@@ -184,6 +185,18 @@ InverseEquilibrium::Step InverseEquilibrium::step_of(const Eigen::VectorXd& corr
         stiffness * (here.pressure_residual.col(e).head(stiffness.rows()) + pressure_tangent * dX);
   }
   return step;
+}
+
+State InverseEquilibrium::change(const State& reference, const Eigen::Vector3d& body_force,
+                                 const InverseEquilibrium& from, const InverseEquilibrium& to) {
+  Evaluation here = evaluate(reference, body_force);
+  if (!linearise(reference, here, body_force))
+    throw std::runtime_error("the tangent of the inverse problem is singular");
+  const Evaluation a = from.evaluate(reference, body_force), b = to.evaluate(reference, body_force);
+  here.residual = b.residual - a.residual;
+  here.pressure_residual = b.pressure_residual - a.pressure_residual;
+  Step step = step_of(correction(here), here);
+  return {std::move(step.nodes), std::move(step.pressure)};
 }
 
 /// Residuals say little here (the wall's penalty swamps them), so the test is natural: the next

@@ -33,6 +33,12 @@ class InverseEquilibrium {
   NewtonReport solve(State& reference, const Eigen::Vector3d& body_force, double tolerance,
                      int max_iterations);
 
+  /// What a solution `reference` changes by between two problems that are next to this one, to
+  /// first order: -(∂R/∂(X, p))⁻¹ (R_to - R_from), with the tangent of this problem. Throws
+  /// std::runtime_error where that is singular.
+  State change(const State& reference, const Eigen::Vector3d& body_force,
+               const InverseEquilibrium& from, const InverseEquilibrium& to);
+
   /// Of a solution: the smallest eigenvalue of the forward problem's tangent in the deformed shape
   /// against that in the shape free of load (in the metric of the μ-weighted Laplacian; 1 without
   /// load), or 0 where it is not positive definite: the deformed shape then is no minimum of the

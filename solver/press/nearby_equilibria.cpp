@@ -3,14 +3,20 @@
 #include <stdexcept>
 #include <utility>
 
+#include "solver/contact/contact_figures.h"
 #include "solver/press/pressed_breast.h"
 
 namespace mammotwin {
+
+namespace {
+constexpr int kPaddlePlate = 1;  // of contact's plates, after the support
+}
 
 /// A breast and its plates with the linear system at the solved state.
 struct NearbyEquilibria::Posed {
   PressedBreast breast;
   PlacedPlates plates;
+  Eigen::Vector3d up;
   std::unique_ptr<Assembler> assembler;
 };
 
@@ -27,7 +33,7 @@ NearbyEquilibria::NearbyEquilibria(const CompressionResult& near, const Compress
 }
 
 NearbyEquilibria::Posed NearbyEquilibria::posed(const CompressionProblem& problem) const {
-  Posed posed{make_pressed_breast(problem, options_.solid), {}, nullptr};
+  Posed posed{make_pressed_breast(problem, options_.solid), {}, problem.plates.up, nullptr};
   const PlateFrame frame(problem.mesh, problem.plates);
   const PlacedPlates asked =
       PlateWay(frame, problem, options_.moving).at(1, problem.plates.paddle_tilt);
@@ -43,13 +49,27 @@ NearbyEquilibria::Posed NearbyEquilibria::posed(const CompressionProblem& proble
   return posed;
 }
 
+double NearbyEquilibria::paddle_force(const Posed& posed, double fraction,
+                                      const std::vector<HermiteMesh::Node>& step) const {
+  State state = state_;
+  for (std::size_t i = 0; i < step.size(); ++i) state.x[i] += fraction * step[i];
+  const PressedBreast& breast = posed.breast;
+  constexpr double newton_per_milli = 1e-3;
+  return -newton_per_milli *
+         posed.up.dot(contact_figures(*breast.model, state, *breast.contact, kPaddlePlate,
+                                      breast.contact_faces, breast.friction.get())
+                          .force);
+}
+
 NearbyEquilibria::Step NearbyEquilibria::step(const CompressionProblem& from,
                                               const CompressionProblem& to) const {
   if (!usable_) throw std::logic_error("no step from an equilibrium that is not stable");
   const Posed a = posed(from), b = posed(to);
   const Eigen::VectorXd change =
       factor_->solve(b.assembler->right_hand_side() - a.assembler->right_hand_side());
-  return {here_->assembler->nodal_step(change, {}), a.plates, b.plates};
+  Step step{here_->assembler->nodal_step(change, {}), a.plates, b.plates};
+  step.force_N = paddle_force(b, 0.5, step.nodes) - paddle_force(a, -0.5, step.nodes);
+  return step;
 }
 
 }  // namespace mammotwin
