@@ -34,7 +34,8 @@ NearbyEquilibria::NearbyEquilibria(const CompressionResult& near, const Compress
 
 NearbyEquilibria::Posed NearbyEquilibria::posed(const CompressionProblem& problem) const {
   Posed posed{make_pressed_breast(problem, options_.solid), {}, problem.plates.up, nullptr};
-  const PlateFrame frame(problem.mesh, problem.plates);
+  const MeshFile positioned = as_positioned(problem);
+  const PlateFrame frame(positioned, problem.plates);
   const PlacedPlates asked =
       PlateWay(frame, problem, options_.moving).at(1, problem.plates.paddle_tilt);
   const double apart = near_.plates.paddle_height - near_.plates.support_height +

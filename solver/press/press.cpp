@@ -19,24 +19,15 @@ PenaltyOptions penalties_of_steps() {
   return penalties;
 }
 
-MeshFile positioned(const CompressionProblem& problem) {
-  MeshFile file = problem.mesh;
-  if (!problem.pull.isZero() && !problem.prone.empty())
-    file.mesh = HermiteMesh(problem.prone, file.mesh.elements());
-  return file;
-}
-
 }  // namespace
 
 Press::Press(const CompressionProblem& problem, const CompressionOptions& options)
     : problem_(problem),
       options_(options),
-      positioned_(mammotwin::positioned(problem)),
+      positioned_(as_positioned(problem)),
       breast_(make_pressed_breast(problem, options.solid)),
       frame_(positioned_, problem.plates),
       newton_(*breast_.model, *breast_.dofs) {
-  if (const Eigen::Vector3d force = problem.body_force(); !force.isZero())
-    breast_.model->set_body_force([force](const Eigen::Vector3d&) { return force; });
   if (breast_.friction)
     breast_.contact->follow = following(*breast_.friction, *breast_.model, breast_.contact_faces);
 }

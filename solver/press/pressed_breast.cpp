@@ -32,7 +32,16 @@ PressedBreast make_pressed_breast(const CompressionProblem& problem, const Solid
   PressedBreast breast{make_breast_model(problem, solid), {}, {}, {}};
   add_contact(problem, breast);
   add_friction(problem, breast);
+  if (const Eigen::Vector3d force = problem.body_force(); !force.isZero())
+    breast.model->set_body_force([force](const Eigen::Vector3d&) { return force; });
   return breast;
+}
+
+MeshFile as_positioned(const CompressionProblem& problem) {
+  MeshFile file = problem.mesh;
+  if (!problem.pull.isZero() && !problem.prone.empty())
+    file.mesh = HermiteMesh(problem.prone, file.mesh.elements());
+  return file;
 }
 
 void hold_by_friction(PressedBreast& breast, const std::vector<PlateFriction::Hold>& holds,

@@ -16,8 +16,11 @@ struct PressedBreast : BreastModel {
   Faces contact_faces;
 };
 
-/// Throws std::invalid_argument as make_breast_model does.
+/// Under the problem's body force. Throws std::invalid_argument as make_breast_model does.
 PressedBreast make_pressed_breast(const CompressionProblem& problem, const SolidOptions& solid);
+
+/// The breast about which plates are placed: as imaged where something holds it as far forward.
+MeshFile as_positioned(const CompressionProblem& problem);
 
 /// Friction as it held a state that was solved elsewhere; frozen_mm: PlateFriction::freeze; 0: not.
 void hold_by_friction(PressedBreast& breast, const std::vector<PlateFriction::Hold>& holds,

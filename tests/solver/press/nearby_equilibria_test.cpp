@@ -105,6 +105,24 @@ TEST(NearbyEquilibria, StepIsTheDifferenceOfTwoSolvesWithFriction) {
             1e-5);
 }
 
+// Drawn forward by a weight, from a shape that is not the one that plates are placed about.
+TEST(NearbyEquilibria, StepIsTheDifferenceOfTwoSolvesOfABreastDrawnForward) {
+  Pressed drawn;
+  drawn.problem = dome_problem(85);
+  drawn.problem.mesh = dome_breast({2, 2, 1});
+  drawn.problem.prone = drawn.problem.mesh.mesh.nodes();
+  for (auto& node : drawn.problem.prone) node(1, 0) *= 1.05;
+  drawn.problem.pull = {0, -9.81e-3, 0};
+  CompressionResult start = compress(drawn.problem, {});
+  ASSERT_TRUE(start.report.usable()) << start.report.reason;
+  start.penalty /= 3;
+  drawn.equilibrium = compress_from(start, drawn.problem, nearby_options());
+  for (int again = 0; again < 2; ++again)
+    drawn.equilibrium = compress_from(drawn.equilibrium, drawn.problem, nearby_options());
+  EXPECT_LT(error_of_step(drawn, plates_moved, 3e-3), 1e-5);
+  EXPECT_LT(error_of_step(drawn, tissue_changed, 3e-3), 1e-5);
+}
+
 // What friction adds to the paddle's force moves with the breast; only normal forces depend on q.
 TEST(NearbyEquilibria, TheForceChangesAsThatOfTwoSolves) {
   constexpr double by = 1e-3;
