@@ -38,7 +38,7 @@ unexport MAKEFLAGS MAKEOVERRIDES
 
 .PHONY: help patient segment fit unload compress register report slicer paraview synthesize exam cohort verify-results \
         evaluate-segmentation evaluate-fitting evaluate-compression evaluate-unload evaluate-gravity evaluate-registration \
-        evaluate-stability evaluate-refinement evaluate-stabilisation evaluate-other-meshes evaluate-what-if evaluate-page evaluate-outlines evaluate-mammograms evaluate-mammogram-changes evaluate-tomosynthesis evaluate-real-pairs evaluate-niftysim evaluate-victre measured validate bench chain programs configured \
+        evaluate-stability evaluate-refinement evaluate-stabilisation evaluate-other-meshes evaluate-what-if evaluate-page evaluate-outlines evaluate-mammograms evaluate-mammogram-changes evaluate-tomosynthesis evaluate-real-pairs evaluate-niftysim evaluate-victre calibrate-tissue measured validate bench chain programs configured \
         configured_to_test install docs test clean
 .NOTPARALLEL:  # ninja itself uses all cores
 .DEFAULT_GOAL := help
@@ -62,6 +62,9 @@ help:
 	@echo '                       program: RESULTS/evaluation/other_meshes.json; VIEWS=cc'
 	@echo 'make evaluate-gravity  lays every breast of CASES on its back: RESULTS/evaluation/gravity.json;'
 	@echo '                       PRESET=real for another materials.preset; PRESS=1 presses them in CC, too'
+	@echo 'make calibrate-tissue  finds the tissue with which the label maps of CASES do what women do from prone to'
+	@echo '                       supine and need usual plate forces: RESULTS/evaluation/tissue_calibration.json;'
+	@echo '                       ONLY="Exam_02 Exam_04", NUMBERS="materials.stiffness_factor", ELEMENTS=7x7x2'
 	@echo 'make evaluate-unload   takes gravity off every breast of CASES: RESULTS/evaluation/unload.json'
 	@echo 'make evaluate-compression   compresses SYNTHETIC=200 drawn breasts and those of CASES=folder in'
 	@echo '                       both views: RESULTS/evaluation/compression.json; JOBS=2 at a time'
@@ -137,6 +140,10 @@ evaluate-gravity: mammotwin-evaluate-gravity
 	  "$$BIN/mammotwin-evaluate-gravity" "$$CASES" "$$RESULTS/evaluation/$${TABLE:-gravity}.json" \
 	  $${JOBS:+--jobs "$$JOBS"} $${ONLY:+--only $$ONLY} $${PRESET:+--preset "$$PRESET"} \
 	  $${PRESS:+--population "$$CASES/compressed_outlines"} "$$@"
+
+calibrate-tissue: mammotwin-calibrate-tissue
+	@set -f; "$$BIN/mammotwin-calibrate-tissue" "$$CASES" "$$RESULTS/evaluation/tissue_calibration.json" \
+	  $${JOBS:+--jobs "$$JOBS"} $${ONLY:+--only $$ONLY} $${NUMBERS:+--numbers $$NUMBERS} $${ELEMENTS:+--elements "$$ELEMENTS"}
 
 evaluate-compression: mammotwin-evaluate-compression
 	@"$$BIN/mammotwin-evaluate-compression" "$$RESULTS/evaluation/compression.json" --cases "$$CASES" \

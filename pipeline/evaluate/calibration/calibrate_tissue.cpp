@@ -1,0 +1,148 @@
+// calibrate-tissue: finds the numbers of the tissue with which breasts do what women's do -> a
+// table.
+
+#include <cmath>
+#include <iostream>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "pipeline/evaluate/calibration/tissue_calibration.h"
+#include "pipeline/evaluate/cases/case_arguments.h"
+#include "pipeline/evaluate/cases/evaluation_table.h"
+#include "pipeline/evaluate/cases/real_breasts.h"
+#include "pipeline/evaluate/cases/stage_command.h"
+#include "pipeline/evaluate/compression/pressed_places.h"
+#include "pipeline/frame/command_line.h"
+#include "pipeline/frame/products.h"
+
+namespace mammotwin {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+struct Arguments {
+  fs::path cases, table;
+  std::vector<std::string> only;
+  std::vector<std::string> numbers{"materials.stiffness_factor", "materials.*.stiffening",
+                                   "compress.chest_wall_spring_kpa_per_mm"};
+  std::string preset = "real", elements = "7x7x2";
+  int jobs = 2;
+};
+
+void declare(CommandLine& command, Arguments& args) {
+  declare_cases(command, args.cases);
+  declare_table(command, args.table, "tissue_calibration");
+  declare_only(command, args.only);
+  command.option("--numbers", args.numbers,
+                 "settings to find (default: materials.stiffness_factor, materials.*.stiffening, "
+                 "compress.chest_wall_spring_kpa_per_mm)");
+  command.option("--preset", args.preset, "materials.preset to start from").with_default();
+  command.option("--elements", args.elements, "of each breast's mesh").with_default();
+  command.option("--jobs", args.jobs, "breasts at a time [1 to 64]").between(1, 64).with_default();
+}
+
+/// Segmented and fitted, in a folder of its name.
+CalibratedBreast prepared(const RealBreast& breast, const Arguments& args, const fs::path& folder) {
+  fs::create_directories(folder);
+  const fs::path toml = folder / "patient.toml", labels = folder / "segmentation.seg.nrrd";
+  std::string elements = args.elements;
+  std::replace(elements.begin(), elements.end(), 'x', ',');
+  write_text_atomically(toml, patient_toml_of(breast));
+  run_to_product({"segment", {}, labels, toml});
+  run_to_product({"fit",
+                  {labels.string(), fractions_beside(labels).string()},
+                  folder / "prone.vtu",
+                  toml,
+                  {"--elements", "[" + elements + "]"}});
+  return CalibratedBreast(folder);
+}
+
+json figures_json(const BreastFigures& figures) {
+  return {{"lateral_mm", figures[kLateral]},
+          {"posterior_mm", figures[kPosterior]},
+          {"landmark_mm", figures[kLandmark]},
+          {"ribs_mm", figures[kRibs]},
+          {"force_N", std::exp(figures[kLogForce])}};
+}
+
+/// As a row has it: the force as such.
+BreastFigures targets(const std::array<CalibrationDatum, kBreastFigures>& data) {
+  BreastFigures targets{};
+  for (int i = 0; i < kBreastFigures; ++i) targets[i] = data[i].target;
+  return targets;
+}
+
+void write_rows(const Calibration& found, const std::vector<CalibratedBreast>& breasts,
+                const std::array<CalibrationDatum, kBreastFigures>& data, EvaluationTable& table) {
+  std::size_t row = 0;
+  for (const CalibratedNumber& n : found.numbers) {
+    json line{{"kind", "number"},  {"name", n.number.key}, {"unit", n.number.unit},
+              {"start", n.start},  {"value", n.value},     {"low_95", nullptr},
+              {"high_95", nullptr}};
+    if (n.low) line["low_95"] = *n.low;
+    if (n.high) line["high_95"] = *n.high;
+    // Of the force the change in per cent, as of a logarithm.
+    line.update({{"lateral_mm", n.slopes[kLateral]},
+                 {"posterior_mm", n.slopes[kPosterior]},
+                 {"landmark_mm", n.slopes[kLandmark]},
+                 {"ribs_mm", n.slopes[kRibs]},
+                 {"force_percent", 100 * n.slopes[kLogForce]}});
+    table.add(row++, std::move(line));
+  }
+  const auto add = [&](const std::string& kind, const std::string& name,
+                       const BreastFigures& figures) {
+    json line{{"kind", kind}, {"name", name}};
+    line.update(figures_json(figures));
+    table.add(row++, std::move(line));
+  };
+  add("population", "women, usual forces", targets(data));
+  BreastFigures sd{};
+  json deviations{{"kind", "population"}, {"name", "standard deviation of that"}};
+  for (int i = 0; i < kBreastFigures; ++i) sd[i] = data[i].sd;
+  deviations.update({{"lateral_mm", sd[kLateral]},
+                     {"posterior_mm", sd[kPosterior]},
+                     {"landmark_mm", sd[kLandmark]},
+                     {"ribs_mm", sd[kRibs]},
+                     {"force_percent", 100 * sd[kLogForce]}});
+  table.add(row++, std::move(deviations));
+  add("population", "at the start", found.start);
+  add("population", "calibrated", found.end);
+  for (std::size_t b = 0; b < breasts.size(); ++b)
+    add("breast", breasts[b].name(), found.breasts[b]);
+}
+
+int run(const Arguments& args) {
+  EvaluationTable table(args.table);
+  const auto say = [](const std::string& line) { std::cerr << line << std::endl; };
+  std::vector<CalibratedBreast> breasts;
+  std::set<std::string> persons;
+  for (RealBreast& breast : real_breasts(args.cases)) {
+    if (!breast.is_label_map || !is_asked(name_and_side(breast), args.only)) continue;
+    breast.preset = args.preset;
+    breasts.push_back(
+        prepared(breast, args, table.folder() / "tissue_calibration" / name_and_side(breast)));
+    persons.insert(breast.name);
+    say(name_and_side(breast) + ": fitted");
+  }
+  if (breasts.empty()) throw std::runtime_error(args.cases.string() + ": no such breast in it");
+  const auto data = calibration_data(read_womens_moves(args.cases / "prone_supine" / "points.csv"),
+                                     static_cast<int>(persons.size()));
+  const Calibration found =
+      calibrate_tissue(breasts, tissue_numbers(args.numbers), data, args.jobs, say);
+  write_rows(found, breasts, data, table);
+  say(found.ended);
+  return 0;
+}
+
+}  // namespace
+}  // namespace mammotwin
+
+int main(int argc, char** argv) {
+  using namespace mammotwin;
+  return run_plain_command<Arguments>(
+      argc, argv, "calibrate-tissue",
+      "Finds the numbers of the tissue with which breasts, unloaded, laid on their backs and "
+      "pressed, do what women's do",
+      declare, run);
+}

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+namespace mammotwin {
+
+/// A figure of a population: the mean of the middle half of its values, and the standard deviation
+/// of all of them.
+struct PopulationFigure {
+  double middle = 0, sd = 0;
+  int women = 0;
+};
+
+/// Mean of the middle half of the values, whose ends count with what lies inside it; the slope of
+/// that by each value is its weight.
+struct MiddleHalf {
+  double mean = 0;
+  std::vector<double> weights;  ///< of each value, in their order; they sum to 1
+};
+/// Of at least one value.
+MiddleHalf middle_half(const std::vector<double>& values);
+
+/// What breasts of women imaged in both poses do from prone to supine [mm].
+struct WomensMoves {
+  PopulationFigure lateral, posterior;  ///< of nipples
+  PopulationFigure landmark, ribs;  ///< of points inside: their way, and how far from the ribs they
+                                    ///< lie supine
+};
+
+/// prone_supine/points.csv of a folder of real cases (its README has the columns). Throws
+/// std::runtime_error where it cannot be read or lacks a column.
+WomensMoves read_womens_moves(const std::filesystem::path& points_csv);
+
+}  // namespace mammotwin

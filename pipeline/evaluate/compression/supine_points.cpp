@@ -1,0 +1,82 @@
+#include "pipeline/evaluate/compression/supine_points.h"
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <algorithm>
+#include <random>
+#include <stdexcept>
+
+#include "fitting/mesh/inverse_map.h"
+#include "pipeline/evaluate/cases/sorted_figures.h"
+
+namespace mammotwin {
+namespace {
+
+constexpr double kMuscle_mm = 6;  // label maps: 4 to 8 mm in front of the ribs
+constexpr double kNearestToRibs_mm = 10, kFarthestFromRibs_mm = 60;
+constexpr int kLandmarks = 500, kMostDraws = 200'000, kLandmarkSeed = 1;
+
+std::vector<std::pair<int, int>> wall_faces(const std::vector<FaceLabels>& faces) {
+  std::vector<std::pair<int, int>> wall;
+  for (int element = 0; element < static_cast<int>(faces.size()); ++element)
+    for (int face = 0; face < 6; ++face)
+      if (faces[element][face] == FaceLabel::chest_wall) wall.emplace_back(element, face);
+  return wall;
+}
+
+Eigen::AlignedBox3d box_of(const HermiteMesh& mesh) {
+  Eigen::AlignedBox3d box;
+  for (const HermiteMesh::Node& node : mesh.nodes()) box.extend(node.col(0));
+  return box;
+}
+
+double sorted_median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  return median_of_sorted(values);
+}
+
+}  // namespace
+
+SupinePoints::SupinePoints(const MeshFile& prone, Side side, const Eigen::Vector3d& nipple_in_lps)
+    : side_(side),
+      prone_(prone.mesh),
+      wall_(prone.mesh, wall_faces(prone.faces)),
+      nipple_in_lps_(nipple_in_lps) {
+  const InverseMap inverse(prone_);
+  nipple_ = inverse.nearest(nipple_in_lps);
+  const Eigen::AlignedBox3d box = box_of(prone_);
+  std::mt19937 random(kLandmarkSeed);
+  const auto share = [&] { return random() / 4294967296.0; };
+  for (int n = 0; n < kMostDraws && landmarks_.size() < kLandmarks; ++n) {
+    const Eigen::Vector3d shares(share(), share(), share());
+    const Eigen::Vector3d x = box.min() + shares.cwiseProduct(box.sizes());
+    const double ribs = wall_.gap(x).gap + kMuscle_mm;
+    if (ribs < kNearestToRibs_mm || ribs > kFarthestFromRibs_mm) continue;
+    if (const auto point = inverse.locate(x)) landmarks_.push_back({*point, x, ribs});
+  }
+  if (landmarks_.empty()) throw std::runtime_error("no tissue lies 10 to 60 mm from the ribs");
+}
+
+SupineMoves SupinePoints::moves(const std::vector<HermiteMesh::Node>& supine_nodes) const {
+  const HermiteMesh supine(supine_nodes, prone_.elements());
+  SupineMoves moves;
+  // A nipple that the mesh does not quite reach goes with the skin next to it.
+  const Eigen::Vector3d beside = nipple_in_lps_ - prone_.position(nipple_);
+  moves.nipple = supine.position(nipple_) +
+                 supine.jacobian(nipple_) * prone_.jacobian(nipple_).inverse() * beside -
+                 nipple_in_lps_;
+  if (side_ == Side::right) moves.nipple.x() = -moves.nipple.x();
+  std::vector<double> ways, prone, lying;
+  for (const Landmark& landmark : landmarks_) {
+    const Eigen::Vector3d x = supine.position(landmark.point);
+    ways.push_back((x - landmark.prone).norm());
+    prone.push_back(landmark.ribs_prone);
+    lying.push_back(wall_.gap(x).gap + kMuscle_mm);
+  }
+  moves.landmark_mm = sorted_median(ways);
+  moves.ribs_prone_mm = sorted_median(prone);
+  moves.ribs_supine_mm = sorted_median(lying);
+  return moves;
+}
+
+}  // namespace mammotwin

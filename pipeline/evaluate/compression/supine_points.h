@@ -1,0 +1,45 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <vector>
+
+#include "fitting/mesh/mesh_file.h"
+#include "segmentation/segmentation.h"
+#include "solver/load/wall_surface.h"
+
+namespace mammotwin {
+
+/// What a breast does from prone to supine, as it is counted in women imaged in both poses.
+struct SupineMoves {
+  Eigen::Vector3d nipple = Eigen::Vector3d::Zero();  ///< lateral, posterior, superior [mm]
+  double landmark_mm = 0;                            ///< median over points in the tissue
+  double ribs_prone_mm = 0, ribs_supine_mm = 0;      ///< the points' medians
+};
+
+/// The points of one breast that are followed: its nipple, and 500 of the prone tissue, the same
+/// for each breast of that shape, uniform in volume where it lies 10 to 60 mm from the ribs; these
+/// lie 6 mm behind the chest wall of the mesh, which is the front of the muscle.
+class SupinePoints {
+ public:
+  /// `prone`: a mesh as imaged. Throws std::runtime_error where no tissue lies so.
+  SupinePoints(const MeshFile& prone, Side side, const Eigen::Vector3d& nipple_in_lps);
+
+  /// `supine`: the nodes of the same mesh, lying.
+  SupineMoves moves(const std::vector<HermiteMesh::Node>& supine) const;
+
+ private:
+  struct Landmark {
+    MeshPoint point;
+    Eigen::Vector3d prone;
+    double ribs_prone = 0;
+  };
+  Side side_;
+  HermiteMesh prone_;
+  WallSurface wall_;
+  MeshPoint nipple_;
+  Eigen::Vector3d nipple_in_lps_;
+  std::vector<Landmark> landmarks_;
+};
+
+}  // namespace mammotwin
