@@ -64,7 +64,7 @@ help:
 	@echo '                       PRESET=real for another materials.preset; PRESS=1 presses them in CC, too'
 	@echo 'make calibrate-tissue  finds the tissue with which the label maps of CASES do what women do from prone to'
 	@echo '                       supine and need usual plate forces: RESULTS/evaluation/tissue_calibration.json;'
-	@echo '                       ONLY="Exam_02 Exam_04", NUMBERS="materials.stiffness_factor", ELEMENTS=7x7x2'
+	@echo '                       ONLY="Exam_02 Exam_04", NUMBERS="materials.stiffness_factor", ELEMENTS=5x5x2'
 	@echo 'make evaluate-unload   takes gravity off every breast of CASES: RESULTS/evaluation/unload.json'
 	@echo 'make evaluate-compression   compresses SYNTHETIC=200 drawn breasts and those of CASES=folder in'
 	@echo '                       both views: RESULTS/evaluation/compression.json; JOBS=2 at a time'

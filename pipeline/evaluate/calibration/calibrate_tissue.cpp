@@ -12,6 +12,7 @@
 #include "pipeline/evaluate/cases/real_breasts.h"
 #include "pipeline/evaluate/cases/stage_command.h"
 #include "pipeline/evaluate/compression/pressed_places.h"
+#include "pipeline/evaluate/compression/typical_press.h"
 #include "pipeline/frame/command_line.h"
 #include "pipeline/frame/products.h"
 
@@ -24,9 +25,8 @@ using nlohmann::json;
 struct Arguments {
   fs::path cases, table;
   std::vector<std::string> only;
-  std::vector<std::string> numbers{"materials.stiffness_factor", "materials.*.stiffening",
-                                   "compress.chest_wall_spring_kpa_per_mm"};
-  std::string preset = "real", elements = "7x7x2";
+  std::vector<std::string> numbers{"materials.stiffness_factor", "materials.*.stiffening"};
+  std::string preset = "real", elements = "5x5x2";
   int jobs = 2;
 };
 
@@ -34,16 +34,34 @@ void declare(CommandLine& command, Arguments& args) {
   declare_cases(command, args.cases);
   declare_table(command, args.table, "tissue_calibration");
   declare_only(command, args.only);
-  command.option("--numbers", args.numbers,
-                 "settings to find (default: materials.stiffness_factor, materials.*.stiffening, "
-                 "compress.chest_wall_spring_kpa_per_mm)");
+  command.option(
+      "--numbers", args.numbers,
+      "settings to find (default: materials.stiffness_factor, materials.*.stiffening); also "
+      "materials.skin.c1_kpa, compress.chest_wall_spring_kpa_per_mm, compress.cut_face_depth_mm");
   command.option("--preset", args.preset, "materials.preset to start from").with_default();
   command.option("--elements", args.elements, "of each breast's mesh").with_default();
   command.option("--jobs", args.jobs, "breasts at a time [1 to 64]").between(1, 64).with_default();
 }
 
-/// Segmented and fitted, in a folder of its name.
-CalibratedBreast prepared(const RealBreast& breast, const Arguments& args, const fs::path& folder) {
+/// To what a radiographer presses this breast [mm]: as typical of the volume that then is in front
+/// of the plates' edge.
+double typical_thickness_of(const fs::path& folder, const OutlinePopulation& population) {
+  const fs::path toml = folder / "patient.toml", labels = folder / "segmentation.seg.nrrd",
+                 unloaded = folder / "unloaded.vtu", pressed = folder / "cc.vtu";
+  const std::string fractions = fractions_beside(labels).string();
+  run_to_product(
+      {"unload", {labels.string(), fractions, (folder / "prone.vtu").string()}, unloaded, toml});
+  run_to_product(
+      {"compress", {"cc", labels.string(), fractions, unloaded.string()}, pressed, toml});
+  return stage_sidecar(press_typically(pressed, folder, population, folder / "typical"))
+      .at("quality")
+      .at("thickness_mm");
+}
+
+/// Segmented, fitted and pressed with the numbers that the calibration starts from, in a folder of
+/// its name.
+CalibratedBreast prepared(const RealBreast& breast, const Arguments& args,
+                          const OutlinePopulation& population, const fs::path& folder) {
   fs::create_directories(folder);
   const fs::path toml = folder / "patient.toml", labels = folder / "segmentation.seg.nrrd";
   std::string elements = args.elements;
@@ -55,6 +73,9 @@ CalibratedBreast prepared(const RealBreast& breast, const Arguments& args, const
                   folder / "prone.vtu",
                   toml,
                   {"--elements", "[" + elements + "]"}});
+  const double thickness = typical_thickness_of(folder, population);
+  write_text_atomically(toml, patient_toml_of(breast) +
+                                  "[views.cc]\nthickness_mm = " + json(thickness).dump() + "\n");
   return CalibratedBreast(folder);
 }
 
@@ -115,13 +136,14 @@ void write_rows(const Calibration& found, const std::vector<CalibratedBreast>& b
 int run(const Arguments& args) {
   EvaluationTable table(args.table);
   const auto say = [](const std::string& line) { std::cerr << line << std::endl; };
+  const OutlinePopulation population(args.cases / "compressed_outlines");
   std::vector<CalibratedBreast> breasts;
   std::set<std::string> persons;
   for (RealBreast& breast : real_breasts(args.cases)) {
     if (!breast.is_label_map || !is_asked(name_and_side(breast), args.only)) continue;
     breast.preset = args.preset;
-    breasts.push_back(
-        prepared(breast, args, table.folder() / "tissue_calibration" / name_and_side(breast)));
+    breasts.push_back(prepared(breast, args, population,
+                               table.folder() / "tissue_calibration" / name_and_side(breast)));
     persons.insert(breast.name);
     say(name_and_side(breast) + ": fitted");
   }
