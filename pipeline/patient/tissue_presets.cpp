@@ -41,8 +41,8 @@ std::vector<Preset> tissue_presets() {
   gel.fat_c1 = gel.fibroglandular_c1 = gel.lesion_c1 = "3";
   gel.membrane = "false";
   real.law = "exponential";
-  real.stiffening = "0.8";
-  real.factor = "0.15";
+  real.stiffening = "1.05";
+  real.factor = "0.13";
   real.spring = "0.04";
   real.smoothing = "20";
   real.pull = "1";
