@@ -3,20 +3,14 @@
 #include <stdexcept>
 #include <utility>
 
-#include "solver/contact/contact_figures.h"
 #include "solver/press/pressed_breast.h"
 
 namespace mammotwin {
-
-namespace {
-constexpr int kPaddlePlate = 1;  // of contact's plates, after the support
-}
 
 /// A breast and its plates with the linear system at the solved state.
 struct NearbyEquilibria::Posed {
   PressedBreast breast;
   PlacedPlates plates;
-  Eigen::Vector3d up;
   std::unique_ptr<Assembler> assembler;
 };
 
@@ -33,7 +27,7 @@ NearbyEquilibria::NearbyEquilibria(const CompressionResult& near, const Compress
 }
 
 NearbyEquilibria::Posed NearbyEquilibria::posed(const CompressionProblem& problem) const {
-  Posed posed{make_pressed_breast(problem, options_.solid), {}, problem.plates.up, nullptr};
+  Posed posed{make_pressed_breast(problem, options_.solid), {}, nullptr};
   const MeshFile positioned = as_positioned(problem);
   const PlateFrame frame(positioned, problem.plates);
   const PlacedPlates asked =
@@ -50,27 +44,13 @@ NearbyEquilibria::Posed NearbyEquilibria::posed(const CompressionProblem& proble
   return posed;
 }
 
-double NearbyEquilibria::paddle_force(const Posed& posed, double fraction,
-                                      const std::vector<HermiteMesh::Node>& step) const {
-  State state = state_;
-  for (std::size_t i = 0; i < step.size(); ++i) state.x[i] += fraction * step[i];
-  const PressedBreast& breast = posed.breast;
-  constexpr double newton_per_milli = 1e-3;
-  return -newton_per_milli *
-         posed.up.dot(contact_figures(*breast.model, state, *breast.contact, kPaddlePlate,
-                                      breast.contact_faces, breast.friction.get())
-                          .force);
-}
-
 NearbyEquilibria::Step NearbyEquilibria::step(const CompressionProblem& from,
                                               const CompressionProblem& to) const {
   if (!usable_) throw std::logic_error("no step from an equilibrium that is not stable");
   const Posed a = posed(from), b = posed(to);
   const Eigen::VectorXd change =
       factor_->solve(b.assembler->right_hand_side() - a.assembler->right_hand_side());
-  Step step{here_->assembler->nodal_step(change, {}), a.plates, b.plates};
-  step.force_N = paddle_force(b, 0.5, step.nodes) - paddle_force(a, -0.5, step.nodes);
-  return step;
+  return {here_->assembler->nodal_step(change, {}), a.plates, b.plates};
 }
 
 }  // namespace mammotwin

@@ -23,7 +23,6 @@ class NearbyEquilibria {
   struct Step {
     std::vector<HermiteMesh::Node> nodes;  ///< change of nodal parameters [mm]
     PlacedPlates from, to;
-    double force_N = 0;  ///< change of the paddle's force
   };
 
   /// Throws as `compress_from` does; `near` must be the solution of `problem`.
@@ -41,9 +40,6 @@ class NearbyEquilibria {
   /// A problem at the solved state.
   struct Posed;
   Posed posed(const CompressionProblem& problem) const;
-  /// Of the paddle at the solved state and a fraction of a step [N].
-  double paddle_force(const Posed& posed, double fraction,
-                      const std::vector<HermiteMesh::Node>& step) const;
 
   CompressionResult near_;
   CompressionOptions options_;

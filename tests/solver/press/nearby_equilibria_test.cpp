@@ -123,27 +123,6 @@ TEST(NearbyEquilibria, StepIsTheDifferenceOfTwoSolvesOfABreastDrawnForward) {
   EXPECT_LT(error_of_step(drawn, tissue_changed, 3e-3), 1e-5);
 }
 
-// What friction adds to the paddle's force moves with the breast; only normal forces depend on q.
-TEST(NearbyEquilibria, TheForceChangesAsThatOfTwoSolves) {
-  constexpr double by = 1e-3;
-  const Pressed& smooth = pressed(0);
-  for (const Change& change : {Change(plates_moved), Change(tissue_changed)}) {
-    const auto force = [&](double q) {
-      CompressionProblem p = smooth.problem;
-      change(p, q);
-      return compress_from(smooth.equilibrium, p, nearby_options()).report.force_N;
-    };
-    CompressionProblem lower = smooth.problem, upper = smooth.problem;
-    change(lower, -by);
-    change(upper, by);
-    const double solved = force(by) - force(-by);
-    EXPECT_NEAR(NearbyEquilibria(smooth.equilibrium, smooth.problem, nearby_options())
-                    .step(lower, upper)
-                    .force_N,
-                solved, 1e-3 * std::abs(solved));
-  }
-}
-
 TEST(NearbyEquilibria, NoChangeIsNoStep) {
   const Pressed& smooth = pressed(0);
   const auto step = NearbyEquilibria(smooth.equilibrium, smooth.problem, nearby_options())
