@@ -79,58 +79,52 @@ CalibratedBreast prepared(const RealBreast& breast, const Arguments& args,
   return CalibratedBreast(folder);
 }
 
-json figures_json(const BreastFigures& figures) {
+json moves_json(const BreastFigures& figures) {
   return {{"lateral_mm", figures[kLateral]},
           {"posterior_mm", figures[kPosterior]},
           {"landmark_mm", figures[kLandmark]},
-          {"ribs_mm", figures[kRibs]},
-          {"force_N", std::exp(figures[kLogForce])}};
+          {"ribs_mm", figures[kRibs]}};
 }
 
-/// As a row has it: the force as such.
-BreastFigures targets(const std::array<CalibrationDatum, kBreastFigures>& data) {
-  BreastFigures targets{};
-  for (int i = 0; i < kBreastFigures; ++i) targets[i] = data[i].target;
-  return targets;
+json figures_json(const BreastFigures& figures) {
+  json line = moves_json(figures);
+  line["force_N"] = std::exp(figures[kLogForce]);
+  return line;
+}
+
+/// Changes of figures: a logarithm's is a part of the force.
+json changes_json(const BreastFigures& changes) {
+  json line = moves_json(changes);
+  line["force_percent"] = 100 * changes[kLogForce];
+  return line;
+}
+
+json number_json(const CalibratedNumber& n) {
+  json line{{"kind", "number"}, {"name", n.number.key}, {"unit", n.number.unit}, {"start", n.start},
+            {"value", n.value}, {"low_95", nullptr},    {"high_95", nullptr}};
+  if (n.low) line["low_95"] = *n.low;
+  if (n.high) line["high_95"] = *n.high;
+  line.update(changes_json(n.slopes));
+  return line;
 }
 
 void write_rows(const Calibration& found, const std::vector<CalibratedBreast>& breasts,
                 const std::array<CalibrationDatum, kBreastFigures>& data, EvaluationTable& table) {
   std::size_t row = 0;
-  for (const CalibratedNumber& n : found.numbers) {
-    json line{{"kind", "number"},  {"name", n.number.key}, {"unit", n.number.unit},
-              {"start", n.start},  {"value", n.value},     {"low_95", nullptr},
-              {"high_95", nullptr}};
-    if (n.low) line["low_95"] = *n.low;
-    if (n.high) line["high_95"] = *n.high;
-    // Of the force the change in per cent, as of a logarithm.
-    line.update({{"lateral_mm", n.slopes[kLateral]},
-                 {"posterior_mm", n.slopes[kPosterior]},
-                 {"landmark_mm", n.slopes[kLandmark]},
-                 {"ribs_mm", n.slopes[kRibs]},
-                 {"force_percent", 100 * n.slopes[kLogForce]}});
-    table.add(row++, std::move(line));
-  }
-  const auto add = [&](const std::string& kind, const std::string& name,
-                       const BreastFigures& figures) {
+  const auto add = [&](const std::string& kind, const std::string& name, const json& figures) {
     json line{{"kind", kind}, {"name", name}};
-    line.update(figures_json(figures));
+    line.update(figures);
     table.add(row++, std::move(line));
   };
-  add("population", "women, usual forces", targets(data));
-  BreastFigures sd{};
-  json deviations{{"kind", "population"}, {"name", "standard deviation of that"}};
-  for (int i = 0; i < kBreastFigures; ++i) sd[i] = data[i].sd;
-  deviations.update({{"lateral_mm", sd[kLateral]},
-                     {"posterior_mm", sd[kPosterior]},
-                     {"landmark_mm", sd[kLandmark]},
-                     {"ribs_mm", sd[kRibs]},
-                     {"force_percent", 100 * sd[kLogForce]}});
-  table.add(row++, std::move(deviations));
-  add("population", "at the start", found.start);
-  add("population", "calibrated", found.end);
+  for (const CalibratedNumber& number : found.numbers) table.add(row++, number_json(number));
+  BreastFigures target{}, sd{};
+  for (int i = 0; i < kBreastFigures; ++i) target[i] = data[i].target, sd[i] = data[i].sd;
+  add("population", "women, usual forces", figures_json(target));
+  add("population", "standard deviation of that", changes_json(sd));
+  add("population", "at the start", figures_json(found.start));
+  add("population", "calibrated", figures_json(found.end));
   for (std::size_t b = 0; b < breasts.size(); ++b)
-    add("breast", breasts[b].name(), found.breasts[b]);
+    add("breast", breasts[b].name(), figures_json(found.breasts[b]));
 }
 
 int run(const Arguments& args) {
@@ -145,7 +139,7 @@ int run(const Arguments& args) {
     breasts.push_back(prepared(breast, args, population,
                                table.folder() / "tissue_calibration" / name_and_side(breast)));
     persons.insert(breast.name);
-    say(name_and_side(breast) + ": fitted");
+    say(name_and_side(breast) + ": fitted, and pressed once");
   }
   if (breasts.empty()) throw std::runtime_error(args.cases.string() + ": no such breast in it");
   const auto data = calibration_data(read_womens_moves(args.cases / "prone_supine" / "points.csv"),

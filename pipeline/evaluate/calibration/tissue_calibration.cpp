@@ -148,14 +148,13 @@ void add_limits(ceres::Problem& problem, const std::vector<double>& logs,
 
 std::array<CalibrationDatum, kBreastFigures> calibration_data(const WomensMoves& women,
                                                               int persons) {
-  const auto datum = [&](const char* name, const PopulationFigure& figure) {
-    return CalibrationDatum{name, "mm", figure.middle,
+  const auto datum = [&](const PopulationFigure& figure) {
+    return CalibrationDatum{figure.middle,
                             figure.sd * std::sqrt(1.0 / figure.women + 1.0 / persons)};
   };
-  return {datum("nipple, lateral", women.lateral), datum("nipple, posterior", women.posterior),
-          datum("tissue's way", women.landmark), datum("to the ribs, supine", women.ribs),
-          CalibrationDatum{"log of plate force", "log N", std::log(kHelvie_N * kNorway_N) / 2,
-                           std::log(kNorway_N / kHelvie_N) / 2}};
+  return {
+      datum(women.lateral), datum(women.posterior), datum(women.landmark), datum(women.ribs),
+      CalibrationDatum{std::log(kHelvie_N * kNorway_N) / 2, std::log(kNorway_N / kHelvie_N) / 2}};
 }
 
 Calibration calibrate_tissue(std::vector<CalibratedBreast>& breasts,

@@ -13,7 +13,6 @@ namespace mammotwin {
 
 /// What a figure of the breasts should be, and how far the mean of this many may lie from it.
 struct CalibrationDatum {
-  std::string name, unit;
   double target = 0, sd = 0;
 };
 

@@ -88,8 +88,7 @@ TEST_F(TissueCalibration, FindsTheNumbersThatTheDataAreOf) {
   const std::vector<double> truth{0.5, 0.03};
   const BreastFigures figures = breasts.front().solve(numbers, truth);
   std::array<CalibrationDatum, kBreastFigures> data;
-  for (int i = 0; i < kBreastFigures; ++i)
-    data[i] = {"", "", figures[i], i == kLogForce ? 0.05 : 0.1};
+  for (int i = 0; i < kBreastFigures; ++i) data[i] = {figures[i], i == kLogForce ? 0.05 : 0.1};
   const Calibration found = calibrate_tissue(breasts, numbers, data, 1, [](const std::string&) {});
   for (std::size_t n = 0; n < numbers.size(); ++n) {
     const CalibratedNumber& number = found.numbers[n];
