@@ -64,19 +64,11 @@ double find_stiffness(const Patient& patient, StageRun& stage, const BreastProbl
   return factor * record.stiffness_fit->factor;
 }
 
-/// Of soft breasts that were not at rest after 120 iterations none was after 400.
-HangOptions pose_options() {
-  HangOptions options;
-  options.load.smallest_step = 1.0 / 16;
-  options.load.max_iterations = 120;
-  return options;
-}
-
 void hang_in_other_poses(const BreastProblem& unloaded, UnloadingRecord& record) {
   for (const Pose pose : {Pose::standing, Pose::supine}) {
     BreastProblem problem = unloaded;
     problem.gravity = gravity_in_lps(pose);
-    PoseState state{hang(problem, pose_options()), 0};
+    PoseState state{hang(problem, to_another_pose()), 0};
     state.wall_slide_mm =
         wall_slide(problem.mesh, problem.mesh.mesh.nodes(), state.result.deformed);
     record.poses.emplace(name_of(pose), std::move(state));

@@ -63,4 +63,11 @@ Eigen::Matrix3d HermiteMesh::jacobian(const MeshPoint& p) const {
   return j;
 }
 
+std::vector<HermiteMesh::Node> combined(double a, const std::vector<HermiteMesh::Node>& x, double b,
+                                        const std::vector<HermiteMesh::Node>& y) {
+  std::vector<HermiteMesh::Node> sum = x;
+  for (std::size_t i = 0; i < x.size(); ++i) sum[i] = a * x[i] + b * y[i];
+  return sum;
+}
+
 }  // namespace mammotwin

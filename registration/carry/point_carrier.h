@@ -13,9 +13,13 @@ struct CarriedPoint {
   Eigen::Vector3d in_lps = Eigen::Vector3d::Zero();  ///< in the target configuration [mm]
 };
 
+/// Where x goes with the material point `beside` it: x = x(xi) + F (X - X(xi)), F = dx/dX.
+Eigen::Vector3d carried_beside(const HermiteMesh& from, const HermiteMesh& to,
+                               const MeshPoint& beside, const Eigen::Vector3d& x);
+
 /// Carries points between two configurations of one mesh (same elements, other nodes).
 /// A point outside the mesh goes with its nearest material point, its offset turned and stretched
-/// as the tissue there: x = x(xi) + F (X - X(xi)), F = dx/dX. Thread-safe once built.
+/// as the tissue there (carried_beside). Thread-safe once built.
 class PointCarrier {
  public:
   /// Throws std::invalid_argument if the two do not have the same elements.

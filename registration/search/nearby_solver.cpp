@@ -60,12 +60,6 @@ Nodes in_lps(Nodes nodes, const ViewFrame& frame) {
   return nodes;
 }
 
-Nodes combined(double a, const Nodes& x, double b, const Nodes& y) {
-  Nodes sum = x;
-  for (std::size_t i = 0; i < x.size(); ++i) sum[i] = a * x[i] + b * y[i];
-  return sum;
-}
-
 CompressedView view_of_plates(const std::string& name, Side side, double angle_deg,
                               const PlateOptions& options, const CompressionResult& result) {
   CompressedView view{name, side, angle_deg, result.report.thickness_mm, {}};

@@ -79,7 +79,4 @@ Nodes in_view(const Nodes& nodes, const ViewFrame& frame);
 /// The way back.
 Nodes in_lps(Nodes nodes, const ViewFrame& frame);
 
-/// a x + b y, parameter by parameter.
-Nodes combined(double a, const Nodes& x, double b, const Nodes& y);
-
 }  // namespace mammotwin

@@ -6,6 +6,13 @@
 
 namespace mammotwin {
 
+HangOptions to_another_pose() {
+  HangOptions options;
+  options.load.smallest_step = 1.0 / 16;
+  options.load.max_iterations = 120;
+  return options;
+}
+
 LoadSteppingReport raise_body_force(BreastModel& breast, Newton& newton,
                                     const Eigen::Vector3d& body_force, const HangOptions& options,
                                     State& state) {

@@ -15,6 +15,10 @@ struct HangOptions {
   LoadSteppingOptions load;
 };
 
+/// Of a soft breast into another pose: those that were not at rest after 120 iterations were not
+/// after 400.
+HangOptions to_another_pose();
+
 struct HangReport {
   bool converged = false;
   std::string reason;           ///< why not

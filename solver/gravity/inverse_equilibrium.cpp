@@ -187,16 +187,20 @@ InverseEquilibrium::Step InverseEquilibrium::step_of(const Eigen::VectorXd& corr
   return step;
 }
 
-State InverseEquilibrium::change(const State& reference, const Eigen::Vector3d& body_force,
-                                 const InverseEquilibrium& from, const InverseEquilibrium& to) {
-  Evaluation here = evaluate(reference, body_force);
-  if (!linearise(reference, here, body_force))
+void InverseEquilibrium::linearise_at(const State& solution, const Eigen::Vector3d& body_force) {
+  if (!linearise(solution, evaluate(solution, body_force), body_force))
     throw std::runtime_error("the tangent of the inverse problem is singular");
-  const Evaluation a = from.evaluate(reference, body_force), b = to.evaluate(reference, body_force);
-  here.residual = b.residual - a.residual;
-  here.pressure_residual = b.pressure_residual - a.pressure_residual;
-  Step step = step_of(correction(here), here);
-  return {std::move(step.nodes), std::move(step.pressure)};
+}
+
+std::vector<HermiteMesh::Node> InverseEquilibrium::change(const State& solution,
+                                                          const Eigen::Vector3d& body_force,
+                                                          const InverseEquilibrium& from,
+                                                          const InverseEquilibrium& to) const {
+  const Evaluation before = from.evaluate(solution, body_force);
+  Evaluation difference = to.evaluate(solution, body_force);
+  difference.residual -= before.residual;
+  difference.pressure_residual -= before.pressure_residual;
+  return step_of(correction(difference), difference).nodes;
 }
 
 /// Residuals say little here (the wall's penalty swamps them), so the test is natural: the next

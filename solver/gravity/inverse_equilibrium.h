@@ -33,11 +33,15 @@ class InverseEquilibrium {
   NewtonReport solve(State& reference, const Eigen::Vector3d& body_force, double tolerance,
                      int max_iterations);
 
-  /// What a solution `reference` changes by between two problems that are next to this one, to
-  /// first order: -(∂R/∂(X, p))⁻¹ (R_to - R_from), with the tangent of this problem. Throws
-  /// std::runtime_error where that is singular.
-  State change(const State& reference, const Eigen::Vector3d& body_force,
-               const InverseEquilibrium& from, const InverseEquilibrium& to);
+  /// Factors the tangent at a solution, for `change`. Throws std::runtime_error where it is
+  /// singular.
+  void linearise_at(const State& solution, const Eigen::Vector3d& body_force);
+
+  /// What that solution's shape free of load changes by between two problems that are next to this
+  /// one, to first order: -(∂R/∂X)⁻¹ (R_to - R_from), pressures eliminated.
+  std::vector<HermiteMesh::Node> change(const State& solution, const Eigen::Vector3d& body_force,
+                                        const InverseEquilibrium& from,
+                                        const InverseEquilibrium& to) const;
 
   /// Of a solution: the smallest eigenvalue of the forward problem's tangent in the deformed shape
   /// against that in the shape free of load (in the metric of the μ-weighted Laplacian; 1 without

@@ -39,8 +39,6 @@ class PoseEquilibria {
   Step step(const BreastProblem& from, const BreastProblem& to) const;
 
  private:
-  BreastModel posed_model(const BreastProblem& problem,
-                          const std::vector<HermiteMesh::Node>& unloaded) const;
   Eigen::VectorXd residual(const BreastProblem& problem,
                            const std::vector<HermiteMesh::Node>& unloaded) const;
 

@@ -37,6 +37,11 @@ void measure_strain(const BreastProblem& hanging, const SolidOptions& solid, Unl
   report.stretch_max = stretches.back();
 }
 
+void take(State reference, UnloadResult& result) {
+  result.unloaded = std::move(reference.x);
+  result.pressure = std::move(reference.pressure);
+}
+
 /// One unloading under way.
 class Unloading {
  public:
@@ -49,7 +54,7 @@ class Unloading {
 
  private:
   struct TakenOff {
-    Nodes unloaded;
+    State reference;
     LoadSteppingReport load;
     double margin = 0;  ///< 0 where the load is not complete
   };
@@ -77,10 +82,9 @@ class Unloading {
 /// Solves for a share of the gravity, from the prone shape on.
 Unloading::TakenOff Unloading::take_off(double share) {
   const Eigen::Vector3d weight = share * problem_.density * problem_.gravity;
-  State reference = inverse_.start();
-  TakenOff result;
+  TakenOff result{inverse_.start(), {}};
   result.load = step_load(
-      reference, options_.load,
+      result.reference, options_.load,
       [&](double fraction, State& trial) {
         return inverse_.solve(trial, fraction * weight, options_.tolerance,
                               options_.max_iterations);
@@ -88,8 +92,7 @@ Unloading::TakenOff Unloading::take_off(double share) {
       [&](const LoadSteppingReport& so_far, const State&, const NewtonReport&) {
         say(0.5 * so_far.reached, "gravity taken off");
       });
-  if (result.load.complete()) result.margin = inverse_.stability_margin(reference);
-  result.unloaded = std::move(reference.x);
+  if (result.load.complete()) result.margin = inverse_.stability_margin(result.reference);
   return result;
 }
 
@@ -131,7 +134,7 @@ void Unloading::find_largest_share(UnloadResult& result, bool reloaded) {
   constexpr int trials = 5;  // to a thirty-second
   UnloadReport& report = result.report;
   double low = 0, high = 1;
-  TakenOff best{problem_.mesh.mesh.nodes(), {}, 1};
+  TakenOff best{inverse_.start(), {}, 1};
   for (int trial = 0; trial < trials; ++trial) {
     const double share = (low + high) / 2;
     say(0.5 + 0.08 * trial, "looking for the largest gravity that works");
@@ -139,13 +142,13 @@ void Unloading::find_largest_share(UnloadResult& result, bool reloaded) {
     report.newton_iterations += tried.load.iterations;
     const bool works =
         tried.margin > 0 &&
-        (!reloaded || reload(tried.unloaded, share).back_within(options_.round_trip_tolerance));
+        (!reloaded || reload(tried.reference.x, share).back_within(options_.round_trip_tolerance));
     (works ? low : high) = share;
     if (works) best = std::move(tried);
   }
   report.gravity_fraction = low;
   report.stability_margin = best.margin;
-  result.unloaded = std::move(best.unloaded);
+  take(std::move(best.reference), result);
 }
 
 /// Loads the result again. A stable shape that balances may yet be one of several.
@@ -176,7 +179,7 @@ UnloadResult Unloading::run() {
   report.cutbacks = all.load.cutbacks;
   report.newton_iterations = all.load.iterations;
   report.dof = inverse_.num_equations();
-  result.unloaded = std::move(all.unloaded);
+  take(std::move(all.reference), result);
   if (!report.converged) {
     report.reason = all.load.complete() ? "the imaged shape is not stable under its weight: "
                                           "unloaded and loaded again, it would fall elsewhere"

@@ -45,6 +45,7 @@ struct UnloadReport {
 
 struct UnloadResult {
   std::vector<HermiteMesh::Node> unloaded;  ///< at the last good part of the gravity
+  std::vector<double> pressure;  ///< of the imaged shape then, 8 an element (State::pressure) [kPa]
   UnloadReport report;
 };
 

@@ -24,11 +24,6 @@ constexpr double kLogStep = 1e-3;  // of central differences of residuals
 constexpr double kFigureLogStep = 0.02;
 constexpr double kSteps = kFigureLogStep / (2 * kLogStep);
 
-Nodes moved(Nodes nodes, double fraction, const Nodes& step) {
-  for (std::size_t i = 0; i < nodes.size(); ++i) nodes[i] += fraction * step[i];
-  return nodes;
-}
-
 BreastFigures figures_of(const SupineMoves& moves, const CompressionResult& pressed) {
   return {moves.nipple.x(), moves.nipple.y(), moves.landmark_mm, moves.ribs_supine_mm,
           std::log(pressed.report.force_N)};
@@ -106,7 +101,7 @@ BreastFigures CalibratedBreast::solve(const std::vector<TissueNumber>& numbers,
   solved_ = std::make_unique<Solved>();
   solved_->numbers = numbers;
   solved_->values = values;
-  const CompressionSettings settings = settings_at(numbers.size(), 0);
+  const CompressionSettings settings = settings_at(0, 0);
   solved_->lying =
       std::make_unique<PoseEquilibria>(loaded_->imaged(settings), gravity_in_lps(Pose::supine));
   const PoseEquilibria& lying = *solved_->lying;
@@ -129,10 +124,10 @@ std::vector<BreastFigures> CalibratedBreast::slopes() const {
     const PoseEquilibria::Step step = lying.step(loaded_->imaged(below), loaded_->imaged(above));
     const auto figures = [&](double sign) {
       const SupineMoves moves =
-          loaded_->points->moves(moved(lying.posed(), sign * kSteps, step.posed));
+          loaded_->points->moves(combined(1, lying.posed(), sign * kSteps, step.posed));
       const CompressionProblem problem =
           loaded_->pressed(settings_at(n, sign * kFigureLogStep),
-                           moved(lying.unloaded(), sign * kSteps, step.unloaded), share);
+                           combined(1, lying.unloaded(), sign * kSteps, step.unloaded), share);
       const CompressionResult pressed =
           compress_from(solved_->pressed, problem, settings().options);
       if (!pressed.report.usable())

@@ -1,13 +1,14 @@
 #include "pipeline/evaluate/compression/supine_points.h"
 
 #include <Eigen/Geometry>
-#include <Eigen/LU>
 #include <algorithm>
 #include <random>
 #include <stdexcept>
 
 #include "fitting/mesh/inverse_map.h"
 #include "pipeline/evaluate/cases/sorted_figures.h"
+#include "registration/carry/point_carrier.h"
+#include "solver/breast/breast_model.h"
 
 namespace mammotwin {
 namespace {
@@ -15,14 +16,6 @@ namespace {
 constexpr double kMuscle_mm = 6;  // label maps: 4 to 8 mm in front of the ribs
 constexpr double kNearestToRibs_mm = 10, kFarthestFromRibs_mm = 60;
 constexpr int kLandmarks = 500, kMostDraws = 200'000, kLandmarkSeed = 1;
-
-std::vector<std::pair<int, int>> wall_faces(const std::vector<FaceLabels>& faces) {
-  std::vector<std::pair<int, int>> wall;
-  for (int element = 0; element < static_cast<int>(faces.size()); ++element)
-    for (int face = 0; face < 6; ++face)
-      if (faces[element][face] == FaceLabel::chest_wall) wall.emplace_back(element, face);
-  return wall;
-}
 
 Eigen::AlignedBox3d box_of(const HermiteMesh& mesh) {
   Eigen::AlignedBox3d box;
@@ -40,7 +33,7 @@ double sorted_median(std::vector<double> values) {
 SupinePoints::SupinePoints(const MeshFile& prone, Side side, const Eigen::Vector3d& nipple_in_lps)
     : side_(side),
       prone_(prone.mesh),
-      wall_(prone.mesh, wall_faces(prone.faces)),
+      wall_(prone.mesh, faces_labelled(prone, FaceLabel::chest_wall)),
       nipple_in_lps_(nipple_in_lps) {
   const InverseMap inverse(prone_);
   nipple_ = inverse.nearest(nipple_in_lps);
@@ -60,11 +53,7 @@ SupinePoints::SupinePoints(const MeshFile& prone, Side side, const Eigen::Vector
 SupineMoves SupinePoints::moves(const std::vector<HermiteMesh::Node>& supine_nodes) const {
   const HermiteMesh supine(supine_nodes, prone_.elements());
   SupineMoves moves;
-  // A nipple that the mesh does not quite reach goes with the skin next to it.
-  const Eigen::Vector3d beside = nipple_in_lps_ - prone_.position(nipple_);
-  moves.nipple = supine.position(nipple_) +
-                 supine.jacobian(nipple_) * prone_.jacobian(nipple_).inverse() * beside -
-                 nipple_in_lps_;
+  moves.nipple = carried_beside(prone_, supine, nipple_, nipple_in_lps_) - nipple_in_lps_;
   if (side_ == Side::right) moves.nipple.x() = -moves.nipple.x();
   std::vector<double> ways, prone, lying;
   for (const Landmark& landmark : landmarks_) {
