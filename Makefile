@@ -30,10 +30,12 @@ override OTHERS := $(value OTHERS)
 override TABLE := $(value TABLE)
 override UNLOAD := $(value UNLOAD)
 override MESHES := $(value MESHES)
+override NUMBERS := $(value NUMBERS)
+override ELEMENTS := $(value ELEMENTS)
 ifeq ($(RESULTS),)
 $(error RESULTS is empty: name the folder that results go to)
 endif
-export P DATA RESULTS FORCE BIN SEED PATIENTS JOBS ONLY ENGINE CONFIG PREFIX CASES SYNTHETIC CHANGES VIEWS SPOIL MISFIT HARD OTHERS TABLE UNLOAD PRESET PRESS AXE MESHES
+export P DATA RESULTS FORCE BIN SEED PATIENTS JOBS ONLY ENGINE CONFIG PREFIX CASES SYNTHETIC CHANGES VIEWS SPOIL MISFIT HARD OTHERS TABLE UNLOAD PRESET PRESS AXE MESHES NUMBERS ELEMENTS
 unexport MAKEFLAGS MAKEOVERRIDES
 
 .PHONY: help patient segment fit unload compress register report slicer paraview synthesize exam cohort verify-results \

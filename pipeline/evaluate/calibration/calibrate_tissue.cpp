@@ -10,8 +10,7 @@
 #include "pipeline/evaluate/cases/case_arguments.h"
 #include "pipeline/evaluate/cases/evaluation_table.h"
 #include "pipeline/evaluate/cases/real_breasts.h"
-#include "pipeline/evaluate/cases/stage_command.h"
-#include "pipeline/evaluate/compression/pressed_places.h"
+#include "pipeline/evaluate/compression/breast_stages.h"
 #include "pipeline/evaluate/compression/typical_press.h"
 #include "pipeline/frame/command_line.h"
 #include "pipeline/frame/products.h"
@@ -43,39 +42,23 @@ void declare(CommandLine& command, Arguments& args) {
   command.option("--jobs", args.jobs, "breasts at a time [1 to 64]").between(1, 64).with_default();
 }
 
-/// To what a radiographer presses this breast [mm]: as typical of the volume that then is in front
-/// of the plates' edge.
-double typical_thickness_of(const fs::path& folder, const OutlinePopulation& population) {
-  const fs::path toml = folder / "patient.toml", labels = folder / "segmentation.seg.nrrd",
-                 unloaded = folder / "unloaded.vtu", pressed = folder / "cc.vtu";
-  const std::string fractions = fractions_beside(labels).string();
-  run_to_product(
-      {"unload", {labels.string(), fractions, (folder / "prone.vtu").string()}, unloaded, toml});
-  run_to_product(
-      {"compress", {"cc", labels.string(), fractions, unloaded.string()}, pressed, toml});
-  return stage_sidecar(press_typically(pressed, folder, population, folder / "typical"))
-      .at("quality")
-      .at("thickness_mm");
-}
-
 /// Segmented, fitted and pressed with the numbers that the calibration starts from, in a folder of
-/// its name.
+/// its name: to what is typical of the volume that then is in front of the plates' edge.
 CalibratedBreast prepared(const RealBreast& breast, const Arguments& args,
                           const OutlinePopulation& population, const fs::path& folder) {
   fs::create_directories(folder);
-  const fs::path toml = folder / "patient.toml", labels = folder / "segmentation.seg.nrrd";
-  std::string elements = args.elements;
-  std::replace(elements.begin(), elements.end(), 'x', ',');
-  write_text_atomically(toml, patient_toml_of(breast));
-  run_to_product({"segment", {}, labels, toml});
-  run_to_product({"fit",
-                  {labels.string(), fractions_beside(labels).string()},
-                  folder / "prone.vtu",
-                  toml,
-                  {"--elements", "[" + elements + "]"}});
-  const double thickness = typical_thickness_of(folder, population);
-  write_text_atomically(toml, patient_toml_of(breast) +
-                                  "[views.cc]\nthickness_mm = " + json(thickness).dump() + "\n");
+  const BreastToPress files{name_and_side(breast), folder / "patient.toml", folder};
+  write_text_atomically(files.patient_toml, patient_toml_of(breast));
+  const BreastStages stages(files);
+  stages.fit(folder / "prone.vtu", elements_options(args.elements));
+  stages.unload(folder / "prone.vtu", folder / "unloaded.vtu");
+  json plates{{"reason", nullptr}};
+  add_plates(folder, population, plates);
+  if (!plates.at("thickness_mm").is_number())
+    throw std::runtime_error(files.name + ": " + plates.at("reason").dump());
+  write_text_atomically(files.patient_toml, patient_toml_of(breast) +
+                                                "[views.cc]\nthickness_mm = " +
+                                                plates.at("thickness_mm").dump() + "\n");
   return CalibratedBreast(folder);
 }
 
@@ -133,15 +116,15 @@ int run(const Arguments& args) {
   const OutlinePopulation population(args.cases / "compressed_outlines");
   std::vector<CalibratedBreast> breasts;
   std::set<std::string> persons;
-  for (RealBreast& breast : real_breasts(args.cases)) {
-    if (!breast.is_label_map || !is_asked(name_and_side(breast), args.only)) continue;
+  for (RealBreast& breast : asked_breasts(args.cases, args.only)) {
+    if (!breast.is_label_map) continue;
     breast.preset = args.preset;
     breasts.push_back(prepared(breast, args, population,
                                table.folder() / "tissue_calibration" / name_and_side(breast)));
     persons.insert(breast.name);
     say(name_and_side(breast) + ": fitted, and pressed once");
   }
-  if (breasts.empty()) throw std::runtime_error(args.cases.string() + ": no such breast in it");
+  if (breasts.empty()) throw std::runtime_error(args.cases.string() + ": no such label map in it");
   const auto data = calibration_data(read_womens_moves(args.cases / "prone_supine" / "points.csv"),
                                      static_cast<int>(persons.size()));
   const Calibration found =

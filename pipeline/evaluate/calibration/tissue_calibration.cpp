@@ -65,14 +65,18 @@ class PopulationMisfit : public ceres::CostFunction {
     return middle;
   }
   std::vector<BreastFigures> middle_slopes() const {
-    std::vector<std::vector<BreastFigures>> slopes(breasts_.size());
-    work_through(breasts_.size(), jobs_, [&](std::size_t b) { slopes[b] = breasts_[b].slopes(); });
+    if (slopes_.empty()) {
+      std::vector<std::vector<BreastFigures>> slopes(breasts_.size());
+      work_through(breasts_.size(), jobs_,
+                   [&](std::size_t b) { slopes[b] = breasts_[b].slopes(); });
+      slopes_ = std::move(slopes);
+    }
     std::vector<BreastFigures> middle(numbers_.size(), BreastFigures{});
     for (int i = 0; i < kBreastFigures; ++i) {
       const std::vector<double> weights = half(i).weights;
       for (std::size_t n = 0; n < numbers_.size(); ++n)
         for (std::size_t b = 0; b < breasts_.size(); ++b)
-          middle[n][i] += weights[b] * slopes[b][n][i];
+          middle[n][i] += weights[b] * slopes_[b][n][i];
     }
     return middle;
   }
@@ -85,6 +89,7 @@ class PopulationMisfit : public ceres::CostFunction {
     const std::vector<double> values = exponentials(logs.data(), logs.size());
     std::vector<BreastFigures> figures(breasts_.size());
     solved_at_.clear();
+    slopes_.clear();
     try {
       work_through(breasts_.size(), jobs_, [&](std::size_t b) {
         try {
@@ -121,6 +126,7 @@ class PopulationMisfit : public ceres::CostFunction {
   const std::function<void(const std::string&)>& said_;
   mutable std::vector<double> solved_at_;
   mutable std::vector<BreastFigures> figures_;
+  mutable std::vector<std::vector<BreastFigures>> slopes_;  ///< empty: not asked for yet
   mutable std::string reason_;
 };
 

@@ -6,6 +6,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include <stdexcept>
 
 #include "pipeline/synthesize/option_table.h"
 
@@ -71,6 +72,14 @@ std::vector<RealBreast> real_breasts(const fs::path& cases) {
   for (const fs::path& entry : sorted_entries(cases))
     if (fs::exists(entry / kContours)) all.push_back(mri_breast(entry));
   return all;
+}
+
+std::vector<RealBreast> asked_breasts(const fs::path& cases, const std::vector<std::string>& only) {
+  std::vector<RealBreast> breasts = real_breasts(cases);
+  std::erase_if(breasts,
+                [&](const auto& breast) { return !is_asked(name_and_side(breast), only); });
+  if (breasts.empty()) throw std::runtime_error(cases.string() + ": no such breast in it");
+  return breasts;
 }
 
 }  // namespace mammotwin

@@ -36,5 +36,8 @@ bool is_asked(const std::string& name, const std::vector<std::string>& only);
 /// label_maps/*_labels.nii.gz, both sides of each, then mri/ of each folder that holds a
 /// radiologist's contours, lesions_radiologist.json.
 std::vector<RealBreast> real_breasts(const std::filesystem::path& cases);
+/// Those of them that --only names. Throws std::runtime_error where there is none.
+std::vector<RealBreast> asked_breasts(const std::filesystem::path& cases,
+                                      const std::vector<std::string>& only);
 
 }  // namespace mammotwin

@@ -1,5 +1,6 @@
 #include "pipeline/evaluate/compression/breast_stages.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -17,6 +18,10 @@ BreastStages::BreastStages(const BreastToPress& breast)
   run_to_product({"segment", {}, segmentation_, breast.patient_toml});
 }
 
+std::vector<std::string> BreastStages::inputs(const fs::path& mesh) const {
+  return {segmentation_.string(), fractions_beside(segmentation_).string(), mesh.string()};
+}
+
 void BreastStages::fit(const fs::path& mesh, std::vector<std::string> options) const {
   fs::create_directories(mesh.parent_path());
   run_to_product({"fit",
@@ -26,15 +31,19 @@ void BreastStages::fit(const fs::path& mesh, std::vector<std::string> options) c
                   std::move(options)});
 }
 
+double BreastStages::unload(const fs::path& prone, const fs::path& unloaded,
+                            std::vector<std::string> options) const {
+  return run_to_product(
+      {"unload", inputs(prone), unloaded, breast_.patient_toml, std::move(options)});
+}
+
 double BreastStages::press(const std::string& view, const fs::path& mesh, const fs::path& pressed,
                            std::vector<std::string> options) const {
   fs::create_directories(pressed.parent_path());
+  std::vector<std::string> all = inputs(mesh);
+  all.insert(all.begin(), view);
   return run_to_product(
-      {"compress",
-       {view, segmentation_.string(), fractions_beside(segmentation_).string(), mesh.string()},
-       pressed,
-       breast_.patient_toml,
-       std::move(options)});
+      {"compress", std::move(all), pressed, breast_.patient_toml, std::move(options)});
 }
 
 void BreastStages::compare(const FollowedPoints& followed, const std::string& view,
@@ -45,6 +54,11 @@ void BreastStages::compare(const FollowedPoints& followed, const std::string& vi
   row["force_change"] = force(changed) / force(base) - 1;
   add_moves(followed, PressedPlaces(base, view, segmentation_),
             PressedPlaces(changed, view, segmentation_), row);
+}
+
+std::vector<std::string> elements_options(std::string elements) {
+  std::replace(elements.begin(), elements.end(), 'x', ',');
+  return {"--elements", "[" + elements + "]"};
 }
 
 void tabulate_breasts(

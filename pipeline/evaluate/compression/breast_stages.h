@@ -24,6 +24,10 @@ class BreastStages {
   /// Fits `mesh`; makes its folder.
   void fit(const std::filesystem::path& mesh, std::vector<std::string> options = {}) const;
 
+  /// CPU seconds of unloading the fitted mesh `prone` to `unloaded`.
+  double unload(const std::filesystem::path& prone, const std::filesystem::path& unloaded,
+                std::vector<std::string> options = {}) const;
+
   /// CPU seconds of pressing `mesh` to `pressed`, whose folder is made.
   double press(const std::string& view, const std::filesystem::path& mesh,
                const std::filesystem::path& pressed, std::vector<std::string> options = {}) const;
@@ -34,9 +38,14 @@ class BreastStages {
                nlohmann::json& row) const;
 
  private:
+  std::vector<std::string> inputs(const std::filesystem::path& mesh) const;
+
   const BreastToPress& breast_;
   const std::filesystem::path segmentation_;
 };
+
+/// Options of `fit` for a mesh of so many elements, "7x7x2".
+std::vector<std::string> elements_options(std::string elements);
 
 /// Gives each breast's rows, which `rows` makes one after the other, to the table `table`: 042 and
 /// the real cases (breasts_to_press), whose files go to a folder of the table's name.

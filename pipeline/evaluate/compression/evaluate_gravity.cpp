@@ -39,18 +39,9 @@ void declare(CommandLine& command, Arguments& args) {
       .existing_folder();
 }
 
-std::vector<RealBreast> breasts_asked(const Arguments& args) {
-  std::vector<RealBreast> breasts = real_breasts(args.cases);
-  std::erase_if(breasts, [&](const RealBreast& breast) {
-    return !is_asked(name_and_side(breast), args.only);
-  });
-  if (breasts.empty()) throw std::runtime_error(args.cases.string() + ": no such breast in it");
-  return breasts;
-}
-
 int run(const Arguments& args) {
   EvaluationTable table(args.table);
-  auto breasts = breasts_asked(args);
+  std::vector<RealBreast> breasts = asked_breasts(args.cases, args.only);
   for (RealBreast& breast : breasts) breast.preset = args.preset;
   std::optional<OutlinePopulation> population;
   if (!args.population.empty()) population.emplace(args.population);

@@ -44,13 +44,11 @@ std::vector<InputChange> changes_asked(const Arguments& args) {
 int run(const Arguments& args) {
   EvaluationTable table(args.table);
   std::vector<StabilityCase> asked;
-  for (const RealBreast& breast : real_breasts(args.cases)) {
-    const std::string name = name_and_side(breast);
-    if (!is_asked(name, args.only)) continue;
-    asked.push_back({breast, table.folder() / "stability" / name, changes_asked(args)});
+  for (const RealBreast& breast : asked_breasts(args.cases, args.only)) {
+    asked.push_back(
+        {breast, table.folder() / "stability" / name_and_side(breast), changes_asked(args)});
     if (!args.views.empty()) asked.back().views = args.views;
   }
-  if (asked.empty()) throw std::runtime_error(args.cases.string() + ": no such breast in it");
   work_through(asked.size(), args.jobs, [&](std::size_t n) {
     add_stability_rows(asked[n], [&](const nlohmann::json& row) { table.add(n, row); });
   });

@@ -4,7 +4,7 @@
 #include <stdexcept>
 
 #include "pipeline/evaluate/cases/stage_command.h"
-#include "pipeline/evaluate/compression/pressed_places.h"
+#include "pipeline/evaluate/compression/breast_stages.h"
 #include "pipeline/frame/products.h"
 #include "pipeline/steps/breast_problem.h"
 #include "segmentation/segmentation_file.h"
@@ -37,24 +37,20 @@ json gravity_row(const RealBreast& breast, const fs::path& folder,
        {"status", "reason", "nipple_l_mm", "nipple_p_mm", "nipple_s_mm", "nipple_mm", "landmark_mm",
         "ribs_prone_mm", "ribs_supine_mm", "cpu_seconds"})
     row[key] = nullptr;
-  const fs::path toml = folder / "patient.toml", segmentation = folder / "segmentation.seg.nrrd",
-                 prone = folder / "prone.vtu", unloaded = folder / "unloaded.vtu";
-  const std::string fractions = fractions_beside(segmentation).string();
+  const BreastToPress files{name_and_side(breast), folder / "patient.toml", folder};
+  const fs::path prone = folder / "prone.vtu", unloaded = folder / "unloaded.vtu";
   try {
     fs::create_directories(folder);
-    write_text_atomically(toml, patient_toml_of(breast));
-    run_to_product({"segment", {}, segmentation, toml});
-    run_to_product({"fit", {segmentation.string(), fractions}, prone, toml});
+    write_text_atomically(files.patient_toml, patient_toml_of(breast));
+    const BreastStages stages(files);
+    stages.fit(prone);
     fs::remove(unloaded);
     fs::remove(unloaded.string() + ".json");
-    row["cpu_seconds"] = run_to_product({"unload",
-                                         {segmentation.string(), fractions, prone.string()},
-                                         unloaded,
-                                         toml,
-                                         unload_options});
-    const SupineMoves moves =
-        supine_moves(read_mesh_file(unloaded), breast.side,
-                     read_segmentation(segmentation, fractions).nipple_in_lps);
+    row["cpu_seconds"] = stages.unload(prone, unloaded, unload_options);
+    const SupineMoves moves = supine_moves(
+        read_mesh_file(unloaded), breast.side,
+        read_segmentation(stages.segmentation(), fractions_beside(stages.segmentation()))
+            .nipple_in_lps);
     row["nipple_l_mm"] = moves.nipple.x();
     row["nipple_p_mm"] = moves.nipple.y();
     row["nipple_s_mm"] = moves.nipple.z();

@@ -46,9 +46,7 @@ class RefinementRun {
 
   void fit(const std::string& mesh) const {
     if (mesh == "default") return stages_.fit(prone(mesh));
-    std::string elements = mesh;
-    std::replace(elements.begin(), elements.end(), 'x', ',');
-    stages_.fit(prone(mesh), {"--elements", "[" + elements + "]"});
+    stages_.fit(prone(mesh), elements_options(mesh));
   }
 
   void describe(const std::string& mesh, const std::string& view, json& row) const {

@@ -19,7 +19,7 @@ TEST(MiddleHalf, IsTheMeanOfWhatLiesBetweenTheQuarters) {
   EXPECT_DOUBLE_EQ(of_eight.mean, 3.5);  // of 2, 3, 4, 5
   EXPECT_EQ(of_eight.weights[0], 0);
   EXPECT_DOUBLE_EQ(of_eight.weights[2], 0.25);
-  // Of three, half an outer one counts as a quarter of the middle one does not: 0.25, 1, 0.25.
+  // Of three the outer ones count by a quarter each.
   EXPECT_DOUBLE_EQ(middle_half({1, 10, 4}).mean, (0.25 * 1 + 4 + 0.25 * 10) / 1.5);
   EXPECT_DOUBLE_EQ(middle_half({7}).mean, 7);
 }
@@ -92,7 +92,7 @@ TEST_F(TissueCalibration, FindsTheNumbersThatTheDataAreOf) {
   const Calibration found = calibrate_tissue(breasts, numbers, data, 1, [](const std::string&) {});
   for (std::size_t n = 0; n < numbers.size(); ++n) {
     const CalibratedNumber& number = found.numbers[n];
-    EXPECT_NEAR(number.value, truth[n], 0.02 * truth[n]) << number.number.key << found.ended;
+    EXPECT_NEAR(number.value, truth[n], 0.02 * truth[n]) << number.number.key << " " << found.ended;
     ASSERT_TRUE(number.low && number.high);
     EXPECT_LT(*number.low, truth[n]);
     EXPECT_GT(*number.high, truth[n]);
