@@ -11,6 +11,7 @@
 #include "fitting/fit_limits.h"
 #include "fitting/fit_quality.h"
 #include "fitting/mesh/jacobian_bound.h"
+#include "fitting/mirror.h"
 #include "fitting/solve/fit_mesh.h"
 #include "fitting/surface/skin_to_fit.h"
 
@@ -242,6 +243,22 @@ FitProgress growing(const FitProgress& progress) {
   };
 }
 
+FitResult fit_left(const Segmentation& s, const FitOptions& options, const FitProgress& progress,
+                   const ScannedSkin* scan) {
+  const BreastFit fit(s, options, progress, scan);
+  return options.accuracy_mm ? fit.to_accuracy(*options.accuracy_mm)
+         : options.elements  ? fit.with(*options.elements)
+                             : fit.of_its_size();
+}
+
+/// As the left breast that it mirrors: the same breast gets the same mesh.
+FitResult fit_right(const Segmentation& s, const FitOptions& options, const FitProgress& progress,
+                    const ScannedSkin* scan) {
+  if (!scan) return mirrored(fit_left(mirrored(s), options, progress, nullptr));
+  const ScannedSkin as_left = mirrored(*scan);
+  return mirrored(fit_left(mirrored(s), options, progress, &as_left));
+}
+
 }  // namespace
 
 Eigen::Vector3i elements_for(double skin_area_mm2) {
@@ -256,10 +273,8 @@ FitResult fit_breast(const Segmentation& s, const FitOptions& options, const Fit
   require_breast(s);
   const FitProgress tell = growing(progress);
   if (tell) tell(0, "finding skin and chest wall");
-  const BreastFit fit(s, options, tell, scan);
-  FitResult result = options.accuracy_mm ? fit.to_accuracy(*options.accuracy_mm)
-                     : options.elements  ? fit.with(*options.elements)
-                                         : fit.of_its_size();
+  FitResult result = s.region.side == Side::left ? fit_left(s, options, tell, scan)
+                                                 : fit_right(s, options, tell, scan);
   if (tell) tell(1, "done");
   return result;
 }

@@ -13,8 +13,8 @@ namespace mammotwin {
 using FitProgress = std::function<void(double fraction, const std::string& what)>;
 
 struct FitOptions {
-  /// Along x, z and from chest wall to skin, 1 to 16 each. Default: 7 x 7 x 2, a scan's 9 x 9 x 2;
-  /// more columns where one would carry more than 11 cm² of skin.
+  /// Along x, z and from chest wall to skin, 1 to 16 each. Default: elements_for() the skin's area,
+  /// and up to 2 columns more where the skin is too uneven for that.
   std::optional<Eigen::Vector3i> elements;
   /// Skin RMS, worse direction, 0.05 to 5 [mm]: with it the columns along x and z are as few of 4
   /// to 12 as reach it. Labels of 1 mm are rough by 0.25 mm themselves.

@@ -1,0 +1,96 @@
+#include "fitting/mirror.h"
+
+#include <tuple>
+#include <utility>
+
+#include "fitting/mesh/bezier.h"
+#include "fitting/mesh/block_mesh.h"
+#include "fitting/slab/slab.h"
+
+namespace mammotwin {
+
+namespace {
+
+Eigen::Vector3d mirrored(const Eigen::Vector3d& x) { return {-x.x(), x.y(), x.z()}; }
+
+template <class T>
+Volume<T> mirrored(const Volume<T>& image) {
+  Volume<T> result = image;
+  const int last = image.size.x() - 1;
+  result.origin.x() = -image.position(last, 0, 0).x();
+  for (int k = 0; k < image.size.z(); ++k)
+    for (int j = 0; j < image.size.y(); ++j)
+      for (int i = 0; i <= last; ++i) result(i, j, k) = image(last - i, j, k);
+  return result;
+}
+
+/// ξ₁ runs the other way, too: parameters that are differentiated along it change their sign twice
+/// in x and once in y and z.
+HermiteMesh::Node mirrored(const HermiteMesh::Node& node) {
+  HermiteMesh::Node result = node;
+  for (int d = 0; d < 8; ++d) {
+    if (d & 1)
+      result.bottomRows<2>().col(d) *= -1;
+    else
+      result(0, d) *= -1;
+  }
+  return result;
+}
+
+std::vector<HermiteMesh::Node> mirrored(const HermiteMesh& mesh, const Slab& slab) {
+  const auto [nx, ny, nz] = std::tuple(slab.elements.x(), slab.elements.y(), slab.elements.z());
+  std::vector<HermiteMesh::Node> nodes(mesh.num_nodes());
+  for (int k = 0; k <= nz; ++k)
+    for (int j = 0; j <= ny; ++j)
+      for (int i = 0; i <= nx; ++i)
+        nodes[slab.node(i, j, k)] = mirrored(mesh.node(slab.node(nx - i, j, k)));
+  return nodes;
+}
+
+PointField mirrored(const PointField& field, const HermiteMesh& mesh, const Slab& slab) {
+  const BezierMesh bezier(mesh);
+  PointField result = field;
+  const Eigen::Vector3i& n = slab.elements;
+  for (int e = 0; e < mesh.num_elements(); ++e) {
+    const int i = e % n.x();
+    const auto& here = bezier.elements[e];
+    const auto& there = bezier.elements[e - i + n.x() - 1 - i];
+    for (int m = 0; m < 64; ++m)
+      for (int c = 0; c < field.components; ++c)
+        result.values[field.components * here[m] + c] =
+            field.values[field.components * there[m - m % 4 + 3 - m % 4] + c];
+  }
+  return result;
+}
+
+}  // namespace
+
+Segmentation mirrored(const Segmentation& s) {
+  Segmentation result{mirrored(s.labels), mirrored(s.fractions), s.region, s.lesions,
+                      mirrored(s.nipple_in_lps)};
+  result.region.side = s.region.side == Side::left ? Side::right : Side::left;
+  result.region.x_min = -s.region.x_max;
+  result.region.x_max = -s.region.x_min;
+  for (Lesion& lesion : result.lesions) lesion.centroid_in_lps = mirrored(lesion.centroid_in_lps);
+  return result;
+}
+
+ScannedSkin mirrored(const ScannedSkin& scan) {
+  ScannedSkin result = scan;
+  for (auto& x : result.surface.vertices) x = mirrored(x);
+  for (auto& t : result.surface.triangles) std::swap(t[1], t[2]);
+  return result;
+}
+
+FitResult mirrored(const FitResult& fit) {
+  FitResult result = fit;
+  result.report.farthest_in_lps = mirrored(fit.report.farthest_in_lps);
+  const HermiteMesh& mesh = fit.mesh.mesh;
+  if (mesh.num_elements() == 0) return result;
+  const Slab slab{fit.report.elements};
+  result.mesh.mesh = HermiteMesh(mirrored(mesh, slab), grid_corners(slab.elements));
+  for (auto& [name, field] : result.mesh.fields) field = mirrored(field, mesh, slab);
+  return result;
+}
+
+}  // namespace mammotwin
