@@ -257,7 +257,7 @@ NewtonReport Newton::iterate(State& state, const NewtonOptions& options,
   };
   merit_.forget();  // no solve hangs on another
   shift_ = damping_ = 0;
-  indefinite_ = false;
+  indefinite_ = true;  // not known of this state
   indefinite_for_ = 0;
   if (is_zero(pending)) pending.clear();
   Nearest nearest;
@@ -290,6 +290,7 @@ NewtonReport Newton::iterate(State& state, const NewtonOptions& options,
       const bool minimum = !indefinite_ || options.keep_unstable ||
                            options.tolerance > kEquilibrium || is_stable(state);
       nearest.forget();
+      held_ = held_ || (following_ && falls > 0);
       if (!minimum && ++falls <= kMostFalls && fall(state, balance, options, report)) continue;
       report.converged = minimum;
       if (!minimum) report.reason = "the equilibrium found is unstable";

@@ -103,11 +103,11 @@ class Newton {
   Cholesky cholesky_;
   CondensedEnergy merit_;
   double shift_ = 0;
-  double damping_ = 0;       ///< shift that short steps ask for
-  bool indefinite_ = false;  ///< the last matrix was not the exact one
-  int indefinite_for_ = 0;   ///< so many iterations near balance
-  bool following_ = false;   ///< what is followed is refreshed before each step
-  bool held_ = false;        ///< or, after steps that circled, in balance only
+  double damping_ = 0;      ///< shift that short steps ask for
+  bool indefinite_ = true;  ///< the last matrix was not the exact one, or there was none
+  int indefinite_for_ = 0;  ///< so many iterations near balance
+  bool following_ = false;  ///< what is followed is refreshed before each step
+  bool held_ = false;       ///< or, after steps that circled, in balance only
 };
 
 }  // namespace mammotwin
