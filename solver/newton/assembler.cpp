@@ -238,6 +238,25 @@ Eigen::VectorXd Assembler::against_swelling(const Eigen::MatrixXd& excess) const
   return sum;
 }
 
+Eigen::VectorXd Assembler::change_of_right_hand_side(const Model& from, const Model& to,
+                                                     const State& state) const {
+  std::vector<Residual> changes(model_.num_elements());
+  tbb::parallel_for(0, model_.num_elements(), [&](int e) {
+    const int n = model_.element(e).num_pressures();
+    ElementSystem& system = workspace();
+    from.evaluate(e, state, TangentKind::none, system);
+    const Residual before = system.residual;
+    const Eigen::VectorXd swelling_before = system.pressure_residual.head(n);
+    to.evaluate(e, state, TangentKind::none, system);
+    const Eigen::VectorXd swelling = system.pressure_residual.head(n) - swelling_before;
+    changes[e] = system.residual - before +
+                 eliminations_[e].coupling.leftCols(n) * (pressure_factors_[e] * swelling);
+  });
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(num_equations());
+  for (int e = 0; e < model_.num_elements(); ++e) add_residual(e, changes[e], -1, sum);
+  return sum;
+}
+
 void Assembler::take_circulation(const State& state) {
   circulations_.resize(model_.num_elements());
   tbb::parallel_for(0, model_.num_elements(),

@@ -63,6 +63,12 @@ class Assembler {
   /// of the last linearise().
   Eigen::VectorXd against_swelling(const Eigen::MatrixXd& excess) const;
 
+  /// How much of the right-hand side changes between two models of this mesh and these unknowns at
+  /// the state of the last linearise(), where that is balanced: its couplings eliminate the
+  /// pressures of both.
+  Eigen::VectorXd change_of_right_hand_side(const Model& from, const Model& to,
+                                            const State& state) const;
+
   /// Takes the unsymmetric part of the tangent at a state, and its product with a solution.
   void take_circulation(const State& state);
   Eigen::VectorXd circulation(const Eigen::VectorXd& solution) const;

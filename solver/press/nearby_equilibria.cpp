@@ -7,11 +7,10 @@
 
 namespace mammotwin {
 
-/// A breast and its plates with the linear system at the solved state.
+/// A breast and its plates, as they are for a problem.
 struct NearbyEquilibria::Posed {
   PressedBreast breast;
   PlacedPlates plates;
-  std::unique_ptr<Assembler> assembler;
 };
 
 NearbyEquilibria::NearbyEquilibria(const CompressionResult& near, const CompressionProblem& problem,
@@ -21,13 +20,15 @@ NearbyEquilibria::NearbyEquilibria(const CompressionResult& near, const Compress
     throw std::invalid_argument("the result to start from belongs to another mesh");
   near_.fields.clear();
   here_ = std::make_shared<Posed>(posed(problem));
-  factor_ = std::make_shared<Cholesky>(here_->assembler->pattern(),
-                                       here_->breast.dofs->node_of_equation());
-  usable_ = factor_->factor(here_->assembler->matrix());
+  const PressedBreast& breast = here_->breast;
+  assembler_ = std::make_shared<Assembler>(*breast.model, *breast.dofs);
+  assembler_->linearise(state_, {});
+  factor_ = std::make_shared<Cholesky>(assembler_->pattern(), breast.dofs->node_of_equation());
+  usable_ = factor_->factor(assembler_->matrix());
 }
 
 NearbyEquilibria::Posed NearbyEquilibria::posed(const CompressionProblem& problem) const {
-  Posed posed{make_pressed_breast(problem, options_.solid), {}, nullptr};
+  Posed posed{make_pressed_breast(problem, options_.solid), {}};
   const MeshFile positioned = as_positioned(problem);
   const PlateFrame frame(positioned, problem.plates);
   const PlacedPlates asked =
@@ -39,8 +40,6 @@ NearbyEquilibria::Posed NearbyEquilibria::posed(const CompressionProblem& proble
   posed.breast.contact->plates = {posed.plates.support, posed.plates.paddle};
   posed.breast.contact->penalty = near_.penalty;
   hold_by_friction(posed.breast, near_.holds, state_, options_.frozen_friction);
-  posed.assembler = std::make_unique<Assembler>(*posed.breast.model, *posed.breast.dofs);
-  posed.assembler->linearise(state_, {});
   return posed;
 }
 
@@ -48,9 +47,9 @@ NearbyEquilibria::Step NearbyEquilibria::step(const CompressionProblem& from,
                                               const CompressionProblem& to) const {
   if (!usable_) throw std::logic_error("no step from an equilibrium that is not stable");
   const Posed a = posed(from), b = posed(to);
-  const Eigen::VectorXd change =
-      factor_->solve(b.assembler->right_hand_side() - a.assembler->right_hand_side());
-  return {here_->assembler->nodal_step(change, {}), a.plates, b.plates};
+  const Eigen::VectorXd change = factor_->solve(
+      assembler_->change_of_right_hand_side(*a.breast.model, *b.breast.model, state_));
+  return {assembler_->nodal_step(change, {}), a.plates, b.plates};
 }
 
 }  // namespace mammotwin

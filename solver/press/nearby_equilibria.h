@@ -45,6 +45,7 @@ class NearbyEquilibria {
   CompressionOptions options_;
   State state_;
   std::shared_ptr<const Posed> here_;
+  std::shared_ptr<Assembler> assembler_;  ///< of the problem solved, at its state
   std::shared_ptr<Cholesky> factor_;
   bool usable_ = false;
 };
