@@ -2,11 +2,10 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <queue>
 #include <stdexcept>
-
-#include "fitting/mesh/bezier_evaluation.h"
 
 namespace mammotwin {
 
@@ -16,8 +15,10 @@ using Eigen::Vector3d;
 
 constexpr int parts_a_side = 4;  // small enough that Newton from a part's centre converges
 constexpr int parts_in_leaf = 4;
-constexpr int max_newton_steps = 30;         // distorted elements need up to 8
+constexpr int most_levels = 32;       // each halves the parts, of which an int can count so many
+constexpr int max_newton_steps = 30;  // distorted elements need up to 8
 constexpr double position_tolerance = 1e-9;  // [mm]
+constexpr double last_step = 1e-5;           // [mm]: a step from here leads to within a billionth
 constexpr double xi_tolerance = 1e-9;        // points on faces belong to the mesh despite rounding
 
 /// Rows turn four control values into those of part `index` of `count` equal parts.
@@ -71,7 +72,8 @@ Vector3d clamp(const Vector3d& xi, double low, double high) {
 InverseMap::InverseMap(const HermiteMesh& mesh) {
   if (mesh.num_elements() == 0) throw std::invalid_argument("InverseMap: the mesh has no element");
   for (int e = 0; e < mesh.num_elements(); ++e) {
-    elements_.push_back(bezier_element(mesh, e));
+    const BezierElement element = bezier_element(mesh, e);
+    elements_.push_back(padded(element));
     for (int part = 0; part < parts_a_side * parts_a_side * parts_a_side; ++part) {
       const Eigen::Vector3i at(part % parts_a_side, part / parts_a_side % parts_a_side,
                                part / (parts_a_side * parts_a_side));
@@ -79,7 +81,7 @@ InverseMap::InverseMap(const HermiteMesh& mesh) {
                                                   restriction(at[1], parts_a_side),
                                                   restriction(at[2], parts_a_side)};
       parts_.push_back({e, (at.cast<double>() + Vector3d::Constant(0.5)) / parts_a_side,
-                        part_box(elements_[e], cut)});
+                        part_box(element, cut)});
     }
   }
   build(0, static_cast<int>(parts_.size()));
@@ -103,19 +105,25 @@ int InverseMap::build(int first, int last) {
   return index;
 }
 
+/// Ends where the continued element would hold x outside its faces: as soon as two steps in turn
+/// lead as far out as they may.
 std::optional<MeshPoint> InverseMap::newton(const Vector3d& x, MeshPoint p) const {
+  bool at_limit = false;
   for (int step = 0; step < max_newton_steps; ++step) {
     const PositionAndJacobian at = evaluate(elements_[p.element], p.xi);
     const Vector3d residual = x - at.x;
-    if (residual.norm() < position_tolerance) {
-      if (!in_unit_cube(p.xi)) return std::nullopt;
-      p.xi = clamp(p.xi, 0, 1);
-      return p;
-    }
     const Vector3d dxi = at.jacobian.inverse() * residual;
     if (!dxi.allFinite()) return std::nullopt;
     // Half an element beyond the faces the cubic continuation means nothing any more.
     p.xi = clamp(p.xi + clamp(dxi, -0.5, 0.5), -0.5, 1.5);
+    if (residual.norm() < last_step) {
+      if (!in_unit_cube(p.xi)) return std::nullopt;
+      p.xi = clamp(p.xi, 0, 1);
+      return p;
+    }
+    const bool again = p.xi.minCoeff() <= -0.5 || p.xi.maxCoeff() >= 1.5;
+    if (again && at_limit) return std::nullopt;
+    at_limit = again;
   }
   return std::nullopt;
 }
@@ -126,14 +134,13 @@ std::optional<MeshPoint> InverseMap::locate(const Vector3d& x, const MeshPoint& 
 }
 
 std::optional<MeshPoint> InverseMap::locate(const Vector3d& x) const {
-  std::vector<int> stack = {0};
-  while (!stack.empty()) {
-    const Branch& branch = branches_[stack.back()];
-    stack.pop_back();
+  std::array<int, most_levels + 1> stack = {0};
+  for (int waiting = 1; waiting > 0;) {
+    const Branch& branch = branches_[stack[--waiting]];
     if (!branch.box.contains(x)) continue;
     if (branch.left >= 0) {
-      stack.push_back(branch.right);
-      stack.push_back(branch.left);
+      stack[waiting++] = branch.right;
+      stack[waiting++] = branch.left;
       continue;
     }
     for (int i = branch.first; i < branch.last; ++i)

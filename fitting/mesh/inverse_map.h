@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "fitting/mesh/bezier.h"
+#include "fitting/mesh/bezier_evaluation.h"
 
 namespace mammotwin {
 
@@ -43,7 +43,7 @@ class InverseMap {
   std::optional<MeshPoint> newton(const Eigen::Vector3d& x, MeshPoint start) const;
   double descend(const Eigen::Vector3d& x, MeshPoint& p) const;
 
-  std::vector<BezierElement> elements_;
+  std::vector<PaddedBezierElement> elements_;
   std::vector<Part> parts_;
   std::vector<Branch> branches_;
 };

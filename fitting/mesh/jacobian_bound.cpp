@@ -64,7 +64,7 @@ void apply(const Matrix9& m, int stride, Box& box) {
 }
 
 /// Bernstein coefficients of the determinant in one element.
-Box determinant_coefficients(const BezierElement& element) {
+Box determinant_coefficients(const PaddedBezierElement& element) {
   static const Matrix9 transform = coefficients_from_samples();
   Box box;
   for (int m = 0; m < n * n * n; ++m) {
@@ -119,7 +119,7 @@ double slack(const Box& box) {
 }
 
 bool proved(const HermiteMesh& mesh, int element) {
-  const Box box = determinant_coefficients(bezier_element(mesh, element));
+  const Box box = determinant_coefficients(padded(bezier_element(mesh, element)));
   Search search{0, 0, slack(box), true};
   search.visit(box, 0);
   return search.lower > 0;
@@ -144,8 +144,9 @@ bool proved_valid(const HermiteMesh& mesh) {
 std::vector<JacobianBound> bound_elements(const HermiteMesh& mesh) {
   const int count = mesh.num_elements();
   std::vector<Box> boxes(count);
-  tbb::parallel_for(0, count,
-                    [&](int e) { boxes[e] = determinant_coefficients(bezier_element(mesh, e)); });
+  tbb::parallel_for(0, count, [&](int e) {
+    boxes[e] = determinant_coefficients(padded(bezier_element(mesh, e)));
+  });
   double mean_determinant = 0;
   for (const Box& box : boxes) mean_determinant += std::abs(mean(box)) / count;
   std::vector<JacobianBound> bounds(count);
@@ -172,7 +173,7 @@ std::vector<double> scaled_jacobians(const HermiteMesh& mesh) {
   constexpr int samples = 7;
   std::vector<double> smallest(mesh.num_elements(), std::numeric_limits<double>::infinity());
   tbb::parallel_for(0, mesh.num_elements(), [&](int e) {
-    const BezierElement element = bezier_element(mesh, e);
+    const PaddedBezierElement element = padded(bezier_element(mesh, e));
     for (int m = 0; m < samples * samples * samples; ++m) {
       const Eigen::Vector3d at(m % samples, m / samples % samples, m / (samples * samples));
       const Eigen::Matrix3d j = evaluate(element, at / (samples - 1)).jacobian;

@@ -67,6 +67,18 @@ std::vector<Composed> composed(const DisplacementField& there, const HermiteMesh
   return points;
 }
 
+CompositionError error_of(const std::vector<Composed>& points, const DisplacementField& back) {
+  std::vector<double> errors;
+  for (const Composed& p : points)
+    errors.push_back((p.y + displacement_at(back, p.y) - p.x).norm());
+  if (errors.empty()) return {};
+  std::sort(errors.begin(), errors.end());
+  double sum = 0;
+  for (const double e : errors) sum += e;
+  return {sum / errors.size(), errors[static_cast<std::size_t>(0.99 * (errors.size() - 1))],
+          errors.back(), errors.size()};
+}
+
 }  // namespace
 
 DisplacementField displacement_field(const HermiteMesh& here, const HermiteMesh& target,
@@ -95,8 +107,8 @@ Eigen::Vector3d displacement_at(const DisplacementField& field, const Eigen::Vec
   return interpolate(field, trilinear_corners(field, field.index(x)));
 }
 
-void compose_to_identity(const DisplacementField& there, const HermiteMesh& there_mesh,
-                         double tolerance_mm, DisplacementField& back) {
+CompositionError compose_to_identity(const DisplacementField& there, const HermiteMesh& there_mesh,
+                                     double tolerance_mm, DisplacementField& back) {
   constexpr int most_rounds = 60;
   const std::vector<Composed> points = composed(there, there_mesh);
   std::vector<TrilinearCorners> corners(points.size());  // the same in every round
@@ -117,23 +129,16 @@ void compose_to_identity(const DisplacementField& there, const HermiteMesh& ther
       for (int c = 0; c < corners[p].count; ++c)
         left[corners[p].voxels[c]] += corners[p].weights[c] * miss;
     }
-    if (worst <= tolerance_mm) return;
+    if (worst <= tolerance_mm) break;
     for (std::size_t v = 0; v < left.size(); ++v)
       if (left[v].w() > 0) back.values[v] -= (left[v].head<3>() / left[v].w()).cast<float>();
   }
+  return error_of(points, back);
 }
 
 CompositionError composition_error(const DisplacementField& there, const DisplacementField& back,
                                    const HermiteMesh& there_mesh) {
-  std::vector<double> errors;
-  for (const Composed& p : composed(there, there_mesh))
-    errors.push_back((p.y + displacement_at(back, p.y) - p.x).norm());
-  if (errors.empty()) return {};
-  std::sort(errors.begin(), errors.end());
-  double sum = 0;
-  for (const double e : errors) sum += e;
-  return {sum / errors.size(), errors[static_cast<std::size_t>(0.99 * (errors.size() - 1))],
-          errors.back(), errors.size()};
+  return error_of(composed(there, there_mesh), back);
 }
 
 void write_displacement_field(const std::filesystem::path& path, const DisplacementField& field) {

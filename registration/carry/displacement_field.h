@@ -33,9 +33,10 @@ CompositionError composition_error(const DisplacementField& there, const Displac
 /// Corrects `back` at its voxels until both compose to the identity over the voxel centres of
 /// `there` inside the mesh, to `tolerance_mm` or as near as its grid can: where the breast is bent
 /// within two voxels (at the plates' edges), exact values interpolate worse than these. Each round
-/// spreads what is left at every point over the voxels that it was interpolated from.
-void compose_to_identity(const DisplacementField& there, const HermiteMesh& there_mesh,
-                         double tolerance_mm, DisplacementField& back);
+/// spreads what is left at every point over the voxels that it was interpolated from. Returns the
+/// error that stays.
+CompositionError compose_to_identity(const DisplacementField& there, const HermiteMesh& there_mesh,
+                                     double tolerance_mm, DisplacementField& back);
 
 /// NRRD with vectors of three floats, space left-posterior-superior.
 void write_displacement_field(const std::filesystem::path& path, const DisplacementField& field);

@@ -4,21 +4,34 @@
 
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "fitting/mesh/bezier.h"
 #include "fitting/mesh/inverse_map.h"
 
 namespace mammotwin {
 
+namespace {
+
+/// Where a walk through one element goes next.
+MeshPoint ahead(const MeshPoint& p, const std::optional<MeshPoint>& before) {
+  if (!before || before->element != p.element) return p;
+  return {p.element, 2 * p.xi - before->xi};
+}
+
+}  // namespace
+
 void fill_positions(const HermiteMesh& here, const HermiteMesh& target, PositionGrid& grid) {
   const InverseMap inverse(here);
   const Eigen::Vector3d outside =
       Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
   const auto fill_row = [&](int j, int k) {
-    std::optional<MeshPoint> p;
+    std::optional<MeshPoint> p, before;
     for (int i = 0; i < grid.size.x(); ++i) {
       const Eigen::Vector3d x = grid.position(i, j, k);
-      p = p ? inverse.locate(x, *p) : inverse.locate(x);
+      const std::optional<MeshPoint> next =
+          p ? inverse.locate(x, ahead(*p, before)) : inverse.locate(x);
+      before = std::exchange(p, next);
       grid(i, j, k) = p ? target.position(*p) : outside;
     }
   };
