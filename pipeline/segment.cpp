@@ -17,7 +17,8 @@ struct Arguments {
 
 void declare(StageDeclaration& stage, Arguments& args) {
   stage.product("segmentation", args.segmentation, "tissue labels to write (.seg.nrrd)");
-  for (const char* prefix : {"side", "mri.", "labels.", "scan.", "nipple."})
+  for (const char* prefix :
+       {"side", "mri.", "labels.", "scan.", "nipple.", "chest_wall.", "region."})
     stage.options_from(prefix, false);
   stage.options_from("segment.", true);
 }
@@ -25,7 +26,8 @@ void declare(StageDeclaration& stage, Arguments& args) {
 StagePlan plan(const Arguments&, const Patient& patient) {
   patient.require_files();
   return {patient.segment_files(),
-          {"side", "mri.", "labels.", "scan.", "nipple.", "segment.", "lesions."}};
+          {"side", "mri.", "labels.", "scan.", "nipple.", "chest_wall.", "region.", "segment.",
+           "lesions."}};
 }
 
 Status status_of(SegmentStatus status) {

@@ -7,7 +7,7 @@
 #include "segmentation/body/judge_region.h"
 #include "segmentation/body/nipple.h"
 #include "segmentation/body/tissue_columns.h"
-#include "segmentation/files/markups_point.h"
+#include "segmentation/files/markups.h"
 #include "segmentation/image/crop.h"
 #include "segmentation/image/distance.h"
 #include "segmentation/label_maps/segment_labels.h"
@@ -103,6 +103,13 @@ void place_nipple(const SegmentInput& input, SegmentResult& result) {
         "a point on its skin in LPS [mm] (is it in RAS, or the other side?)");
 }
 
+FoundRegion region_for(const SegmentInput& input, const Segmentation& s) {
+  if (!input.region_markups) return find_region(s.labels, s.region.side, LabelsHold::one_side);
+  const Eigen::AlignedBox3d box = read_markups_box(*input.region_markups);
+  return given_region(s.labels,
+                      {s.region.side, box.min().x(), box.max().x(), box.min().z(), box.max().z()});
+}
+
 void measure_volumes(const Segmentation& s, SegmentQuality& q) {
   const double ml = s.labels.voxel_volume() / 1000;
   for (int k = 0; k < s.labels.size.z(); ++k)
@@ -169,6 +176,11 @@ SegmentResult segment(const SegmentInput& input, const SegmentOptions& options,
   };
   if (!input.label_map && !input.mri)
     throw std::invalid_argument("neither an MRI nor a label map is given; expected one of them");
+  if (input.wall_markups && input.label_map)
+    throw std::invalid_argument(
+        "a chest wall is drawn, but a label map is taken as the segmentation; expected an MRI "
+        "alone "
+        "(the muscle of a label map is corrected in it)");
   SegmentResult result;
   if (input.label_map) {
     tell(0, "reading the label map");
@@ -182,7 +194,7 @@ SegmentResult segment(const SegmentInput& input, const SegmentOptions& options,
   tell(0.9, "finding the breast's region");
   settle_fractions(s);
   crop(result);
-  const FoundRegion found = find_region(s.labels, s.region.side, LabelsHold::one_side);
+  const FoundRegion found = region_for(input, s);
   s.region = found.region;
   if (found.thin_mm2 > 0) set_wall_back(found, s, q);
   if (result.judge_in_region) result.judge_in_region(s.region, q);

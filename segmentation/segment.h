@@ -41,6 +41,8 @@ struct SegmentInput {
   std::vector<LesionSeed> lesions;
   std::optional<Eigen::Vector3d> nipple_in_lps;  ///< [mm]
   std::optional<std::filesystem::path> nipple_markups;
+  std::optional<std::filesystem::path> wall_markups;  ///< the muscle's front, drawn in a few slices
+  std::optional<std::filesystem::path> region_markups;  ///< the breast's region: an ROI
 };
 
 enum class LesionMethod {

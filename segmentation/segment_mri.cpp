@@ -11,6 +11,7 @@
 #include "segmentation/chest_wall/judge_wall.h"
 #include "segmentation/contrast_agent/before_agent.h"
 #include "segmentation/contrast_agent/enhancement.h"
+#include "segmentation/files/markups.h"
 #include "segmentation/image/crop.h"
 #include "segmentation/lesion/lesion_seed.h"
 #include "segmentation/lesion/lesion_stage.h"
@@ -187,7 +188,13 @@ SegmentResult segment_image(const Mri& mri, const SegmentInput& input,
         "and pixel spacing (export it as single slices)");
   const Side side = choose_side(input, seeds, body.frame.midline_x);
   progress(0.35, "finding the chest wall");
-  const WallStage wall = find_wall(body, before, side, options.wall_stiffness);
+  std::vector<Eigen::Vector3d> drawn;
+  if (input.wall_markups) drawn = read_markups_points(*input.wall_markups);
+  const WallStage wall = find_wall(body, before, side, options.wall_stiffness, drawn);
+  if (!drawn.empty())
+    result.quality.notes.push_back("the chest wall was drawn by hand, with " +
+                                   std::to_string(drawn.size()) +
+                                   " points; between them it is not doubted");
   judge_movement(wall.pre_match, result.quality);
   result.judge_in_region = [found = wall.found, frame = body.frame](const BreastRegion& region,
                                                                     SegmentQuality& quality) {

@@ -68,6 +68,10 @@ void Patient::declare_inputs(Settings& s) {
   s.point("nipple.point_lps_mm", nipple_lps_mm_, {-kFarthestMm, kFarthestMm, "mm"},
           "the nipple, patient LPS; default: what shows on the skin");
   s.path("nipple.markups", nipple_markups_, "the nipple as 3D Slicer markups (.mrk.json)");
+  s.path("chest_wall.markups", wall_markups_,
+         "the muscle's front, drawn in a few slices as 3D Slicer markups; interpolated between");
+  s.path("region.markups", region_markups_,
+         "the breast's region as a 3D Slicer ROI; its left, right, lower and upper sides count");
 }
 
 void Patient::declare_scan(Settings& s) {
@@ -187,6 +191,8 @@ std::vector<NamedFile> Patient::named_files() const {
   add("mri.pre", pre_);
   add("labels.path", labels_);
   add("nipple.markups", nipple_markups_);
+  add("chest_wall.markups", wall_markups_);
+  add("region.markups", region_markups_);
   add("scan.path", scan_);
   add("unload.second_state", gravity.second_state);
   add("compress.paddle_stl", compression.paddle_stl);
@@ -277,6 +283,8 @@ SegmentInput Patient::segment_input() const {
   for (const LesionEntry& entry : lesions_) input.lesions.push_back(seed_of(entry));
   input.nipple_in_lps = nipple_lps_mm_;
   if (nipple_markups_) input.nipple_markups = resolve(*nipple_markups_);
+  if (wall_markups_) input.wall_markups = resolve(*wall_markups_);
+  if (region_markups_) input.region_markups = resolve(*region_markups_);
   return input;
 }
 
@@ -284,7 +292,8 @@ std::vector<fs::path> Patient::segment_files() const {
   if (const auto scan = scan_file()) return {*scan};
   const SegmentInput input = segment_input();
   std::vector<fs::path> files;
-  for (const auto& path : {input.mri, input.pre, input.label_map, input.nipple_markups})
+  for (const auto& path : {input.mri, input.pre, input.label_map, input.nipple_markups,
+                           input.wall_markups, input.region_markups})
     if (path) files.push_back(*path);
   for (const LesionSeed& seed : input.lesions)
     for (const auto& path : {seed.markups, seed.label_map})

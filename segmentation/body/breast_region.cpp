@@ -191,6 +191,35 @@ FoundRegion find_region(const Volume<std::uint8_t>& labels, Side side, LabelsHol
   return found;
 }
 
+FoundRegion given_region(const Volume<std::uint8_t>& labels, const BreastRegion& region) {
+  const auto column = [](double x, double origin, double spacing, int size) {
+    return std::clamp(static_cast<int>(std::lround((x - origin) / spacing)), 0, size - 1);
+  };
+  const Eigen::Vector3d last =
+      labels.position(labels.size.x() - 1, labels.size.y() - 1, labels.size.z() - 1);
+  if (region.x_min > last.x() || region.x_max < labels.origin.x() || region.z_min > last.z() ||
+      region.z_max < labels.origin.z())
+    throw std::runtime_error(
+        "the breast's region given lies beside this breast; expected an ROI around it in LPS [mm] "
+        "(is it the other side?)");
+  const auto i = [&](double x) {
+    return column(x, labels.origin.x(), labels.spacing.x(), labels.size.x());
+  };
+  const auto k = [&](double z) {
+    return column(z, labels.origin.z(), labels.spacing.z(), labels.size.z());
+  };
+  const TissueColumns columns = measure_columns(labels);
+  const ColumnBox half = side_columns(labels, columns, region.side, LabelsHold::one_side);
+  const Apex apex = farthest_apex(columns, half);
+  FoundRegion found;
+  found.pendant = find_pendant_tissue(labels, columns, half, apex.i, apex.k, region.side);
+  found.region = region_of({i(region.x_min), i(region.x_max), k(region.z_min), k(region.z_max)},
+                           labels, region.side);
+  found.outside = outside_region(found.pendant, labels, found.region);
+  found.thin_mm2 = thin_area(columns, labels, found.region);
+  return found;
+}
+
 BreastRegion find_breast_region(const Volume<std::uint8_t>& labels, Side side, LabelsHold hold) {
   return find_region(labels, side, hold).region;
 }

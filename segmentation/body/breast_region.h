@@ -40,7 +40,11 @@ struct FoundRegion {
 FoundRegion find_region(const Volume<std::uint8_t>& labels, Side side,
                         LabelsHold hold = LabelsHold::perhaps_both_sides);
 
-/// The same, the region only.
+/// A region that a person gave, out to whole voxels and no farther than the labels reach. Throws
+/// std::runtime_error where it holds no column of them.
+FoundRegion given_region(const Volume<std::uint8_t>& labels, const BreastRegion& region);
+
+/// The same as find_region, the region only.
 BreastRegion find_breast_region(const Volume<std::uint8_t>& labels, Side side,
                                 LabelsHold hold = LabelsHold::perhaps_both_sides);
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "segmentation/chest_wall/drawn_wall.h"
 #include "segmentation/chest_wall/polar_rays.h"
 #include "segmentation/chest_wall/semi_global_search.h"
 #include "segmentation/chest_wall/wall_contrast.h"
@@ -51,9 +52,21 @@ std::vector<double> median_filtered(const std::vector<double>& map, int rows, in
 
 constexpr double breastbone_degrees = 12;
 
-/// Of some rays in all; all, where there are none.
-double share_of(const std::vector<std::size_t>& some, const std::vector<std::size_t>& all) {
-  return all.empty() ? 1 : static_cast<double>(some.size()) / static_cast<double>(all.size());
+/// Of some rays in all that are in question; all, where there are none but drawn ones.
+double share_of(const std::vector<std::size_t>& some, const std::vector<std::size_t>& all,
+                bool any_drawn) {
+  if (all.empty()) return any_drawn ? 0 : 1;
+  return static_cast<double>(some.size()) / static_cast<double>(all.size());
+}
+
+/// Holds a wall to what was drawn, as near as that is known.
+void hold_to(const std::vector<UsualRadius>& drawn, PectoralWall& wall) {
+  for (std::size_t n = 0; n < drawn.size(); ++n) {
+    const UsualRadius& at = drawn[n];
+    wall.drawn.push_back(at.spread > 0);
+    if (at.spread > 0)
+      wall.radius[n] = std::clamp(wall.radius[n], at.mean - at.spread, at.mean + at.spread);
+  }
 }
 
 struct FoundDepths {
@@ -99,20 +112,23 @@ PectoralWall wall_grid(const Volume<float>& image, const BreastFrame& frame) {
 
 PectoralWall find_pectoral_wall(const Volume<float>& corrected, const Volume<std::uint8_t>& body,
                                 const BreastFrame& frame, const WallContrast& contrast,
-                                double stiffness, const std::vector<UsualRadius>& usual) {
+                                double stiffness, const std::vector<UsualRadius>& usual,
+                                const std::vector<UsualRadius>& drawn) {
   PectoralWall wall = wall_grid(corrected, frame);
   const PolarRays rays = cast_rays(corrected, body, wall);
   std::vector<WallContrast> contrasts(rays.exit.size(), contrast);
-  FoundDepths found = search(rays, contrasts, usual, stiffness);
+  const std::vector<UsualRadius> beforehand = with_drawn(usual, drawn);
+  FoundDepths found = search(rays, contrasts, beforehand, stiffness);
   constexpr int rounds = 2;  // a wall that stood on gland is on muscle in the first
   for (int round = 0; round < rounds; ++round) {
     contrasts = local_contrasts(rays, found.depth, found.cost, contrast);
-    found = search(rays, contrasts, usual, stiffness);
+    found = search(rays, contrasts, beforehand, stiffness);
   }
   wall.cost = found.cost;
   wall.contrast = contrasts;
   for (const double d : refined_depths(rays, found.depth, contrasts))
     wall.radius.push_back(PolarRays::least_radius_mm + d);
+  hold_to(drawn, wall);
   wall.behind = brightness_behind(wall, corrected);
   return wall;
 }
@@ -150,7 +166,8 @@ std::vector<std::size_t> PectoralWall::rays_before(Side side, double z_low, doub
       if (outward < from_degrees * degree || outward > front_degrees * degree || z < z_low ||
           z > z_high)
         continue;
-      rays.push_back(static_cast<std::size_t>(row) * angles + a);
+      const std::size_t ray = static_cast<std::size_t>(row) * angles + a;
+      if (drawn.empty() || !drawn[ray]) rays.push_back(ray);
     }
   return rays;
 }
@@ -163,7 +180,8 @@ std::vector<std::size_t> PectoralWall::unsupported(Side side, double z_low, doub
 }
 
 double PectoralWall::doubt(Side side, double z_low, double z_high) const {
-  return share_of(unsupported(side, z_low, z_high), rays_before(side, z_low, z_high));
+  return share_of(unsupported(side, z_low, z_high), rays_before(side, z_low, z_high),
+                  !drawn.empty());
 }
 
 std::vector<std::size_t> PectoralWall::before_fat(Side side, double z_low, double z_high) const {
@@ -179,7 +197,7 @@ std::vector<std::size_t> PectoralWall::before_fat(Side side, double z_low, doubl
 
 double PectoralWall::fat_behind(Side side, double z_low, double z_high) const {
   return share_of(before_fat(side, z_low, z_high),
-                  rays_before(side, z_low, z_high, breastbone_degrees));
+                  rays_before(side, z_low, z_high, breastbone_degrees), !drawn.empty());
 }
 
 }  // namespace mammotwin

@@ -29,6 +29,7 @@ struct PectoralWall {
   std::vector<float> cost;     ///< of the wall found there; below -0.5 the image supports it
   std::vector<float> behind;   ///< mean brightness 2 to 5 mm behind it, fat = 1
   std::vector<WallContrast> contrast;  ///< around each ray
+  std::vector<char> drawn;             ///< 1: a person drew it there; empty: nowhere
 
   /// Point of a ray (index into `radius`) at some radius [mm, LPS].
   Eigen::Vector3d position(std::size_t ray, double radius_mm) const;
@@ -47,7 +48,8 @@ struct PectoralWall {
   std::vector<std::size_t> before_fat(Side side, double z_low, double z_high) const;
   double fat_behind(Side side, double z_low, double z_high) const;
 
-  /// Rays in front of one side, as indices into `radius`, from some angle off the midline on.
+  /// Rays in front of one side, as indices into `radius`, from some angle off the midline on; none
+  /// that a person drew: those are not in question.
   std::vector<std::size_t> rays_before(Side side, double z_low, double z_high,
                                        double from_degrees = 0) const;
 };
@@ -62,9 +64,11 @@ struct UsualRadius;
 /// The radius over angle and height is found by a semi-global search over the cost of wall_cost.h,
 /// twice again with the brightness that wall_contrast.h measures round the wall found before;
 /// wall_refinement.h then moves it to the middle of the step that the image shows there. `usual`:
-/// where the wall of each ray usually lies (wall_prior.h); empty, the image alone decides.
+/// where the wall of each ray usually lies (wall_prior.h); empty, the image alone decides. `drawn`:
+/// where a person drew it (drawn_wall.h); there it lies within the spread of what was drawn.
 PectoralWall find_pectoral_wall(const Volume<float>& corrected, const Volume<std::uint8_t>& body,
                                 const BreastFrame& frame, const WallContrast& contrast,
-                                double stiffness, const std::vector<UsualRadius>& usual);
+                                double stiffness, const std::vector<UsualRadius>& usual,
+                                const std::vector<UsualRadius>& drawn = {});
 
 }  // namespace mammotwin

@@ -74,11 +74,11 @@ std::vector<UsualRadius> usual_radii(const PectoralWall& grid, const BreastFrame
 }
 
 void add_prior(const std::vector<UsualRadius>& usual, std::vector<float>& costs) {
-  constexpr double most = 3;
   for (std::size_t n = 0; n < usual.size(); ++n)
     for (int d = 0; d < PolarRays::depths; ++d) {
       const double off = usual[n].deviation(PolarRays::least_radius_mm + d);
-      costs[n * PolarRays::depths + d] += static_cast<float>(std::min(most, off * off / 2));
+      costs[n * PolarRays::depths + d] +=
+          static_cast<float>(std::min(usual[n].most, off * off / 2));
     }
 }
 

@@ -10,6 +10,9 @@ namespace mammotwin {
 struct UsualRadius {
   double mean = 0;    ///< [mm]
   double spread = 0;  ///< standard deviation between patients [mm]; 0: nothing is known there
+  /// Weighs at most as much: as much as the image says at most where it shows an edge, and more
+  /// than that of an edge of liver or heart, three standard deviations too deep.
+  double most = 3;
 
   /// How unusual a radius is, in standard deviations; negative: deeper. 0 where nothing is known.
   double deviation(double radius_mm) const { return spread > 0 ? (radius_mm - mean) / spread : 0; }
@@ -25,9 +28,7 @@ UsualRadius usual_radius(double angle, double above_apices);
 /// That of each ray of a wall's grid.
 std::vector<UsualRadius> usual_radii(const PectoralWall& grid, const BreastFrame& frame);
 
-/// Adds to the cost of each sample half the squared deviation, up to 3: as much as the image says
-/// at most where it shows an edge, and more than that of an edge of liver or heart, three standard
-/// deviations too deep.
+/// Adds to the cost of each sample half the squared deviation, up to `most`.
 void add_prior(const std::vector<UsualRadius>& usual, std::vector<float>& costs);
 
 }  // namespace mammotwin

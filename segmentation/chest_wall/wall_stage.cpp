@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "segmentation/body/midline.h"
+#include "segmentation/chest_wall/drawn_wall.h"
 #include "segmentation/chest_wall/muscle_brightness.h"
 #include "segmentation/image/crop.h"
 #include "segmentation/image/em_bias.h"
@@ -111,13 +112,15 @@ std::vector<UsualRadius> moved(std::vector<UsualRadius> usual, double by_mm) {
 /// The wall of one image.
 class WallSearch {
  public:
-  WallSearch(const BodyStage& body, const WallStage& stage, double stiffness)
+  WallSearch(const BodyStage& body, const WallStage& stage, double stiffness,
+             const std::vector<Eigen::Vector3d>& drawn_in_lps)
       : frame_(body.frame),
         closed_(with_closed_thorax(body)),
         contrast_(stage.contrast),
         muscles_(possible_muscles(stage, closed_, frame_)),
         stiffness_(stiffness),
-        usual_(usual_radii(wall_grid(stage.corrected, frame_), frame_)) {}
+        usual_(usual_radii(wall_grid(stage.corrected, frame_), frame_)),
+        drawn_(drawn_radii(wall_grid(stage.corrected, frame_), drawn_in_lps)) {}
 
   SettledWall find(const Volume<float>& smooth, const Beforehand& told) const {
     const std::vector<UsualRadius> usual = moved(usual_, told.usual_off_mm);
@@ -125,7 +128,7 @@ class WallSearch {
       WallContrast contrast = contrast_;
       contrast.muscle = muscle * told.muscle_times;
       const auto by = [&](const std::vector<UsualRadius>& where) {
-        return find_pectoral_wall(smooth, closed_, frame_, contrast, stiffness_, where);
+        return find_pectoral_wall(smooth, closed_, frame_, contrast, stiffness_, where, drawn_);
       };
       return settled_wall(by({}), by(usual), frame_.z_low, frame_.z_high);
     });
@@ -137,7 +140,7 @@ class WallSearch {
   WallContrast contrast_;
   std::vector<double> muscles_;
   double stiffness_;
-  std::vector<UsualRadius> usual_;
+  std::vector<UsualRadius> usual_, drawn_;
 };
 
 Volume<float> smoothed_for_rays(Volume<float> image) {
@@ -178,7 +181,8 @@ PreMatch match_breast(const BodyStage& body, const Volume<float>& pre, const Pec
 
 }  // namespace
 
-WallStage find_wall(const BodyStage& body, const BeforeAgent& before, Side side, double stiffness) {
+WallStage find_wall(const BodyStage& body, const BeforeAgent& before, Side side, double stiffness,
+                    const std::vector<Eigen::Vector3d>& drawn_in_lps) {
   const BiasEstimate bias = estimate_bias(body.image, body.body, num_classes);
   WallStage stage;
   stage.wide_log_bias = bias.wide_log_bias;
@@ -189,7 +193,7 @@ WallStage find_wall(const BodyStage& body, const BeforeAgent& before, Side side,
   const double fat = fat_of(stage.corrected);
   for (float& value : stage.corrected.values) value /= static_cast<float>(fat);
   stage.contrast.muscle = muscle_over_fat(bias, std::log(fat), body.contrast.fat_suppressed);
-  const WallSearch search(body, stage, stiffness);
+  const WallSearch search(body, stage, stiffness, drawn_in_lps);
   if (!before.is_given()) {
     stage.found = find_steady(search, smoothed_for_rays(stage.corrected));
     return stage;

@@ -29,8 +29,10 @@ struct WallStage {
 /// before contrast agent, if there is one and the patient did not move in between: there the heart
 /// is as dark as muscle when fat is not suppressed, and noise is less. The search runs three times,
 /// with the usual place of the wall and muscle's brightness moved by as much as nobody knows them
-/// better; the middle wall is taken (steady_wall.h). `side`: whose breast is
-/// compared for movement.
-WallStage find_wall(const BodyStage& body, const BeforeAgent& before, Side side, double stiffness);
+/// better; the middle wall is taken (steady_wall.h). `side`: whose breast is compared for movement.
+/// `drawn_in_lps`: points on the wall that a person drew, or none; between them it is held
+/// (drawn_wall.h).
+WallStage find_wall(const BodyStage& body, const BeforeAgent& before, Side side, double stiffness,
+                    const std::vector<Eigen::Vector3d>& drawn_in_lps = {});
 
 }  // namespace mammotwin

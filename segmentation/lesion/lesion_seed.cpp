@@ -2,7 +2,7 @@
 
 #include <stdexcept>
 
-#include "segmentation/files/markups_point.h"
+#include "segmentation/files/markups.h"
 #include "segmentation/files/read_labels.h"
 
 namespace mammotwin {

@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <cmath>
 #include <fstream>
 
 #include "segmentation/segment.h"
@@ -101,6 +103,60 @@ TEST(SegmentOfAnMri, KeepsTwoLesionsThatAreOneBrightPatch) {
   for (int n = 0; n < 2; ++n)
     EXPECT_NEAR(lesions[n].centroid_in_lps.x() - phantom.lesion.x(),
                 (n ? 3 : -3) * phantom.lesion_radius / 8, 1);
+}
+
+/// Points `forward` [mm] of the phantom's wall, at some heights.
+fs::path drawn_before_the_wall(const fs::path& folder, const Phantom& phantom, double forward) {
+  std::ofstream file(folder / "wall.mrk.json");
+  file << R"({"markups":[{"coordinateSystem":"LPS","controlPoints":[)";
+  const double radius = Phantom::chest_radius + forward;
+  const char* comma = "";
+  for (const double z : {-31, -1, 29})
+    for (const double angle : {0.1, 0.3, 0.5, 0.7}) {
+      file << comma << R"({"position":[)" << radius * std::sin(angle) << ","
+           << phantom.chest_axis.y() - radius * std::cos(angle) << "," << z << "]}";
+      comma = ",";
+    }
+  file << "]}]}";
+  return folder / "wall.mrk.json";
+}
+
+TEST(SegmentOfAnMri, TakesTheWallThatAPersonDrewAndHoldsItBetweenSlices) {
+  const EmptyFolder folder("drawn");
+  const Phantom phantom;
+  constexpr double forward = 8;  // where the image has no edge
+  SegmentInput input = input_for(write_phantom(folder.path, phantom), phantom);
+  input.wall_markups = drawn_before_the_wall(folder.path, phantom, forward);
+  const SegmentResult result = segment(input, {});
+  const Volume<std::uint8_t>& labels = result.segmentation.labels;
+  for (const double z : {-31.0, -15.0, -1.0, 15.0, 29.0, 55.0})
+    for (const double x : {31.0, 59.0, 91.0}) {
+      const Eigen::Vector3i v = labels.index({x, labels.origin.y(), z}).array().round().cast<int>();
+      int j = 0;
+      while (j < labels.size.y() && labels(v.x(), j, v.z()) != label::muscle) ++j;
+      ASSERT_LT(j, labels.size.y());
+      const double before = phantom.before_wall(labels.position(v.x(), j, v.z()));
+      EXPECT_NEAR(before, z < 50 ? forward : 0, 3) << "x " << x << ", z " << z;
+    }
+  const auto& notes = result.quality.notes;
+  EXPECT_TRUE(std::any_of(notes.begin(), notes.end(), [](const std::string& note) {
+    return note.find("drawn by hand, with 12 points") != std::string::npos;
+  }));
+}
+
+TEST(SegmentOfAnMri, TakesTheRegionThatAPersonGave) {
+  const EmptyFolder folder("roi");
+  const Phantom phantom{.voxel_mm = 3};
+  SegmentInput input = input_for(write_phantom(folder.path, phantom), phantom);
+  input.region_markups = folder.path / "roi.mrk.json";
+  std::ofstream(*input.region_markups)
+      << R"({"markups":[{"type":"ROI","coordinateSystem":"LPS","center":[75,0,0],)"
+      << R"("orientation":[1,0,0,0,1,0,0,0,1],"size":[110,200,130]}]})";
+  const BreastRegion region = segment(input, {}).segmentation.region;
+  EXPECT_NEAR(region.x_min, 20, 3);
+  EXPECT_NEAR(region.x_max, 130, 3);
+  EXPECT_NEAR(region.z_min, -65, 3);
+  EXPECT_NEAR(region.z_max, 65, 3);
 }
 
 TEST(SegmentOfAnMri, RefusesAnUnclearSide) {

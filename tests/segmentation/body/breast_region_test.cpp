@@ -215,5 +215,23 @@ TEST(BreastRegion, RefusesASideWithoutABreast) {
                   {"right side", "2 mm", "15 mm"});
 }
 
+TEST(BreastRegion, ThatAPersonGaveIsKeptAndJudged) {
+  Volume<std::uint8_t> labels = two_breasts();
+  for (int k = 0; k < labels.size.z(); ++k)  // as the stages leave it: one side only
+    for (int j = 0; j < labels.size.y(); ++j)
+      for (int i = 0; i < labels.size.x(); ++i)
+        if (labels.position(i, j, k).x() < 0) labels(i, j, k) = label::air;
+  const FoundRegion whole = given_region(labels, {Side::left, 20, 150, -70, 70});
+  EXPECT_NEAR(whole.region.x_min, 20, 2);
+  EXPECT_NEAR(whole.region.z_max, 70, 2);
+  EXPECT_LT(whole.outside.share, 0.01);
+  const FoundRegion half = given_region(labels, {Side::left, 20, 150, 0, 70});
+  EXPECT_NEAR(half.outside.share, 0.5, 0.05);
+  expect_mentions(message_of([&] {
+                    given_region(labels, {Side::left, -900, -800, 0, 70});
+                  }),
+                  {"region given", "beside this breast"});
+}
+
 }  // namespace
 }  // namespace mammotwin

@@ -38,6 +38,18 @@ TEST(PectoralWall, BoneBehindTheThinMuscleOfTheBreastboneIsNoFault) {
   EXPECT_EQ(wall.fat_behind(Side::left, 0, 18), 0);
 }
 
+TEST(PectoralWall, WhatAPersonDrewIsNotDoubted) {
+  PectoralWall wall = even_wall();
+  wall.cost.assign(600, 0);
+  EXPECT_EQ(wall.doubt(Side::left, 0, 18), 1);
+  wall.drawn.assign(600, 0);
+  for (int n = 0; n < 5 * 60; ++n) wall.drawn[n] = 1;
+  EXPECT_EQ(wall.doubt(Side::left, 0, 18), 1) << "what is left";
+  wall.drawn.assign(600, 1);
+  EXPECT_EQ(wall.doubt(Side::left, 0, 18), 0);
+  EXPECT_EQ(wall.fat_behind(Side::left, 0, 18), 0);
+}
+
 TEST(PectoralWall, FatIsBrighterThanMuscleWithoutSuppression) {
   PectoralWall wall = even_wall();
   wall.contrast.assign(600, {1, 0.4});

@@ -1,6 +1,5 @@
 #include <fstream>
 
-#include "segmentation/files/markups_point.h"
 #include "segmentation/files/read_labels.h"
 #include "segmentation/files/write_image_file.h"
 #include "segmentation/image/crop.h"
@@ -96,23 +95,6 @@ TEST(SegmentLabels, APointNamesTheLesionNearIt) {
   EXPECT_EQ(segment(input, {}).segmentation.lesions[0].id, "biopsy");
   input.lesions[0].point_in_lps = Eigen::Vector3d(60, 35, -40);
   expect_mentions(message_of([&] { segment(input, {}); }), {"biopsy", "no lesion within 10 mm"});
-}
-
-TEST(SegmentLabels, MarkupsMayBeInLpsOrRas) {
-  const EmptyFolder folder("markups");
-  const auto write = [&](const char* name, const char* frame, const char* position) {
-    std::ofstream(folder.path / name)
-        << R"({"markups":[{"coordinateSystem":")" << frame << R"(","controlPoints":[{"position":)"
-        << position << "}]}]}";
-    return folder.path / name;
-  };
-  const Eigen::Vector3d lps(80, 40, 5);
-  EXPECT_EQ(read_markups_point(write("a.mrk.json", "LPS", "[80, 40, 5]")), lps);
-  EXPECT_EQ(read_markups_point(write("b.mrk.json", "RAS", "[-80, -40, 5]")), lps);
-  expect_mentions(message_of([&] { read_markups_point(write("c.mrk.json", "XYZ", "[1, 2, 3]")); }),
-                  {"c.mrk.json", "XYZ", "LPS"});
-  expect_mentions(message_of([&] { read_markups_point(folder.path / "none.mrk.json"); }),
-                  {"none.mrk.json", "does not exist"});
 }
 
 TEST(SegmentLabels, AnUnclearSideIsRefused) {
