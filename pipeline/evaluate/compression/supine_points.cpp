@@ -15,6 +15,7 @@ namespace {
 
 constexpr double kMuscle_mm = 6;  // label maps: 4 to 8 mm in front of the ribs
 constexpr double kNearestToRibs_mm = 10, kFarthestFromRibs_mm = 60;
+constexpr double kAboveNipple_mm = 22, kMedialOfNipple_mm = 9;
 constexpr int kLandmarks = 500, kMostDraws = 200'000, kLandmarkSeed = 1;
 
 Eigen::AlignedBox3d box_of(const HermiteMesh& mesh) {
@@ -43,11 +44,16 @@ SupinePoints::SupinePoints(const MeshFile& prone, Side side, const Eigen::Vector
   for (int n = 0; n < kMostDraws && landmarks_.size() < kLandmarks; ++n) {
     const Eigen::Vector3d shares(share(), share(), share());
     const Eigen::Vector3d x = box.min() + shares.cwiseProduct(box.sizes());
+    const double outward = (side == Side::left ? 1 : -1) * (x - nipple_in_lps).x();
+    if ((x - nipple_in_lps).z() < kAboveNipple_mm || outward < -kMedialOfNipple_mm) continue;
     const double ribs = wall_.gap(x).gap + kMuscle_mm;
     if (ribs < kNearestToRibs_mm || ribs > kFarthestFromRibs_mm) continue;
     if (const auto point = inverse.locate(x)) landmarks_.push_back({*point, x, ribs});
   }
-  if (landmarks_.empty()) throw std::runtime_error("no tissue lies 10 to 60 mm from the ribs");
+  if (landmarks_.empty())
+    throw std::runtime_error(
+        "no tissue lies 22 mm above the nipple, beside it or lateral of it, 10 to 60 mm from the "
+        "ribs");
 }
 
 SupineMoves SupinePoints::moves(const std::vector<HermiteMesh::Node>& supine_nodes) const {

@@ -48,6 +48,17 @@ TEST(SupineMoves, PointsLieTenToSixtyMillimetresFromTheRibs) {
   EXPECT_NEAR(moves.ribs_supine_mm, moves.ribs_prone_mm, 1e-9);
 }
 
+TEST(SupineMoves, PointsLieInTheUpperOuterPartOfEitherSide) {
+  // Twice as wide: a point's way is its distance from the middle.
+  Eigen::Affine3d wider = Eigen::Affine3d::Identity();
+  wider.linear()(0, 0) = 2;
+  const MeshFile file = block_in_two_poses(wider);
+  const double left = supine_moves(file, Side::left, {30, -80, 0}).landmark_mm;
+  EXPECT_NEAR(left, (21 + 50) / 2.0, 2) << "x from 21 to 50";
+  EXPECT_NEAR(supine_moves(file, Side::right, {-30, -80, 0}).landmark_mm, left, 2);
+  EXPECT_THROW(supine_moves(file, Side::left, {30, -80, 40}), std::runtime_error) << "none above";
+}
+
 TEST(SupineMoves, FlattenedTissueLiesNearerToTheRibs) {
   Eigen::Affine3d flat = Eigen::Affine3d::Identity();
   flat.linear()(1, 1) = 0.5;
