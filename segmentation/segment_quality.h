@@ -47,7 +47,8 @@ struct SegmentQuality {
   std::vector<LesionCandidate> candidates;
   std::vector<double> lesion_agreement;  ///< Dice of two methods, one a lesion
 
-  /// Adds a doubt and its reason, which names the place, and makes the status at least this bad.
+  /// Adds a doubt and its reason, which names the place and, the first time, what a person can do
+  /// about it; makes the status at least this bad.
   void doubt(SegmentStatus at_least, const Doubt& doubt);
 };
 

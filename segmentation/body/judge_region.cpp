@@ -18,7 +18,8 @@ void judge_outside(const OutsideRegion& outside, SegmentQuality& quality) {
          << " ml) of the tissue that hangs in front of the breastbone's skin lies outside the "
             "breast's region; expected at most "
          << std::lround(100 * limits::pendant_outside)
-         << " % (does the chest wall reach the skin there, or is the outline wrong?)";
+         << " % (does the chest wall reach the skin there, or is the outline wrong? it can be "
+            "given as a box: region.markups)";
   quality.doubt(
       outside.share > limits::pendant_outside_refused ? SegmentStatus::refused
                                                       : SegmentStatus::look,

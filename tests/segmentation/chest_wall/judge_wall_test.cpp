@@ -59,7 +59,8 @@ TEST(JudgeWall, DoubtsTheShareThatTheImageDoesNotSupport) {
   EXPECT_NEAR(*quality.chest_wall_doubt, 4 / 20.0, 1e-12);
   EXPECT_EQ(quality.status, SegmentStatus::look);
   ASSERT_EQ(quality.reasons.size(), 1U);
-  expect_mentions(quality.reasons[0], {"20 %", "chest wall", "at most 10 %"});
+  expect_mentions(quality.reasons[0],
+                  {"20 %", "chest wall", "at most 10 %", "draw it", "chest_wall.markups"});
 }
 
 TEST(JudgeWall, LooksAtOneSideOnly) {
