@@ -82,6 +82,33 @@ ColumnBox widened(ColumnBox box, const ColumnBox& half, const Volume<std::uint8_
   return box;
 }
 
+/// Row of the fold below the breast: where, from the foremost skin of a sagittal row of columns
+/// down, the skin lies deepest before it comes forward again; the median over the columns of the
+/// thick part. The first row of `half` where fewer than half of them show one: the region then ends
+/// with the thick part. What lies below would be lifted by the plate, crumple before the wall, and
+/// decide whether a compression converges.
+int fold_below(const TissueColumns& columns, const ColumnBox& half, const ColumnBox& thick) {
+  constexpr double comes_forward_mm = 3;
+  std::vector<int> folds;
+  for (int i = thick.i0; i <= thick.i1; ++i) {
+    const auto front = [&](int k) { return columns.front[columns.at(i, k)]; };
+    int foremost = thick.k0;
+    for (int k = thick.k0; k <= thick.k1; ++k)
+      if (front(k) > front(foremost)) foremost = k;
+    int deepest = foremost;
+    for (int k = foremost; k >= half.k0 && std::isfinite(front(k)); --k) {
+      if (front(k) < front(deepest)) deepest = k;
+      if (front(k) < front(deepest) + comes_forward_mm) continue;
+      folds.push_back(deepest);
+      break;
+    }
+  }
+  if (2 * static_cast<int>(folds.size()) <= thick.i1 - thick.i0) return half.k0;
+  const auto middle = folds.begin() + folds.size() / 2;
+  std::nth_element(folds.begin(), middle, folds.end());
+  return *middle;
+}
+
 /// Tissue of each column, that in front of the skin over the breastbone in full: a region gives up
 /// flank and axilla before breast.
 std::vector<double> worth_of(const TissueColumns& columns, double sternal_y) {
@@ -175,7 +202,9 @@ FoundRegion find_region(const Volume<std::uint8_t>& labels, Side side, LabelsHol
     if (better) found.region = other, found.outside = less;
     return better;
   };
-  const ColumnBox usual = widened(thick_box(columns, half, apex), half, labels, side);
+  const ColumnBox thick = thick_box(columns, half, apex);
+  ColumnBox usual = widened(thick, half, labels, side);
+  usual.k0 = std::max(usual.k0, std::min(apex.k, fold_below(columns, half, thick)));
   found.region = fullest_within(columns, usual);
   found.outside = outside_region(found.pendant, labels, found.region);
   if (found.outside.share <= most_outside) return found;
@@ -184,9 +213,9 @@ FoundRegion find_region(const Volume<std::uint8_t>& labels, Side side, LabelsHol
   wider.hold(usual.i0, usual.k0), wider.hold(usual.i1, usual.k1);
   take_if_better(fullest_within(columns, wider), 0);
   if (found.outside.share <= most_outside) return found;
-  const TissueColumns thick = thickened(columns, found.pendant, rows, apex, side);
+  const TissueColumns with_medial = thickened(columns, found.pendant, rows, apex, side);
   (side == Side::left ? rows.i1 : rows.i0) = side == Side::left ? usual.i1 : usual.i0;
-  if (take_if_better(fullest_within(thick, rows), worth_setting_back))
+  if (take_if_better(fullest_within(with_medial, rows), worth_setting_back))
     found.thin_mm2 = thin_area(columns, labels, found.region);
   return found;
 }

@@ -30,6 +30,8 @@ struct FoundRegion {
 ///   elsewhere  15 mm beyond the part around the apex where tissue is thicker than 0.35 of the
 ///              apex column; where more than 3 % of the pendant tissue would be left out so, by
 ///              the slices of that tissue and the end of the labels;
+///   below      nearer than that by the inframammary fold, where the skin comes forward by 3 mm
+///              again below it;
 /// and is, of all rectangles within these bounds of whose columns every one has 5 mm of tissue (8
 /// mm in the lateral edge's), the one with most tissue, that behind the breastbone's skin counting
 /// a tenth; then pushed out to hold every lesion of that side. Where that leaves out more than 3 %

@@ -215,6 +215,25 @@ TEST(BreastRegion, RefusesASideWithoutABreast) {
                   {"right side", "2 mm", "15 mm"});
 }
 
+TEST(BreastRegion, EndsAtTheFoldWhereTheSkinComesForwardBelowIt) {
+  constexpr double fold = -40;  // below it a coat that grows from 10 to 40 mm
+  Volume<std::uint8_t> labels = two_breasts();
+  const double usual = find_breast_region(labels, Side::left).z_min;
+  for (int k = 0; k < labels.size.z(); ++k)
+    for (int j = 0; j < labels.size.y(); ++j)
+      for (int i = 0; i < labels.size.x(); ++i) {
+        const Eigen::Vector3d x = labels.position(i, j, k);
+        const double belly = std::min(30.0, fold - 12 - x.z());
+        if (x.z() < fold - 12 && x.y() <= chest_front && x.y() > chest_front - coat - belly)
+          labels(i, j, k) = label::fat;
+      }
+  const BreastRegion region = find_breast_region(labels, Side::left);
+  EXPECT_LT(usual, fold - 15);
+  // The breast ends between 40 mm (its edges) and 60 mm (its middle) below the nipple.
+  EXPECT_NEAR(region.z_min, fold - 12, 5);
+  EXPECT_NEAR(region.z_max, find_breast_region(two_breasts(), Side::left).z_max, 1e-9);
+}
+
 TEST(BreastRegion, ThatAPersonGaveIsKeptAndJudged) {
   Volume<std::uint8_t> labels = two_breasts();
   for (int k = 0; k < labels.size.z(); ++k)  // as the stages leave it: one side only
