@@ -290,7 +290,7 @@ NewtonReport Newton::iterate(State& state, const NewtonOptions& options,
       const bool minimum = !indefinite_ || options.keep_unstable ||
                            options.tolerance > kEquilibrium || is_stable(state);
       nearest.forget();
-      held_ = held_ || (following_ && falls > 0);
+      held_ = held_ || (following_ && falls > 0);  // it has led back to where it fell from
       if (!minimum && ++falls <= kMostFalls && fall(state, balance, options, report)) continue;
       report.converged = minimum;
       if (!minimum) report.reason = "the equilibrium found is unstable";

@@ -47,10 +47,11 @@ struct NewtonReport {
 /// full length or, where the volume errs, bent back to the volume that it was to have (second-order
 /// correction, Nocedal and Wright, section 18.3), else cut. With friction, which has no energy, a
 /// step is also taken that lowers the norm of the residual; where many come no nearer to balance,
-/// pressures of friction are held until the rest is in balance and then follow by a half, and where
-/// that comes no nearer either, a solve ends in its nearest state. Far from balance, and where the
-/// matrix is not positive definite, it is that of the energy's convex parts (convex_part.h), and
-/// shifted by the μ-weighted Laplacian where steps stay short.
+/// or lead back to an unstable state that was left, pressures of friction are held until the rest
+/// is in balance and then follow by a half, and where that comes no nearer either, a solve ends in
+/// its nearest state. Far from balance, and where the matrix is not positive definite, it is that
+/// of the energy's convex parts (convex_part.h), and shifted by the μ-weighted Laplacian where
+/// steps stay short.
 class Newton {
  public:
   Newton(const Model& model, const DofMap& dofs);
