@@ -40,7 +40,7 @@ unexport MAKEFLAGS MAKEOVERRIDES
 
 .PHONY: help patient segment fit unload compress register report slicer paraview synthesize exam cohort verify-results \
         evaluate-segmentation evaluate-fitting evaluate-compression evaluate-unload evaluate-gravity evaluate-registration \
-        evaluate-stability evaluate-refinement evaluate-stabilisation evaluate-other-meshes evaluate-what-if evaluate-page evaluate-outlines evaluate-mammograms evaluate-mammogram-changes evaluate-tomosynthesis evaluate-real-pairs evaluate-niftysim evaluate-victre calibrate-tissue measured validate bench chain programs configured \
+        evaluate-stability evaluate-refinement evaluate-stabilisation evaluate-other-meshes evaluate-supine-spread evaluate-what-if evaluate-page evaluate-outlines evaluate-mammograms evaluate-mammogram-changes evaluate-tomosynthesis evaluate-real-pairs evaluate-niftysim evaluate-victre calibrate-tissue measured validate bench chain programs configured \
         configured_to_test install docs test clean
 .NOTPARALLEL:  # ninja itself uses all cores
 .DEFAULT_GOAL := help
@@ -67,6 +67,8 @@ help:
 	@echo 'make calibrate-tissue  finds the tissue with which the label maps of CASES do what women do from prone to'
 	@echo '                       supine and need usual plate forces: RESULTS/evaluation/tissue_calibration.json;'
 	@echo '                       ONLY="Exam_02 Exam_04", NUMBERS="materials.stiffness_factor", ELEMENTS=5x5x2'
+	@echo 'make evaluate-supine-spread  how far landmarks of women go against their nipple as they lie back:'
+	@echo '                       RESULTS/evaluation/supine_spread.json'
 	@echo 'make evaluate-unload   takes gravity off every breast of CASES: RESULTS/evaluation/unload.json'
 	@echo 'make evaluate-compression   compresses SYNTHETIC=200 drawn breasts and those of CASES=folder in'
 	@echo '                       both views: RESULTS/evaluation/compression.json; JOBS=2 at a time'
@@ -136,6 +138,9 @@ evaluate-fitting: mammotwin-evaluate-fitting
 
 evaluate-unload: mammotwin-evaluate-unload
 	@"$$BIN/mammotwin-evaluate-unload" "$$CASES" "$$RESULTS/evaluation/unload.json" --views
+
+evaluate-supine-spread: mammotwin-evaluate-supine-spread
+	@"$$BIN/mammotwin-evaluate-supine-spread" "$$CASES" "$$RESULTS/evaluation/supine_spread.json"
 
 evaluate-gravity: mammotwin-evaluate-gravity
 	@set -f; for option in $$UNLOAD; do set -- "$$@" "--unload=$$option"; done; \

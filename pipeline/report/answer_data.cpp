@@ -48,7 +48,12 @@ std::string supine_words(const LesionRow& row) {
   std::string words = "skin ";
   if (!row.supine_clock.empty()) words += "at " + row.supine_clock + " o'clock, ";
   return words + whole_mm(*row.supine_from_nipple_mm) + " from the nipple; the lesion " +
-         whole_mm(*row.supine_depth_mm) + " straight below it";
+         whole_mm(*row.supine_depth_mm) + " straight below it" +
+         (row.supine_semi_l_mm
+              ? "; 90 %: within " + whole_mm(*row.supine_semi_l_mm) + " to the sides, " +
+                    whole_mm(*row.supine_semi_p_mm) + " in depth and " +
+                    whole_mm(*row.supine_semi_s_mm) + " along the body, seen from the nipple"
+              : "");
 }
 
 json view_entry(const LesionRow& row) {

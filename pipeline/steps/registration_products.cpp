@@ -77,6 +77,9 @@ void add_supine(const Findings& findings, const RegisteredView& view,
       row.supine_depth_mm = place->depth_mm;
       row.supine_from_nipple_mm = place->from_nipple_mm;
       row.supine_clock = place->clock;
+      row.supine_semi_l_mm = place->semi_axes_mm.x();
+      row.supine_semi_p_mm = place->semi_axes_mm.y();
+      row.supine_semi_s_mm = place->semi_axes_mm.z();
     }
 }
 

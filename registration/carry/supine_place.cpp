@@ -55,8 +55,12 @@ std::optional<SupinePlace> supine_place(const MeshFile& prone, const HermiteMesh
                         nipple = carrier.carry(nipple_in_prone).in_lps;
   const auto out = way_out(InverseMap(supine), lesion);
   if (!out || !on_skin(out->last, prone.faces)) return std::nullopt;
-  return SupinePlace{out->x, (out->x - lesion).norm(), breast_position(side, out->x, nipple).clock,
-                     (out->x - nipple).norm()};
+  return SupinePlace{out->x,
+                     (out->x - lesion).norm(),
+                     breast_position(side, out->x, nipple).clock,
+                     (out->x - nipple).norm(),
+                     lesion,
+                     kSupineSpreads * kSupineSpread * (lesion_in_prone - nipple_in_prone).norm()};
 }
 
 }  // namespace mammotwin

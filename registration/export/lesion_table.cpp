@@ -78,6 +78,11 @@ const std::array kLesionColumns = {
     MAMMOTWIN_COLUMN(supine_depth_mm, "of the lesion below that point"),
     MAMMOTWIN_COLUMN(supine_from_nipple_mm, "of that point, straight"),
     MAMMOTWIN_COLUMN(supine_clock, "of that point about the nipple, facing the patient"),
+    MAMMOTWIN_COLUMN(supine_semi_l_mm,
+                     "semi-axis to the side of the ellipsoid that holds the lesion with 90 %, seen "
+                     "from the nipple, the patient on her back"),
+    MAMMOTWIN_COLUMN(supine_semi_p_mm, "the same, from front to back"),
+    MAMMOTWIN_COLUMN(supine_semi_s_mm, "the same, along the body"),
 };
 #undef MAMMOTWIN_COLUMN
 

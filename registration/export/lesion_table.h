@@ -27,6 +27,7 @@ struct LesionRow {
   std::optional<double> supine_skin_l_mm, supine_skin_p_mm, supine_skin_s_mm;
   std::optional<double> supine_depth_mm, supine_from_nipple_mm;
   std::string supine_clock;
+  std::optional<double> supine_semi_l_mm, supine_semi_p_mm, supine_semi_s_mm;
 };
 
 /// In the MRI: nipple distances along the patient's axes, quadrant and hour.

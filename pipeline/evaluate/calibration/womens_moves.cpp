@@ -8,6 +8,7 @@
 #include <numeric>
 #include <set>
 #include <stdexcept>
+#include <utility>
 
 #include "registration/export/csv.h"
 
@@ -29,6 +30,54 @@ struct Values {
   }
 };
 
+/// A line of the file: lateral, posterior and along the body [mm].
+struct PointRow {
+  std::string woman, side;
+  bool is_nipple = false;
+  Eigen::Vector3d prone, supine;
+  double supine_to_ribs = 0;  ///< [mm], of landmarks
+};
+
+std::vector<PointRow> read_rows(const std::filesystem::path& points_csv) {
+  const std::string file = points_csv.string();
+  std::ifstream in(points_csv);
+  std::string line;
+  if (!std::getline(in, line)) throw std::runtime_error(file + ": cannot be read, or empty");
+  std::map<std::string, std::size_t> columns;
+  for (const std::string& name : csv::cells(line)) columns.emplace(name, columns.size());
+  for (const char* name : {"woman", "point", "side", "prone_l_mm", "prone_p_mm", "prone_s_mm",
+                           "supine_l_mm", "supine_p_mm", "supine_s_mm", "supine_to_ribs_mm"})
+    if (!columns.contains(name)) throw std::runtime_error(file + " has no column " + name);
+  std::vector<PointRow> rows;
+  for (int number = 2; std::getline(in, line); ++number) {
+    if (line.empty()) continue;
+    const std::vector<std::string> cells = csv::cells(line);
+    const std::string where = file + ": line " + std::to_string(number);
+    if (cells.size() != columns.size())
+      throw std::runtime_error(where + " has " + std::to_string(cells.size()) +
+                               " cells; expected " + std::to_string(columns.size()));
+    const auto number_in = [&](const std::string& column) {
+      return csv::number(cells[columns.at(column)], where + ": " + column);
+    };
+    PointRow row{cells[columns.at("woman")],
+                 cells[columns.at("side")],
+                 cells[columns.at("point")] == "nipple",
+                 {},
+                 {},
+                 0};
+    const double outward = row.side == "left" ? 1 : -1;
+    const auto point = [&](const std::string& pose) {
+      return Eigen::Vector3d(outward * number_in(pose + "_l_mm"), number_in(pose + "_p_mm"),
+                             number_in(pose + "_s_mm"));
+    };
+    row.prone = point("prone");
+    row.supine = point("supine");
+    if (!row.is_nipple) row.supine_to_ribs = number_in("supine_to_ribs_mm");
+    rows.push_back(row);
+  }
+  return rows;
+}
+
 }  // namespace
 
 MiddleHalf middle_half(const std::vector<double>& values) {
@@ -48,44 +97,38 @@ MiddleHalf middle_half(const std::vector<double>& values) {
 }
 
 WomensMoves read_womens_moves(const std::filesystem::path& points_csv) {
-  const std::string file = points_csv.string();
-  std::ifstream in(points_csv);
-  std::string line;
-  if (!std::getline(in, line)) throw std::runtime_error(file + ": cannot be read, or empty");
-  std::map<std::string, std::size_t> columns;
-  for (const std::string& name : csv::cells(line)) columns.emplace(name, columns.size());
-  for (const char* name : {"woman", "point", "side", "prone_l_mm", "prone_p_mm", "prone_s_mm",
-                           "supine_l_mm", "supine_p_mm", "supine_s_mm", "supine_to_ribs_mm"})
-    if (!columns.contains(name)) throw std::runtime_error(file + " has no column " + name);
   Values lateral, posterior, landmark, ribs;
-  for (int number = 2; std::getline(in, line); ++number) {
-    if (line.empty()) continue;
-    const std::vector<std::string> cells = csv::cells(line);
-    const std::string where = file + ": line " + std::to_string(number);
-    if (cells.size() != columns.size())
-      throw std::runtime_error(where + " has " + std::to_string(cells.size()) +
-                               " cells; expected " + std::to_string(columns.size()));
-    const auto number_in = [&](const std::string& column) {
-      return csv::number(cells[columns.at(column)], where + ": " + column);
-    };
-    Eigen::Vector3d way;
-    for (int i = 0; i < 3; ++i) {
-      const std::string axis = std::string("_") + "lps"[i] + "_mm";
-      way[i] = number_in("supine" + axis) - number_in("prone" + axis);
-    }
+  for (const PointRow& row : read_rows(points_csv)) {
     const auto add = [&](Values& values, double value) {
       values.values.push_back(value);
-      values.women.insert(cells[columns.at("woman")]);
+      values.women.insert(row.woman);
     };
-    if (cells[columns.at("point")] == "nipple") {
-      add(lateral, cells[columns.at("side")] == "left" ? way.x() : -way.x());
+    const Eigen::Vector3d way = row.supine - row.prone;
+    if (row.is_nipple) {
+      add(lateral, way.x());
       add(posterior, way.y());
     } else {
       add(landmark, way.norm());
-      add(ribs, number_in("supine_to_ribs_mm"));
+      add(ribs, row.supine_to_ribs);
     }
   }
+  const std::string file = points_csv.string();
   return {lateral.figure(file), posterior.figure(file), landmark.figure(file), ribs.figure(file)};
+}
+
+std::vector<WomensLandmark> read_womens_landmarks(const std::filesystem::path& points_csv) {
+  const std::vector<PointRow> rows = read_rows(points_csv);
+  std::map<std::pair<std::string, std::string>, const PointRow*> nipples;
+  for (const PointRow& row : rows)
+    if (row.is_nipple) nipples[{row.woman, row.side}] = &row;
+  std::vector<WomensLandmark> landmarks;
+  for (const PointRow& row : rows) {
+    const auto nipple = nipples.find({row.woman, row.side});
+    if (row.is_nipple || nipple == nipples.end()) continue;
+    landmarks.push_back(
+        {row.woman, row.prone - nipple->second->prone, row.supine - nipple->second->supine});
+  }
+  return landmarks;
 }
 
 }  // namespace mammotwin

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <filesystem>
+#include <string>
 #include <vector>
 
 namespace mammotwin {
@@ -31,5 +33,14 @@ struct WomensMoves {
 /// prone_supine/points.csv of a folder of real cases (its README has the columns). Throws
 /// std::runtime_error where it cannot be read or lacks a column.
 WomensMoves read_womens_moves(const std::filesystem::path& points_csv);
+
+/// A landmark inside a breast, from that breast's nipple: lateral, posterior, along the body [mm].
+struct WomensLandmark {
+  std::string woman;
+  Eigen::Vector3d prone, supine;
+};
+
+/// Those of the same file whose breast has a nipple.
+std::vector<WomensLandmark> read_womens_landmarks(const std::filesystem::path& points_csv);
 
 }  // namespace mammotwin

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "tests/registration/squeezed_box.h"
 
 namespace mammotwin {
@@ -40,6 +42,16 @@ TEST(SupinePlace, IsTheSkinStraightAboveTheLesion) {
   EXPECT_NEAR(place->depth_mm, 20, 0.02);
   EXPECT_NEAR(place->from_nipple_mm, 25, 0.02);
   EXPECT_EQ(place->clock, "6");
+}
+
+TEST(SupinePlace, IsTheLessSureTheFartherFromTheNipple) {
+  const LyingBox lying(FaceLabel::skin);
+  const HermiteMesh supine(lying.nodes, lying.prone.mesh.elements());
+  const auto place = supine_place(lying.prone, supine, Side::left, {70, -20, -25}, {70, -60, 0});
+  ASSERT_TRUE(place);
+  EXPECT_LT((place->lesion_in_lps - Eigen::Vector3d(70, -10, -25)).norm(), 0.02);
+  const Eigen::Vector3d share = place->semi_axes_mm / std::hypot(40, 25);
+  EXPECT_LT((share - Eigen::Vector3d(0.67, 0.60, 0.39)).norm(), 0.01);
 }
 
 TEST(SupinePlace, IsNotSaidWhereTheModelEndsWithoutSkin) {

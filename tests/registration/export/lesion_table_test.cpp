@@ -76,7 +76,7 @@ TEST(LesionTable, HasTheColumnsThatOthersRead) {
       "picture_ellipse_angle_deg,baseline_u_mm,baseline_v_mm,behind_nipple_mm,"
       "lateral_of_nipple_mm,above_nipple_mm,nipple_distance_mm,quadrant,clock,third,"
       "supine_skin_l_mm,supine_skin_p_mm,supine_skin_s_mm,supine_depth_mm,supine_from_nipple_mm,"
-      "supine_clock\n");
+      "supine_clock,supine_semi_l_mm,supine_semi_p_mm,supine_semi_s_mm\n");
 }
 
 TEST(LesionTable, HasADictionaryOfEveryColumn) {
@@ -91,7 +91,7 @@ TEST(LesionTable, HasADictionaryOfEveryColumn) {
     EXPECT_NE(text.find("| `" + column + "` | "), std::string::npos) << column;
     ++count;
   }
-  EXPECT_EQ(count, 37);
+  EXPECT_EQ(count, 40);
   EXPECT_NE(text.find("| `pixel_row` | pixel |"), std::string::npos);
   EXPECT_NE(text.find("| `ellipse_angle_deg` | deg |"), std::string::npos);
   EXPECT_NE(text.find("| `clock` | text |"), std::string::npos);
@@ -117,7 +117,7 @@ TEST(LesionTable, ComesBackAsItWasWritten) {
 TEST(LesionTable, NamesTheCellThatCannotBeRead) {
   const auto path = scratch_file("bad.csv");
   write_lesion_table(path, {});
-  std::ofstream(path, std::ios::app) << "042,1,cc,left,,twelve" << std::string(31, ',') << "\n";
+  std::ofstream(path, std::ios::app) << "042,1,cc,left,,twelve" << std::string(34, ',') << "\n";
   try {
     read_lesion_table(path);
     FAIL();
