@@ -1,5 +1,6 @@
 #include "pipeline/steps/registration_products.h"
 
+#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "pipeline/steps/breast_problem.h"
@@ -34,6 +35,20 @@ std::vector<MarkupPoint> points_of(const Findings& findings, Place place) {
   for (const Landmark& lesion : findings.lesions) points.push_back({lesion.id, place(lesion)});
   points.push_back({findings.nipple.id, place(findings.nipple)});
   return points;
+}
+
+/// Says beside each lesion how sure its place is.
+void describe_spread(const Findings& findings, std::vector<MarkupPoint>& points) {
+  for (std::size_t n = 0; n < findings.lesions.size(); ++n) {
+    const Eigen::Vector3d semi =
+        supine_semi_axes_mm(findings.lesions[n].prone_in_lps, findings.nipple.prone_in_lps);
+    char text[120];
+    std::snprintf(text, sizeof text,
+                  "90 %%, seen from the nipple: within %.0f mm to the sides, %.0f mm in depth, "
+                  "%.0f mm along the body",
+                  semi.x(), semi.y(), semi.z());
+    points[n].description = text;
+  }
 }
 
 std::vector<MarkupPoint> compressed_points(const ProjectedFindings& findings) {
@@ -89,7 +104,9 @@ void write_states(const Findings& findings, const RegisteredView& view, Products
   for (const auto& [name, mesh] : view.states) {
     const PointCarrier carrier(view.prone, mesh);
     const auto carried = [&](const Landmark& l) { return carrier.carry(l.prone_in_lps).in_lps; };
-    write_points(name, points_of(findings, carried), products);
+    std::vector<MarkupPoint> points = points_of(findings, carried);
+    if (name == "supine") describe_spread(findings, points);
+    write_points(name, points, products);
   }
 }
 

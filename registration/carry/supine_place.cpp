@@ -47,6 +47,11 @@ bool on_skin(const MeshPoint& point, const std::vector<FaceLabels>& faces) {
 
 }  // namespace
 
+Eigen::Vector3d supine_semi_axes_mm(const Eigen::Vector3d& lesion_in_prone,
+                                    const Eigen::Vector3d& nipple_in_prone) {
+  return kSupineSpreads * kSupineSpread * (lesion_in_prone - nipple_in_prone).norm();
+}
+
 std::optional<SupinePlace> supine_place(const MeshFile& prone, const HermiteMesh& supine, Side side,
                                         const Eigen::Vector3d& lesion_in_prone,
                                         const Eigen::Vector3d& nipple_in_prone) {
@@ -60,7 +65,7 @@ std::optional<SupinePlace> supine_place(const MeshFile& prone, const HermiteMesh
                      breast_position(side, out->x, nipple).clock,
                      (out->x - nipple).norm(),
                      lesion,
-                     kSupineSpreads * kSupineSpread * (lesion_in_prone - nipple_in_prone).norm()};
+                     supine_semi_axes_mm(lesion_in_prone, nipple_in_prone)};
 }
 
 }  // namespace mammotwin

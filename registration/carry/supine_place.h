@@ -17,6 +17,11 @@ inline const Eigen::Vector3d kSupineSpread{0.223, 0.200, 0.130};
 /// holds 91 % of the others' landmarks.
 inline constexpr double kSupineSpreads = 3;
 
+/// Semi-axes along LPS [mm] of the ellipsoid round a lesion that holds it with 90 %, supine and
+/// seen from the nipple.
+Eigen::Vector3d supine_semi_axes_mm(const Eigen::Vector3d& lesion_in_prone,
+                                    const Eigen::Vector3d& nipple_in_prone);
+
 /// A lesion as somebody with an ultrasound probe looks for it, the patient on her back.
 struct SupinePlace {
   Eigen::Vector3d skin_in_lps = Eigen::Vector3d::Zero();  ///< the skin straight above it [mm]
@@ -24,8 +29,7 @@ struct SupinePlace {
   std::string clock;          ///< of the skin's point about the nipple; empty within 10 mm
   double from_nipple_mm = 0;  ///< of the skin's point, straight
   Eigen::Vector3d lesion_in_lps = Eigen::Vector3d::Zero();  ///< [mm]
-  /// Along LPS, of the ellipsoid round the lesion that holds it with 90 %, seen from the nipple.
-  Eigen::Vector3d semi_axes_mm = Eigen::Vector3d::Zero();
+  Eigen::Vector3d semi_axes_mm = Eigen::Vector3d::Zero();   ///< supine_semi_axes_mm()
 };
 
 /// `supine`: the same mesh as `prone`, lying. Nothing where the line straight forward from the

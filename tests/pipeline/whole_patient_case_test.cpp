@@ -4,6 +4,7 @@
 
 #include "fitting/mesh/mesh_file.h"
 #include "registration/carry/point_carrier.h"
+#include "registration/export/markups.h"
 #include "tests/pipeline/patient_case.h"
 #include "tests/where.h"
 
@@ -68,6 +69,9 @@ void Patient042::expect_sane_unloading() {
     const fs::path markups = results() / "042" / ("lesions_" + std::string(state) + ".mrk.json");
     EXPECT_TRUE(fs::exists(markups)) << markups;
   }
+  const auto supine = read_markups(results() / "042" / "lesions_supine.mrk.json");
+  EXPECT_EQ(supine.front().description.rfind("90 %, seen from the nipple: within ", 0), 0u)
+      << supine.front().description;
 }
 
 /// The unloaded shape recovered from the MRI against the one that the MRI is made to hang from.
