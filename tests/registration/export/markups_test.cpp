@@ -13,12 +13,6 @@
 namespace mammotwin {
 namespace {
 
-std::filesystem::path write_text(const std::string& name, const std::string& text) {
-  const auto path = scratch_file(name);
-  std::ofstream(path) << text;
-  return path;
-}
-
 TEST(Markups, ComeBackAsTheyWereWritten) {
   const auto path = scratch_file("points.mrk.json");
   write_markups(path, {{"lesion 1", {12.25, -3.5, 1.0 / 3}}, {"nipple", {0, -60, 0}}});
@@ -113,35 +107,6 @@ TEST(Markups, HaveTheTypesOfSlicersSchema) {
       for (const auto& point : markup.at("controlPoints")) expect_types(point, kControlPoint);
     }
   }
-}
-
-TEST(Markups, AreTurnedFromRasToLps) {
-  const auto path = write_text("ras.mrk.json", R"({"markups": [{"type": "Fiducial",
-      "coordinateSystem": "RAS",
-      "controlPoints": [{"label": "F-1", "position": [10.0, 20.0, 30.0]},
-                        {"label": "F-2", "position": [0, 0, 0], "positionStatus": "undefined"}]}]})");
-  const auto points = read_markups(path);
-  ASSERT_EQ(points.size(), 1u);
-  EXPECT_EQ(points[0].x_in_lps, Eigen::Vector3d(-10, -20, 30));
-}
-
-TEST(Markups, NameWhatIsWrongWithAFile) {
-  const auto message = [](const std::filesystem::path& path) {
-    try {
-      read_markups(path);
-    } catch (const std::runtime_error& error) {
-      return std::string(error.what());
-    }
-    return std::string();
-  };
-  EXPECT_NE(message(scratch_file("absent.mrk.json")).find("cannot be opened"), std::string::npos);
-  EXPECT_NE(message(write_text("ijk.mrk.json", R"({"markups": [{"coordinateSystem": "IJK",
-      "controlPoints": []}]})"))
-                .find("\"IJK\"; expected LPS or RAS"),
-            std::string::npos);
-  EXPECT_NE(message(write_text("none.mrk.json", R"({"markups": [{"type": "Fiducial"}]})"))
-                .find("controlPoints"),
-            std::string::npos);
 }
 
 }  // namespace

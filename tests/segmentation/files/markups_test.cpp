@@ -37,6 +37,30 @@ TEST_F(Markups, APointMayBeInLpsOrRas) {
                   {"none.mrk.json", "does not exist"});
 }
 
+TEST_F(Markups, APointWithoutAPlaceIsLeftOut) {
+  const auto points = read_markups(write("ras.mrk.json", R"({"markups": [{"type": "Fiducial",
+      "coordinateSystem": "1",
+      "controlPoints": [{"label": "F-2", "position": [0, 0, 0], "positionStatus": "undefined"},
+                        {"label": "F-1", "position": [10, 20, 30], "description": "a lesion"}]}]})"));
+  ASSERT_EQ(points.size(), 1U);
+  EXPECT_EQ(points[0].x_in_lps, Eigen::Vector3d(-10, -20, 30));
+  EXPECT_EQ(points[0].label, "F-1");
+  EXPECT_EQ(points[0].description, "a lesion");
+}
+
+TEST_F(Markups, WhatIsWrongIsSaidOfTheFile) {
+  const auto said_of = [&](const std::string& markup) {
+    return message_of(
+        [&] { read_markups(write("bad.mrk.json", "{\"markups\": [" + markup + "]}")); });
+  };
+  expect_mentions(said_of(R"({"type": "Fiducial"})"), {"bad.mrk.json", "controlPoints"});
+  expect_mentions(said_of(R"({"coordinateUnits": "cm", "controlPoints": []})"),
+                  {"cm", "expected mm"});
+  expect_mentions(said_of(R"({"controlPoints": [{"position": [1, 2]}]})"),
+                  {"2 numbers", "expected 3"});
+  expect_mentions(said_of(R"({"controlPoints": []})"), {"no control point"});
+}
+
 TEST_F(Markups, PointsOfAllListsAndCurvesAreTaken) {
   const auto points = read_markups_points(write("wall.mrk.json", R"({"markups":[
     {"type":"Curve","coordinateSystem":"RAS","controlPoints":[{"position":[-1,-2,3]},{"position":[-4,-5,6]}]},
