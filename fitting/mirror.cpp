@@ -1,11 +1,11 @@
 #include "fitting/mirror.h"
 
-#include <tuple>
 #include <utility>
 
 #include "fitting/mesh/bezier.h"
 #include "fitting/mesh/block_mesh.h"
 #include "fitting/slab/slab.h"
+#include "segmentation/image/flipped.h"
 
 namespace mammotwin {
 
@@ -15,12 +15,8 @@ Eigen::Vector3d mirrored(const Eigen::Vector3d& x) { return {-x.x(), x.y(), x.z(
 
 template <class T>
 Volume<T> mirrored(const Volume<T>& image) {
-  Volume<T> result = image;
-  const int last = image.size.x() - 1;
-  result.origin.x() = -image.position(last, 0, 0).x();
-  for (int k = 0; k < image.size.z(); ++k)
-    for (int j = 0; j < image.size.y(); ++j)
-      for (int i = 0; i <= last; ++i) result(i, j, k) = image(last - i, j, k);
+  Volume<T> result = flipped(image);
+  result.origin.x() = -image.position(image.size.x() - 1, 0, 0).x();
   return result;
 }
 
@@ -38,12 +34,12 @@ HermiteMesh::Node mirrored(const HermiteMesh::Node& node) {
 }
 
 std::vector<HermiteMesh::Node> mirrored(const HermiteMesh& mesh, const Slab& slab) {
-  const auto [nx, ny, nz] = std::tuple(slab.elements.x(), slab.elements.y(), slab.elements.z());
+  const Eigen::Vector3i& n = slab.elements;
   std::vector<HermiteMesh::Node> nodes(mesh.num_nodes());
-  for (int k = 0; k <= nz; ++k)
-    for (int j = 0; j <= ny; ++j)
-      for (int i = 0; i <= nx; ++i)
-        nodes[slab.node(i, j, k)] = mirrored(mesh.node(slab.node(nx - i, j, k)));
+  for (int k = 0; k <= n.z(); ++k)
+    for (int j = 0; j <= n.y(); ++j)
+      for (int i = 0; i <= n.x(); ++i)
+        nodes[slab.node(i, j, k)] = mirrored(mesh.node(slab.node(n.x() - i, j, k)));
   return nodes;
 }
 

@@ -44,12 +44,6 @@ json candidates_json(const std::vector<LesionCandidate>& candidates) {
   return list;
 }
 
-/// What a person can do about it (docs/correct_segmentation.md).
-std::string remedy(const std::string& what) {
-  return what == "chest wall" ? "; where it is wrong, draw it in a few slices (chest_wall.markups)"
-                              : "";
-}
-
 }  // namespace
 
 std::string place_text(const Eigen::Vector3d& x) {
@@ -61,11 +55,14 @@ std::string place_text(const Eigen::Vector3d& x) {
 
 void SegmentQuality::doubt(SegmentStatus at_least, const Doubt& doubt) {
   status = std::max(status, at_least);
+  // What a person can do about it (docs/correct_segmentation.md) is said once.
   const bool first = std::none_of(doubts.begin(), doubts.end(),
                                   [&](const Doubt& other) { return other.what == doubt.what; });
   reasons.push_back(doubt.reason +
                     (doubt.place_in_lps ? "; look at " + place_text(*doubt.place_in_lps) : "") +
-                    (first ? remedy(doubt.what) : ""));
+                    (first && doubt.what == "chest wall"
+                         ? "; where it is wrong, draw it in a few slices (chest_wall.markups)"
+                         : ""));
   doubts.push_back(doubt);
 }
 

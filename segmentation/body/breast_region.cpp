@@ -37,8 +37,8 @@ ColumnBox side_columns(const Volume<std::uint8_t>& labels, const TissueColumns& 
 }
 
 struct Apex {
-  int i, k;
-  double tissue;
+  int i = 0, k = 0;
+  double tissue = 0;
 };
 
 /// Where the skin reaches farthest forward, of the columns with tissue enough for a breast: not a
@@ -177,19 +177,37 @@ BreastRegion region_of(const ColumnBox& box, const Volume<std::uint8_t>& labels,
   return {side, low.x(), high.x(), low.z(), high.z()};
 }
 
-}  // namespace
+/// A side's breast in its columns.
+struct BreastColumns {
+  TissueColumns columns;
+  ColumnBox half;
+  Apex apex;
+  PendantTissue pendant;
+};
 
-FoundRegion find_region(const Volume<std::uint8_t>& labels, Side side, LabelsHold hold) {
-  const TissueColumns columns = measure_columns(labels);
-  const ColumnBox half = side_columns(labels, columns, side, hold);
-  const Apex apex = farthest_apex(columns, half);
+BreastColumns breast_columns(const Volume<std::uint8_t>& labels, Side side, LabelsHold hold) {
+  BreastColumns breast;
+  breast.columns = measure_columns(labels);
+  breast.half = side_columns(labels, breast.columns, side, hold);
+  const Apex& apex = breast.apex = farthest_apex(breast.columns, breast.half);
   if (apex.tissue < least_apex_mm)
     throw std::runtime_error(std::string("the ") + (side == Side::left ? "left" : "right") +
                              " side holds " + std::to_string(static_cast<int>(apex.tissue)) +
                              " mm of tissue at its most anterior point; expected a breast of at "
                              "least 15 mm in front of the muscle (is the side right?)");
+  breast.pendant = find_pendant_tissue(labels, breast.columns, breast.half, apex.i, apex.k, side);
+  return breast;
+}
+
+}  // namespace
+
+FoundRegion find_region(const Volume<std::uint8_t>& labels, Side side, LabelsHold hold) {
+  const BreastColumns breast = breast_columns(labels, side, hold);
+  const TissueColumns& columns = breast.columns;
+  const ColumnBox& half = breast.half;
+  const Apex& apex = breast.apex;
   FoundRegion found;
-  found.pendant = find_pendant_tissue(labels, columns, half, apex.i, apex.k, side);
+  found.pendant = breast.pendant;
   const std::vector<double> worth = worth_of(columns, found.pendant.sternal_y);
   const auto fullest_within = [&](const TissueColumns& of, const ColumnBox& within) {
     ColumnBox box = fullest_box(of, worth, within, apex.i, apex.k, {side});
@@ -221,31 +239,23 @@ FoundRegion find_region(const Volume<std::uint8_t>& labels, Side side, LabelsHol
 }
 
 FoundRegion given_region(const Volume<std::uint8_t>& labels, const BreastRegion& region) {
-  const auto column = [](double x, double origin, double spacing, int size) {
-    return std::clamp(static_cast<int>(std::lround((x - origin) / spacing)), 0, size - 1);
-  };
-  const Eigen::Vector3d last =
-      labels.position(labels.size.x() - 1, labels.size.y() - 1, labels.size.z() - 1);
-  if (region.x_min > last.x() || region.x_max < labels.origin.x() || region.z_min > last.z() ||
-      region.z_max < labels.origin.z())
+  const Eigen::Array3i last = labels.size.array() - 1;
+  const Eigen::Array3i low =
+      labels.index({region.x_min, labels.origin.y(), region.z_min}).array().round().cast<int>();
+  const Eigen::Array3i high =
+      labels.index({region.x_max, labels.origin.y(), region.z_max}).array().round().cast<int>();
+  if ((low > last).any() || (high < 0).any())
     throw std::runtime_error(
         "the breast's region given lies beside this breast; expected an ROI around it in LPS [mm] "
         "(is it the other side?)");
-  const auto i = [&](double x) {
-    return column(x, labels.origin.x(), labels.spacing.x(), labels.size.x());
-  };
-  const auto k = [&](double z) {
-    return column(z, labels.origin.z(), labels.spacing.z(), labels.size.z());
-  };
-  const TissueColumns columns = measure_columns(labels);
-  const ColumnBox half = side_columns(labels, columns, region.side, LabelsHold::one_side);
-  const Apex apex = farthest_apex(columns, half);
+  const BreastColumns breast = breast_columns(labels, region.side, LabelsHold::one_side);
+  const ColumnBox box{std::max(low.x(), 0), std::min(high.x(), last.x()), std::max(low.z(), 0),
+                      std::min(high.z(), last.z())};
   FoundRegion found;
-  found.pendant = find_pendant_tissue(labels, columns, half, apex.i, apex.k, region.side);
-  found.region = region_of({i(region.x_min), i(region.x_max), k(region.z_min), k(region.z_max)},
-                           labels, region.side);
+  found.pendant = breast.pendant;
+  found.region = region_of(box, labels, region.side);
   found.outside = outside_region(found.pendant, labels, found.region);
-  found.thin_mm2 = thin_area(columns, labels, found.region);
+  found.thin_mm2 = thin_area(breast.columns, labels, found.region);
   return found;
 }
 

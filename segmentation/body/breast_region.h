@@ -43,7 +43,7 @@ FoundRegion find_region(const Volume<std::uint8_t>& labels, Side side,
                         LabelsHold hold = LabelsHold::perhaps_both_sides);
 
 /// A region that a person gave, out to whole voxels and no farther than the labels reach. Throws
-/// std::runtime_error where it holds no column of them.
+/// std::runtime_error where it holds no column of them, or that side no breast.
 FoundRegion given_region(const Volume<std::uint8_t>& labels, const BreastRegion& region);
 
 /// The same as find_region, the region only.

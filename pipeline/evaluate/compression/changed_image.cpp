@@ -10,6 +10,8 @@
 #include <numbers>
 #include <utility>
 
+#include "segmentation/image/flipped.h"
+
 namespace mammotwin {
 namespace {
 
@@ -109,16 +111,6 @@ Volume<T> turned_and_back(const Volume<T>& image, double deg) {
 }
 
 template <class T>
-Volume<T> mirrored(const Volume<T>& image) {
-  Volume<T> result = image;
-  for (int k = 0; k < image.size.z(); ++k)
-    for (int j = 0; j < image.size.y(); ++j)
-      for (int i = 0; i < image.size.x(); ++i)
-        result(i, j, k) = image(image.size.x() - 1 - i, j, k);
-  return result;
-}
-
-template <class T>
 Volume<T> half_a_voxel_off(const Volume<T>& image) {
   const Volume<T> grid(image.size - Eigen::Vector3i::Ones(), image.spacing,
                        image.origin + image.spacing / 2);
@@ -128,7 +120,7 @@ Volume<T> half_a_voxel_off(const Volume<T>& image) {
 template <class T>
 Volume<T> changed(const Volume<T>& image, const InputChange& change) {
   if (change.turn_deg != 0) return turned_and_back(image, change.turn_deg);
-  if (change.mirror) return mirrored(image);
+  if (change.mirror) return flipped(image);
   if (change.half_voxel) return half_a_voxel_off(image);
   return image;
 }
