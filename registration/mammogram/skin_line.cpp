@@ -83,6 +83,29 @@ long hollow(const Points& line, long tip, long end, int step) {
   return deepest;
 }
 
+/// The corner, in the half of the depth that is nearer to the chest wall, in which the line turns
+/// most into the body, 6 mm or more behind a chord over it: abdomen that does not rise again behind
+/// a fold; `end` where there is none.
+long corner(const Points& line, long tip, long end, int step) {
+  constexpr double kBefore_mm = 40, kAfter_mm = 25, kCorner_mm = 6;
+  long deepest = end, a = tip, b = tip;
+  double most = kCorner_mm;
+  std::vector<double> along(line.size(), 0);
+  for (long i = tip + step; i != end; i += step)
+    along[i] = along[i - step] + (line[i] - line[i - step]).norm();
+  for (long i = tip; i != end; i += step) {
+    while (along[i] - along[a] > kBefore_mm) a += step;
+    while (b + step != end && along[b] - along[i] < kAfter_mm) b += step;
+    if (along[b] - along[i] < kAfter_mm) break;
+    const Eigen::Vector2d chord = line[b] - line[a];
+    const double behind = step * cross(chord, line[i] - line[a]) / std::max(chord.norm(), 1.);
+    if (line[i].x() > line[tip].x() / 2 || behind <= most) continue;
+    most = behind;
+    deepest = i;
+  }
+  return deepest;
+}
+
 /// Spread of a line about its running mean over 15 mm, across the line, by quantiles that a nipple
 /// does not move.
 double roughness(const Points& line) {
@@ -121,6 +144,8 @@ SkinLine skin_line(const MammogramImage& mask, double pixel_mm, bool oblique) {
   const long tip = deepest(line), size = static_cast<long>(line.size());
   long last =
       cut(valley(line, tip, size, 1), size, "below the breast a fold or the abdomen is cut off");
+  last = cut(corner(line, tip, last, 1), last,
+             "below the breast the abdomen is cut off at a corner of the skin");
   last = cut(hollow(line, tip, last, 1), last, "a fold at the breast's lower end is cut off");
   long before = cut(valley(line, tip, -1, -1), -1, "above the breast the arm or axilla is cut off");
   if (!oblique)

@@ -17,9 +17,9 @@ struct SkinLine {
 
 /// Follows the border of an upright mask (chest wall left) where it is not the image's own. It ends
 /// where skin returns to the chest wall: what rises again behind a valley of 3 mm, below (abdomen,
-/// folds) or above the breast (axilla, arm), is cut off; so is, at the lower end of either view and
-/// the upper end of `oblique == false`, what lies behind a hollow of 4 mm.
-/// Throws std::runtime_error where no skin is seen.
+/// folds) or above the breast (axilla, arm), is cut off; so is, at the lower end of either view,
+/// what follows a corner of 6 mm and, there and at the upper end of `oblique == false`, what lies
+/// behind a hollow of 4 mm. Throws std::runtime_error where no skin is seen.
 SkinLine skin_line(const MammogramImage& mask, double pixel_mm, bool oblique);
 
 }  // namespace mammotwin

@@ -146,6 +146,21 @@ TEST(MammogramFindings, AbdomenBelowTheBreastIsCutOffAndSaid) {
   EXPECT_LT(found.outline.back().y(), 655);  // the breast ends at row 650, the strip at 700
 }
 
+TEST(MammogramFindings, AbdomenThatDoesNotRiseAgainBehindTheFoldIsCutOff) {
+  MammogramImage image{500, 700, std::vector<float>(500 * 700, 0)};
+  for (int row = 0; row < image.rows; ++row)
+    for (int column = 0; column < image.columns; ++column)
+      if (std::hypot(column / 300., (row - 270) / 240.) < 1 ||
+          std::hypot(column - 300, row - 300) < 15 ||
+          (row > 350 && column < 110 - 0.1 * (row - 350)))
+        image.at(column, row) = 80;
+  const MammogramFindings found = find_breast(image, kPixel_mm, true);
+  EXPECT_EQ(found.remarks.front(),
+            "below the breast the abdomen is cut off at a corner of the skin");
+  EXPECT_NEAR(found.outline.back().y(), 494, 15);  // where the ellipse meets the abdomen
+  EXPECT_LT((found.nipple - Eigen::Vector2d(314, 300)).norm() * kPixel_mm, 2.5);
+}
+
 TEST(MammogramFindings, MirroredImageHasItsChestWallRight) {
   const MammogramImage image = drawn({.marker = true});
   MammogramImage mirrored = image;
