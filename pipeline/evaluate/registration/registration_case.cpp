@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "pipeline/evaluate/cases/patient_chain.h"
+#include "pipeline/evaluate/registration/mri_faults.h"
 #include "pipeline/evaluate/registration/spoilt_case.h"
 #include "pipeline/frame/products.h"
 #include "pipeline/patient/compression_settings.h"
@@ -29,9 +30,9 @@ constexpr int kMostChests = 30;  // of the drawn build: not every chest carries 
 /// Not mri.nrrd: `segment`, whose products stand in the same folder, leaves its part of the MRI
 /// there.
 constexpr const char* kScan = "scan.nrrd";
-constexpr int kHardNumbers = 500;     // beyond these
-constexpr double kNippleOff_mm = 10;  // in every second hard patient's MRI
-constexpr int kPoints = 20;           // landmarks beside the lesions
+constexpr int kHardNumbers = 500;                                        // beyond these
+constexpr double kNippleOff_mm = 10, kWallOff_mm = 5, kRegionCut = 0.1;  // of hard patients' MRI
+constexpr int kPoints = 20;  // landmarks beside the lesions
 
 /// What a view is drawn from, each way.
 struct ViewRanges {
@@ -149,22 +150,42 @@ std::string landmark_table(const TrueBreast& breast, const std::vector<TrueView>
   return csv.str();
 }
 
-/// Body, MRI and lesions, without views; the nipple as far off upwards as it is said to be.
-std::string body_toml(const SyntheticPatient& patient, const DrawnPatient& drawn,
-                      double nipple_off_mm = 0) {
+/// Body, MRI and lesions, without views.
+std::string body_toml(const SyntheticPatient& patient, const DrawnPatient& drawn) {
   std::string text = patient_toml(patient);
   const std::string own = "\"mri.nrrd\"";
   text.replace(text.find(own), own.size(), std::string("\"") + kScan + "\"");
   std::ostringstream toml;
-  if (nipple_off_mm != 0) {
-    const Eigen::Vector3d at =
-        patient.truth.nipple_in_lps + nipple_off_mm * Eigen::Vector3d::UnitZ();
-    toml << "nipple.point_lps_mm = [" << at.x() << ", " << at.y() << ", " << at.z() << "]\n";
-  }
   if (const auto& e = drawn.elements)
     toml << "fit.elements = [" << e->x() << ", " << e->y() << ", " << e->z() << "]\n";
   toml << text.substr(0, text.find("[views.cc]"));
   return toml.str();
+}
+
+/// Keys for what is found wrongly in patient n's MRI, and their files. The law is in README.md.
+std::string wrongly_found(const TrueBreast& breast, int number, const fs::path& folder) {
+  std::ostringstream toml;
+  const auto say = [&](const std::string& what, const json& markups) {
+    write_text_atomically(folder / (what + ".mrk.json"), markups.dump(1) + "\n");
+    toml << what << ".markups = \"" << what << ".mrk.json\"\n";
+  };
+  if (number % 2) {
+    const Eigen::Vector3d at =
+        breast.truth().nipple_in_lps + kNippleOff_mm * Eigen::Vector3d::UnitZ();
+    toml << "nipple.point_lps_mm = [" << at.x() << ", " << at.y() << ", " << at.z() << "]\n";
+  }
+  if (number % 4 == 1 || number % 4 == 2)
+    say("chest_wall",
+        wall_off_laterally(breast.truth(), number % 4 == 1 ? kWallOff_mm : -kWallOff_mm));
+  if (number % 5 == 2) say("region", region_without_flank(breast.truth(), kRegionCut));
+  return toml.str();
+}
+
+/// What lies over or beside the breast in patient n's mammograms.
+void draw_over(int number, const fs::path& folder) {
+  if (number % 3 == 0) add_abdomen(folder / "mlo.png");
+  if (number % 5 == 4) add_skin_fold(folder / "cc.png", false);
+  if (number % 5 == 1) add_skin_fold(folder / "mlo.png", true);
 }
 
 std::string views_toml(const DrawnPatient& drawn, const std::vector<TrueView>& views,
@@ -219,13 +240,13 @@ void make_registration_case(int number, Difficulty difficulty, const fs::path& f
     write_png(folder / (view.view.name + ".png"),
               true_mammogram(breast, view, detector, drawn.patient.anatomy.seed));
   const bool hard = difficulty == Difficulty::hard;
-  if (hard && number % 3 == 0) add_abdomen(folder / "mlo.png");
+  if (hard) draw_over(number, folder);
   write_nrrd(folder / kScan, patient.scan.image);
   write_text_atomically(folder / "landmarks.csv", landmark_table(breast, views, detector, number));
   write_text_atomically(folder / "drawn.json", drawn_json(drawn, views).dump(1) + "\n");
   write_text_atomically(folder / "patient.toml",
-                        body_toml(patient, drawn, hard && number % 2 ? kNippleOff_mm : 0) +
-                            views_toml(drawn, views, detector));
+                        (hard ? wrongly_found(breast, number, folder) : "") +
+                            body_toml(patient, drawn) + views_toml(drawn, views, detector));
 }
 
 void make_tomosynthesis_case(bool coarse, const fs::path& folder) {

@@ -101,6 +101,26 @@ void add_abdomen(const fs::path& path) {
   write_grey(path, image);
 }
 
+void add_skin_fold(const fs::path& path, bool oblique) {
+  constexpr double kAlong = 0.25, kLength_mm = 40, kHalfWidth_mm = 2, kGrey = 8000;
+  MammogramImage image = read_mammogram_picture(path);
+  const MammogramFindings found = find_breast(image, kSpoiltPixel_mm, oblique);
+  const Eigen::Vector2d begin = found.outline[std::lround(kAlong * (found.outline.size() - 1))];
+  Eigen::Vector2d middle = Eigen::Vector2d::Zero();
+  for (const Eigen::Vector2d& x : found.outline) middle += x / found.outline.size();
+  const Eigen::Vector2d way = (middle - begin).normalized();
+  for (int row = 0; row < image.rows; ++row)
+    for (int column = 0; column < image.columns; ++column) {
+      const Eigen::Vector2d x = Eigen::Vector2d(column, row) - begin;
+      const double along = way.dot(x) * kSpoiltPixel_mm / kLength_mm;
+      const double across = (x - way.dot(x) * way).norm() * kSpoiltPixel_mm / kHalfWidth_mm;
+      if (along < 0 || along > 1) continue;
+      const double grey = image.at(column, row) + kGrey * (1 - along) * std::exp(-across * across);
+      image.at(column, row) = static_cast<float>(std::min(grey, 65535.));
+    }
+  write_grey(path, image);
+}
+
 void spoil_registration_case(const fs::path& made, const std::string& spoil,
                              const fs::path& folder) {
   if (fs::exists(folder / "patient.toml")) return;

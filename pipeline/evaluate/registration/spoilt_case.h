@@ -20,6 +20,10 @@ void spoil_registration_case(const std::filesystem::path& made, const std::strin
 /// Draws a round fold of abdomen over the breast's lower end into an oblique mammogram.
 void add_abdomen(const std::filesystem::path& mammogram);
 
+/// Draws a fold of doubled skin into a mammogram: a bright line of 4 mm from the upper skin 40 mm
+/// towards the breast's middle, that fades.
+void add_skin_fold(const std::filesystem::path& mammogram, bool oblique);
+
 /// Copies the files of a case.
 void copy_case(const std::filesystem::path& made, const std::filesystem::path& folder);
 
