@@ -6,11 +6,13 @@
 
 #include "pipeline/evaluate/cases/case_arguments.h"
 #include "pipeline/evaluate/cases/evaluation_table.h"
+#include "pipeline/evaluate/registration/ellipse_rows.h"
 #include "pipeline/evaluate/registration/misfit_case.h"
 #include "pipeline/evaluate/registration/registration_case.h"
 #include "pipeline/evaluate/registration/registration_rows.h"
 #include "pipeline/evaluate/registration/spoilt_case.h"
 #include "pipeline/frame/command_line.h"
+#include "pipeline/frame/products.h"
 
 namespace mammotwin {
 namespace {
@@ -115,7 +117,10 @@ int run(const Arguments& args) {
       }
     if (args.misfit) add_misfits(number, folder, args, add);
   });
-  if (!args.spoil && !args.misfit) std::cerr << registration_summary(table.rows());
+  if (args.spoil || args.misfit) return 0;
+  write_text_atomically(table.folder() / (args.table.stem().string() + "_ellipses.json"),
+                        json{{"cases", ellipse_rows(table.rows())}}.dump(1) + "\n");
+  std::cerr << registration_summary(table.rows());
   return 0;
 }
 
