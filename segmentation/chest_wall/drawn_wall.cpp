@@ -34,12 +34,12 @@ std::map<int, OnRow> by_rows(const PectoralWall& grid, const std::vector<Eigen::
     const double dx = x.x() - grid.axis_x, dy = grid.axis_y - x.y(), radius = std::hypot(dx, dy);
     const double angle = (std::atan2(dx, dy) - grid.first_angle) / grid.angle_step;
     const int row = static_cast<int>(std::lround((x.z() - grid.first_z) / grid.z_step));
-    if (angle < 0 || angle > grid.angles - 1 || row < 0 || row >= grid.rows ||
-        radius < PolarRays::least_radius_mm ||
+    if (angle < 0 || angle > grid.angles - 1 || radius < PolarRays::least_radius_mm ||
         radius > PolarRays::least_radius_mm + PolarRays::depths - 1)
       throw off_the_wall(x);
-    rows[row].emplace_back(angle, radius);
+    if (row >= 0 && row < grid.rows) rows[row].emplace_back(angle, radius);
   }
+  if (rows.empty()) throw off_the_wall(points.front());
   for (auto& [row, line] : rows) std::sort(line.begin(), line.end());
   return rows;
 }

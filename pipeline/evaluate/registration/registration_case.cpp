@@ -14,8 +14,10 @@
 #include "pipeline/synthesize/counter_random.h"
 #include "pipeline/synthesize/nrrd_file.h"
 #include "pipeline/synthesize/patient_files.h"
+#include "pipeline/synthesize/views/coil_pressed.h"
 #include "pipeline/synthesize/views/true_mammogram.h"
 #include "pipeline/synthesize/views/true_tomosynthesis.h"
+#include "registration/carry/point_carrier.h"
 
 namespace mammotwin {
 namespace {
@@ -32,7 +34,8 @@ constexpr int kMostChests = 30;  // of the drawn build: not every chest carries 
 constexpr const char* kScan = "scan.nrrd";
 constexpr int kHardNumbers = 500;                                        // beyond these
 constexpr double kNippleOff_mm = 10, kWallOff_mm = 5, kRegionCut = 0.1;  // of hard patients' MRI
-constexpr int kPoints = 20;  // landmarks beside the lesions
+constexpr double kCoilPress = 0.25;  // of a hard patient's width that a coil's plates take off
+constexpr int kPoints = 20;          // landmarks beside the lesions
 
 /// What a view is drawn from, each way.
 struct ViewRanges {
@@ -135,14 +138,17 @@ std::vector<Landmark3d> landmarks_of(const Segmentation& truth, int number) {
   return all;
 }
 
-std::string landmark_table(const TrueBreast& breast, const std::vector<TrueView>& views,
-                           const Detector& detector, int number) {
+/// `imaged`: the breast as the MRI shows it.
+std::string landmark_table(const TrueBreast& breast, const HermiteMesh& imaged,
+                           const std::vector<TrueView>& views, const Detector& detector,
+                           int number) {
+  const PointCarrier to_image(breast.prone(), imaged);
   std::ostringstream csv;
   csv << "name,mri_l_mm,mri_p_mm,mri_s_mm,cc_column,cc_row,mlo_column,mlo_row\n"
       << std::fixed << std::setprecision(3);
   for (const Landmark3d& l : landmarks_of(breast.truth(), number)) {
     csv << l.name;
-    for (const double x : l.prone_in_lps) csv << "," << x;
+    for (const double x : to_image.carry(l.prone_in_lps).in_lps) csv << "," << x;
     for (const TrueView& view : views)
       for (const double x : true_mark(breast, view, detector, l.prone_in_lps)) csv << "," << x;
     csv << "\n";
@@ -163,7 +169,8 @@ std::string body_toml(const SyntheticPatient& patient, const DrawnPatient& drawn
 }
 
 /// Keys for what is found wrongly in patient n's MRI, and their files. The law is in README.md.
-std::string wrongly_found(const TrueBreast& breast, int number, const fs::path& folder) {
+std::string wrongly_found(const SyntheticPatient& imaged, const Segmentation& truth, int number,
+                          const fs::path& folder) {
   std::ostringstream toml;
   const auto say = [&](const std::string& what, const json& markups) {
     write_text_atomically(folder / (what + ".mrk.json"), markups.dump(1) + "\n");
@@ -171,13 +178,12 @@ std::string wrongly_found(const TrueBreast& breast, int number, const fs::path& 
   };
   if (number % 2) {
     const Eigen::Vector3d at =
-        breast.truth().nipple_in_lps + kNippleOff_mm * Eigen::Vector3d::UnitZ();
+        imaged.truth.nipple_in_lps + kNippleOff_mm * Eigen::Vector3d::UnitZ();
     toml << "nipple.point_lps_mm = [" << at.x() << ", " << at.y() << ", " << at.z() << "]\n";
   }
   if (number % 4 == 1 || number % 4 == 2)
-    say("chest_wall",
-        wall_off_laterally(breast.truth(), number % 4 == 1 ? kWallOff_mm : -kWallOff_mm));
-  if (number % 5 == 2) say("region", region_without_flank(breast.truth(), kRegionCut));
+    say("chest_wall", wall_off_laterally(truth, number % 4 == 1 ? kWallOff_mm : -kWallOff_mm));
+  if (number % 5 == 2) say("region", region_without_flank(truth, kRegionCut));
   return toml.str();
 }
 
@@ -231,21 +237,24 @@ void make_registration_case(int number, Difficulty difficulty, const fs::path& f
   if (fs::exists(folder / "patient.toml")) return;
   fs::create_directories(folder);
   DrawnPatient drawn;
-  const SyntheticPatient patient = make_drawn(number, difficulty, drawn);
+  SyntheticPatient patient = make_drawn(number, difficulty, drawn);
   const TrueBreast breast(patient, drawn);
   const Detector detector = synthetic_detector(drawn.patient.anatomy.side);
+  const bool hard = difficulty == Difficulty::hard, in_coil = hard && number % 5 == 3;
+  const HermiteMesh imaged = in_coil ? breast.between_coil_plates(kCoilPress) : breast.prone();
+  if (in_coil) patient = imaged_pressed(std::move(patient), breast.prone(), imaged);
   std::vector<TrueView> views;
   for (const DrawnView& view : drawn.views) views.push_back(breast.compress_view(view));
   for (const TrueView& view : views)
     write_png(folder / (view.view.name + ".png"),
               true_mammogram(breast, view, detector, drawn.patient.anatomy.seed));
-  const bool hard = difficulty == Difficulty::hard;
   if (hard) draw_over(number, folder);
   write_nrrd(folder / kScan, patient.scan.image);
-  write_text_atomically(folder / "landmarks.csv", landmark_table(breast, views, detector, number));
+  write_text_atomically(folder / "landmarks.csv",
+                        landmark_table(breast, imaged, views, detector, number));
   write_text_atomically(folder / "drawn.json", drawn_json(drawn, views).dump(1) + "\n");
   write_text_atomically(folder / "patient.toml",
-                        (hard ? wrongly_found(breast, number, folder) : "") +
+                        (hard ? wrongly_found(patient, breast.truth(), number, folder) : "") +
                             body_toml(patient, drawn) + views_toml(drawn, views, detector));
 }
 
@@ -281,7 +290,7 @@ void make_tomosynthesis_case(bool coarse, const fs::path& folder) {
   }
   write_nrrd(folder / kScan, patient.scan.image);
   write_text_atomically(folder / "landmarks.csv",
-                        landmark_table(breast, views, detector, kPatient));
+                        landmark_table(breast, breast.prone(), views, detector, kPatient));
   write_text_atomically(folder / "slices.json", slices.dump(1) + "\n");
   write_text_atomically(folder / "drawn.json", drawn_json(drawn, views).dump(1) + "\n");
   write_text_atomically(folder / "patient.toml", toml);

@@ -77,13 +77,33 @@ TrueBreast::TrueBreast(const SyntheticPatient& patient, const DrawnPatient& draw
       unloaded_(unloaded_truth(truth_, drawn)),
       prone_(unloaded_.configurations.at("prone"), unloaded_.mesh.elements()) {}
 
-TrueView TrueBreast::compress_view(const DrawnView& drawn) const {
-  const CompressionSettings settings = true_settings(tissue_);
+CompressionProblem TrueBreast::problem(const CompressionSettings& settings, Pose pose) const {
   CompressionProblem problem{
       breast_problem(unloaded_, tissue_of(unloaded_, truth_.fractions), settings, 1), {}, {}};
-  problem.gravity = gravity_in_lps(Pose::standing);
+  problem.gravity = gravity_in_lps(pose);
   problem.density = GravitySettings().density();
   problem.friction = settings.friction;
+  return problem;
+}
+
+HermiteMesh TrueBreast::between_coil_plates(double share) const {
+  constexpr double kClearance_mm = 15;  // of the plates from the chest wall
+  CompressionSettings settings = true_settings(tissue_);
+  settings.paddle_tilt_deg = 0;
+  CompressionProblem problem = this->problem(settings, Pose::prone);
+  settings.shape_plates(problem.plates);
+  problem.plates.up = Eigen::Vector3d::UnitX();
+  problem.plates.wall_clearance = kClearance_mm;
+  problem.plates.thickness = (1 - share) * free_thickness(prone_file(unloaded_), problem.plates);
+  const CompressionResult result = compress(problem, settings.options);
+  if (!result.report.usable())
+    throw std::runtime_error("truth: between the coil's plates: " + result.report.reason);
+  return HermiteMesh(result.deformed, unloaded_.mesh.elements());
+}
+
+TrueView TrueBreast::compress_view(const DrawnView& drawn) const {
+  const CompressionSettings settings = true_settings(tissue_);
+  CompressionProblem problem = this->problem(settings, Pose::standing);
   const Eigen::Matrix3d axes = true_axes(side_, drawn);
   settings.shape_plates(problem.plates);
   problem.plates.depth = axes.row(0);

@@ -5,6 +5,8 @@
 #include <string>
 
 #include "fitting/mesh/mesh_file.h"
+#include "pipeline/patient/compression_settings.h"
+#include "pipeline/patient/gravity_settings.h"
 #include "pipeline/synthesize/patient.h"
 #include "registration/view/compressed_view.h"
 #include "registration/view/detector.h"
@@ -66,10 +68,16 @@ class TrueBreast {
   const HermiteMesh& prone() const { return prone_; }
   const Segmentation& truth() const { return truth_; }
 
+  /// The prone breast, hanging from the chest between two upright plates of a coil that take this
+  /// share off its width. Throws std::runtime_error where the plates do not come together so far.
+  HermiteMesh between_coil_plates(double share) const;
+
   /// Throws std::runtime_error where the plates do not come to the thickness.
   TrueView compress_view(const DrawnView& drawn) const;
 
  private:
+  CompressionProblem problem(const CompressionSettings& settings, Pose pose) const;
+
   Segmentation truth_;
   TrueTissue tissue_;
   Side side_;

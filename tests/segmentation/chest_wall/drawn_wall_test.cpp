@@ -62,11 +62,19 @@ TEST(DrawnWall, GoesBeforeWhatIsUsual) {
 }
 
 TEST(DrawnWall, RefusesAPointWhereNoWallCanBe) {
-  for (const Eigen::Vector3d& x : {at(120, 90, 10), at(0, 20, 10), at(0, 400, 10), at(0, 90, 300)})
+  for (const Eigen::Vector3d& x : {at(120, 90, 10), at(0, 20, 10), at(0, 400, 10)})
     expect_mentions(message_of([&] {
                       drawn_radii(even_grid(), {at(0, 90, 10), x});
                     }),
                     {"chest wall drawn", "no chest wall can be", "LPS"});
+}
+
+TEST(DrawnWall, SlicesAboveAndBelowDoNotCount) {
+  const auto alone = drawn_radii(even_grid(), {at(0, 90, 10)});
+  const auto both = drawn_radii(even_grid(), {at(0, 90, 10), at(0, 90, 300)});
+  for (std::size_t n = 0; n < alone.size(); ++n) EXPECT_EQ(alone[n].mean, both[n].mean);
+  expect_mentions(message_of([] { drawn_radii(even_grid(), {at(0, 90, 300)}); }),
+                  {"no chest wall can be"});
 }
 
 }  // namespace
