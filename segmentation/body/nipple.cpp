@@ -23,9 +23,10 @@ constexpr double least_mm = 2;  // over the ball: less is the outline's own unev
 constexpr double least_ml = 0.08, most_ml = 3;
 constexpr double tip_mm = 1;         // the tip is the middle of what stands out as far as this
 constexpr double same_place_mm = 8;  // a papilla's tip from the place of the best sum
-constexpr double nearness_mm = 25;   // to the most anterior point
-constexpr double reach_mm = 60;      // what lies farther off is not looked at
-constexpr double beyond_mm = 20;     // of the crop: what smoothing reaches
+constexpr double papilla_per_mm = 1, most_papilla = 6;  // of a sum, for its height
+constexpr double nearness_mm = 25;                      // to the most anterior point
+constexpr double reach_mm = 60;                         // what lies farther off is not looked at
+constexpr double beyond_mm = 20;                        // of the crop: what smoothing reaches
 constexpr double off_edge_mm = 5, off_midline_mm = 15;  // of the region: labels end there
 constexpr double least_evidence = 5;
 constexpr double apart_mm = 12;      // between candidates
@@ -59,19 +60,81 @@ bool is_well_inside(const BreastRegion& r, const Vector3d& x) {
          x.z() < r.z_max - off_edge_mm;
 }
 
+struct Bump {
+  double height = 0;
+  std::size_t voxels = 0;
+  Vector3d tip = Vector3d::Zero();
+  int at_tip = 0;
+};
+
+/// Height, size and tip of each part that stands out.
+std::vector<Bump> measure(const Components& parts, const Volume<float>& height) {
+  std::vector<Bump> bumps(parts.sizes.size());
+  for (std::size_t v = 0; v < height.values.size(); ++v)
+    if (const int id = parts.ids.values[v]; id > 0)
+      bumps[id].height = std::max<double>(bumps[id].height, height.values[v]), ++bumps[id].voxels;
+  for (int k = 0; k < height.size.z(); ++k)
+    for (int j = 0; j < height.size.y(); ++j)
+      for (int i = 0; i < height.size.x(); ++i)
+        if (const int id = parts.ids(i, j, k); id > 0)
+          if (Bump& bump = bumps[id]; height(i, j, k) > bump.height - tip_mm)
+            bump.tip += height.position(i, j, k), ++bump.at_tip;
+  for (Bump& bump : bumps)
+    if (bump.at_tip > 0) bump.tip /= bump.at_tip;
+  return bumps;
+}
+
+/// Parts of a body that an opening by a ball takes away, as high and large as a papilla may be.
+struct StandingOut {
+  Components parts;
+  std::vector<Bump> bumps;  ///< by part
+  std::vector<int> as_papilla;
+
+  explicit StandingOut(const Mask& body) {
+    const Mask smooth = opened(body, ball_mm);
+    auto standing = body;
+    for (std::size_t v = 0; v < standing.values.size(); ++v)
+      standing.values[v] = body.values[v] && !smooth.values[v];
+    parts = connected_components(standing);
+    bumps = measure(parts, distance_to(smooth));
+    for (int id = 1; id < static_cast<int>(bumps.size()); ++id) {
+      const double ml = static_cast<double>(bumps[id].voxels) * body.voxel_volume() / 1000;
+      if (bumps[id].height >= least_mm && ml >= least_ml && ml <= most_ml) as_papilla.push_back(id);
+    }
+  }
+
+  /// The part whose tip is nearest to a place, within 8 mm; 0: there is none.
+  int at(const Vector3d& x) const {
+    double nearest = same_place_mm;
+    int found = 0;
+    for (const int id : as_papilla)
+      if (const double away = (bumps[id].tip - x).norm(); away <= nearest) {
+        nearest = away;
+        found = id;
+      }
+    return found;
+  }
+
+  /// What a papilla at a place is worth beside what its skin shows.
+  double evidence(const Vector3d& x) const {
+    const int id = at(x);
+    return id == 0 ? 0 : std::min(papilla_per_mm * bumps[id].height, most_papilla);
+  }
+};
+
 struct Candidate {
   SkinPoint at;
   double score = 0;
 };
 
 /// The best places, apart from each other, the best first.
-std::vector<Candidate> candidates(std::vector<SkinPoint> skin, const BreastRegion& region,
-                                  const Vector3d& front) {
+std::vector<Candidate> candidates(std::vector<SkinPoint> skin, const StandingOut& out,
+                                  const BreastRegion& region, const Vector3d& front) {
   std::vector<Candidate> all;
   for (const SkinPoint& point : skin) {
     if (!is_well_inside(region, point.x_in_lps)) continue;
     const double near = (point.x_in_lps - front).norm() / nearness_mm;
-    all.push_back({point, point.sum() - 0.5 * near * near});
+    all.push_back({point, point.sum() + out.evidence(point.x_in_lps) - 0.5 * near * near});
   }
   std::stable_sort(all.begin(), all.end(),
                    [](const Candidate& a, const Candidate& b) { return a.score > b.score; });
@@ -97,53 +160,14 @@ double deviation(const std::vector<Candidate>& best) {
   return std::sqrt(sum / weights + at_best_sd_mm * at_best_sd_mm);
 }
 
-struct Bump {
-  double height = 0;
-  std::size_t voxels = 0;
-  Vector3d tip = Vector3d::Zero();
-  int at_tip = 0;
-};
-
-/// Height, size and tip of each part that stands out.
-std::vector<Bump> measure(const Components& parts, const Volume<float>& height) {
-  std::vector<Bump> bumps(parts.sizes.size());
-  for (std::size_t v = 0; v < height.values.size(); ++v)
-    if (const int id = parts.ids.values[v]; id > 0)
-      bumps[id].height = std::max<double>(bumps[id].height, height.values[v]), ++bumps[id].voxels;
-  for (int k = 0; k < height.size.z(); ++k)
-    for (int j = 0; j < height.size.y(); ++j)
-      for (int i = 0; i < height.size.x(); ++i)
-        if (const int id = parts.ids(i, j, k); id > 0)
-          if (Bump& bump = bumps[id]; height(i, j, k) > bump.height - tip_mm)
-            bump.tip += height.position(i, j, k), ++bump.at_tip;
-  for (Bump& bump : bumps)
-    if (bump.at_tip > 0) bump.tip /= bump.at_tip;
-  return bumps;
-}
-
 /// What stands out at the nipple, if anything does; the tip moves to its middle.
-void take_papilla(const Mask& body, Nipple& nipple) {
-  const Mask smooth = opened(body, ball_mm);
-  auto standing = body;
-  for (std::size_t v = 0; v < standing.values.size(); ++v)
-    standing.values[v] = body.values[v] && !smooth.values[v];
-  const Components parts = connected_components(standing);
-  const std::vector<Bump> bumps = measure(parts, distance_to(smooth));
-  int papilla = 0;
-  double nearest = same_place_mm;
-  for (int id = 1; id < static_cast<int>(bumps.size()); ++id) {
-    const Bump& bump = bumps[id];
-    const double ml = static_cast<double>(bump.voxels) * body.voxel_volume() / 1000;
-    const double away = (bump.tip - nipple.tip_in_lps).norm();
-    if (bump.height < least_mm || ml < least_ml || ml > most_ml || away > nearest) continue;
-    nearest = away;
-    papilla = id;
-  }
+void take_papilla(const StandingOut& out, Nipple& nipple) {
+  const int papilla = out.at(nipple.tip_in_lps);
   if (papilla == 0) return;
-  nipple.tip_in_lps = bumps[papilla].tip;
-  nipple.papilla = body.like<std::uint8_t>(0);
-  for (std::size_t v = 0; v < body.values.size(); ++v)
-    nipple.papilla.values[v] = parts.ids.values[v] == papilla;
+  nipple.tip_in_lps = out.bumps[papilla].tip;
+  nipple.papilla = out.parts.ids.like<std::uint8_t>(0);
+  for (std::size_t v = 0; v < nipple.papilla.values.size(); ++v)
+    nipple.papilla.values[v] = out.parts.ids.values[v] == papilla;
 }
 
 }  // namespace
@@ -159,16 +183,17 @@ Nipple find_nipple(const Mask& labels, const BreastRegion& region, const Volume<
   Nipple nipple = unknown_nipple(labels, region);
   const Vector3d front = nipple.tip_in_lps;
   const Near near = cut_near(labels, look, front);
+  const StandingOut out(near.body);
   const std::vector<Candidate> best =
-      candidates(skin_around(near.body, near.look, front, reach_mm), region, front);
+      candidates(skin_around(near.body, near.look, front, reach_mm), out, region, front);
   if (best.empty()) return nipple;
-  nipple.evidence = best.front().at.sum();
+  nipple.evidence = best.front().at.sum() + out.evidence(best.front().at.x_in_lps);
   nipple.is_found = nipple.evidence >= least_evidence;
   nipple.rival_in_lps = best[best.size() > 1 && nipple.is_found ? 1 : 0].at.x_in_lps;
   if (!nipple.is_found) return nipple;
   nipple.tip_in_lps = best.front().at.x_in_lps;
   nipple.sd_mm = deviation(best);
-  take_papilla(near.body, nipple);
+  take_papilla(out, nipple);
   return nipple;
 }
 

@@ -9,8 +9,8 @@ namespace mammotwin {
 
 struct Nipple {
   Eigen::Vector3d tip_in_lps = Eigen::Vector3d::Zero();  ///< [mm]
-  /// How surely it shows: SkinPoint's sum there. Where nothing shows, the tip is the most anterior
-  /// point.
+  /// How surely it shows: SkinPoint's sum there and the papilla's. Where nothing shows, the tip is
+  /// the most anterior point.
   double evidence = 0;
   bool is_found = false;
   /// Of the tip, from the other places on the skin that look like it [mm].
@@ -19,11 +19,12 @@ struct Nipple {
   Volume<std::uint8_t> papilla;  ///< what stands out, on a part of the labels' grid; or empty
 };
 
-/// The nipple, by what papilla, areola and ducts show (skin_look.h) and nearness to the most
-/// anterior point (25 mm): the place of the best sum; its standard deviation weighs the other
-/// candidates, 12 mm and more apart, by the exponential of what they fall short. Retracted and flat
-/// nipples show by brightness, in the skin and below it. Where something stands out there, as an
-/// opening by a ball of 9 mm takes away, that is the papilla and its tip the nipple.
+/// The nipple, by what papilla, areola and ducts show (skin_look.h), what stands out as an opening
+/// by a ball of 9 mm takes away (2 mm and more: its height) and nearness to the most anterior point
+/// (25 mm): the place of the best sum; its standard deviation weighs the other candidates, 12 mm
+/// and more apart, by the exponential of what they fall short. Retracted and flat nipples show by
+/// brightness, in the skin and below it. Where something stands out, that is the papilla and its
+/// tip the nipple.
 ///
 /// `look`: on the labels' grid, papilla and gland brighter than fat.
 Nipple find_nipple(const Volume<std::uint8_t>& labels, const BreastRegion& region,

@@ -80,6 +80,14 @@ TEST(RealMri, GhostsBesideTheBodyTakeNoBreastAway) {
   EXPECT_GT(region.z_max, 75);
 }
 
+TEST(RealMri, ARetractedNippleBesideATumourIsSeenByItsPapilla) {
+  MAMMOTWIN_NEED_CASE(folder, "mimbcd_e08feb68");
+  const SegmentResult result =
+      segmented(folder / "series_8.nrrd", Side::left, Eigen::Vector3d(74.4, 38.6, 3.7));
+  // By eye it is the tip at (83, -1, -10); what it shows is as bright as skin 30 mm below.
+  EXPECT_LT((result.quality.nipple_in_lps - Eigen::Vector3d(83, -1, -10)).norm(), 6);
+}
+
 TEST(RealMri, LiverAndHeartAreNoChestWall) {
   MAMMOTWIN_NEED_CASE(folder, "mimbcd_d1f3d33d");
   const Segmentation late = segmented(folder / "series_24.nrrd", Side::left).segmentation;

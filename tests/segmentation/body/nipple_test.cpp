@@ -53,6 +53,8 @@ TEST(Nipple, IsThePegBesideTheMostAnteriorPoint) {
   EXPECT_LT((nipple.tip_in_lps - (middle + 56 * direction)).norm(), 1.5);
   EXPECT_LT(nipple.sd_mm, 4);
   EXPECT_FALSE(nipple.papilla.values.empty());
+  // Nothing is bright: 6 at most for skin that stands out, the rest for the papilla's 5 to 6 mm.
+  EXPECT_NEAR(nipple.evidence, 11.5, 1);
 }
 
 /// A flat nipple, as an areola that takes up agent with ducts behind it, 24 mm beside the apex.
