@@ -65,8 +65,8 @@ std::vector<std::string> strange_state(const ViewState& state, const EdgePrior& 
   return why;
 }
 
-std::vector<std::string> why_none(const MatchFigures& left, const ViewState& state,
-                                  const EdgePrior& edge) {
+/// Whatever the state.
+std::vector<std::string> why_none(const MatchFigures& left) {
   std::vector<std::string> why;
   if (left.outline_rms_mm > no_registration::kOutline_mm)
     why.push_back(outline_sentence(left.outline_rms_mm) +
@@ -74,8 +74,6 @@ std::vector<std::string> why_none(const MatchFigures& left, const ViewState& sta
   if (left.pattern_correlation && *left.pattern_correlation < no_registration::kCorrelation)
     why.push_back(text_of("the patterns of dense tissue correlate by %.2f only, less than %.1f",
                           *left.pattern_correlation, no_registration::kCorrelation));
-  if (surely_in_place(left)) return why;
-  for (std::string& sentence : strange_state(state, edge)) why.push_back(std::move(sentence));
   return why;
 }
 
@@ -132,7 +130,12 @@ SearchVerdict judge_search(const std::string& view, const MatchFigures& left,
   SearchVerdict verdict{SearchEnd::no_registration, {}, surely_in_place(left)};
   verdict.weak_pattern = left.pattern_correlation && *left.pattern_correlation < kPoorCorrelation;
   std::string prefix = view + ": no registration: ";
-  std::vector<std::string> why = why_none(left, state, edge);
+  std::vector<std::string> why = why_none(left);
+  if (!verdict.in_place) {
+    const std::vector<std::string> strange = strange_state(state, edge);
+    if (why.empty()) verdict.strange = strange;
+    why.insert(why.end(), strange.begin(), strange.end());
+  }
   if (why.empty()) {
     why = why_look(left, state, edge, complete, baseline);
     verdict.end = why.empty() ? SearchEnd::ok : SearchEnd::look;
@@ -144,6 +147,18 @@ SearchVerdict judge_search(const std::string& view, const MatchFigures& left,
 }
 
 void judge_together(const std::vector<std::string>& views, std::vector<SearchVerdict>& verdicts) {
+  const auto in_place = std::find_if(verdicts.begin(), verdicts.end(),
+                                     [](const SearchVerdict& v) { return v.in_place; });
+  for (std::size_t v = 0; in_place != verdicts.end() && v < verdicts.size(); ++v) {
+    SearchVerdict& verdict = verdicts[v];
+    if (verdict.strange.empty() || verdict.weak_pattern) continue;
+    verdict.end = SearchEnd::look;
+    verdict.reasons.clear();
+    for (const std::string& sentence : verdict.strange)
+      verdict.reasons.push_back(views[v] + ": " + sentence);
+    verdict.reasons.push_back(views[v] + ": registered for " + views[in_place - verdicts.begin()] +
+                              ", searched with it, is surely this breast");
+  }
   if (verdicts.size() > 1 && std::all_of(verdicts.begin(), verdicts.end(),
                                          [](const SearchVerdict& v) { return v.weak_pattern; }))
     for (std::size_t v = 0; v < verdicts.size(); ++v) {

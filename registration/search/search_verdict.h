@@ -24,6 +24,8 @@ struct SearchVerdict {
   std::vector<std::string> reasons;  ///< sentences with numbers and units
   bool in_place = false;             ///< surely (view_match.h), whatever else is strange
   bool weak_pattern = false;         ///< that alone asks for a look
+  /// What is strange of the state, where that alone is why there is no registration.
+  std::vector<std::string> strange = {};
 };
 
 /// Beyond these a model lies on no mammogram, or on another breast's.
@@ -45,10 +47,11 @@ SearchVerdict judge_search(const std::string& view, const MatchFigures& left,
                            const ViewState& state, const EdgePrior& edge, bool complete,
                            const std::optional<MatchFigures>& baseline = {});
 
-/// Views are searched together, and their mammograms are of one breast: beside one with no
-/// registration, `ok` becomes `look`, and `look` no registration unless it is surely in place;
-/// views that all have a weak pattern have no registration (so CC and MLO exchanged). `views` are
-/// their names.
+/// Views are searched together, and their mammograms are of one breast. A view that has no
+/// registration for its strange state alone, and no weak pattern, is `look` beside one that is
+/// surely in place. Beside one with no registration `ok` becomes `look`, and `look` no registration
+/// unless it is surely in place; views that all have a weak pattern have no registration (so CC and
+/// MLO exchanged). `views` are their names.
 void judge_together(const std::vector<std::string>& views, std::vector<SearchVerdict>& verdicts);
 
 }  // namespace mammotwin

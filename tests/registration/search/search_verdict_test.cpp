@@ -137,6 +137,27 @@ TEST(SearchVerdict, DoubtsTheViewBesideOneWithoutARegistration) {
   EXPECT_EQ(fine[1].end, SearchEnd::look);
 }
 
+TEST(SearchVerdict, BelievesAStrangeStateBesideAViewThatIsSurelyInPlace) {
+  ViewState rolled = ViewState::Zero();
+  rolled[kRoll] = 15;
+  MatchFigures fair = good(), weak = good(), poor = good();
+  fair.pattern_correlation = 0.7;
+  weak.pattern_correlation = 0.6;
+  poor.outline_rms_mm = 9;
+  const auto beside = [&](const MatchFigures& left, const MatchFigures& other) {
+    std::vector<SearchVerdict> both{judged(other), judged(left, rolled)};
+    judge_together({"cc", "mlo"}, both);
+    return both[1];
+  };
+  EXPECT_EQ(beside(fair, good()).end, SearchEnd::look);
+  EXPECT_TRUE(says(beside(fair, good()), "mlo: the mammogram asks for another roll"));
+  EXPECT_TRUE(says(beside(fair, good()), "mlo: registered for cc"));
+  EXPECT_FALSE(says(beside(fair, good()), "no registration"));
+  EXPECT_EQ(beside(fair, fair).end, SearchEnd::no_registration);
+  EXPECT_EQ(beside(weak, good()).end, SearchEnd::no_registration);
+  EXPECT_EQ(beside(poor, good()).end, SearchEnd::no_registration);
+}
+
 TEST(SearchVerdict, BelievesNoViewWhereAllPatternsAreWeak) {
   MatchFigures left = good();
   left.pattern_correlation = 0.55;
