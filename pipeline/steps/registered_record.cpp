@@ -136,6 +136,9 @@ RegisteredRecord read_registered(const MeshFile& file, const std::string& name) 
   record.uncertainty = read_uncertainty(file, name);
   record.what_if = read_what_if(file);
   record.end = read_end(file, name);
+  if (record.uncertainty)
+    record.uncertainty->against_mammogram =
+        record.end == SearchEnd::ok || record.end == SearchEnd::look;
   return record;
 }
 

@@ -5,6 +5,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "registration/search/model_discrepancy.h"
+#include "registration/search/view_refinement.h"
+
 namespace mammotwin {
 
 namespace {
@@ -26,6 +29,18 @@ Eigen::Vector3d position(const Nodes& nodes, const HermiteMesh::Corners& corners
 
 }  // namespace
 
+double unexplained_mm2(const ViewUncertainty& uncertainty, const Detector& detector,
+                       const Eigen::Vector2d& on_detector) {
+  const double left = uncertainty.discrepancy_mm * uncertainty.discrepancy_mm;
+  double fading = 0;
+  if (uncertainty.against_mammogram) {
+    const double lengths = detector.beside_image_mm(on_detector) / kDisplacementLength_mm;
+    const double uncorrected = kUncorrectedSd_mm * kUncorrectedSd_mm;
+    fading = std::max(0.0, uncorrected - left) * (1 - std::exp(-lengths * lengths / 2));
+  }
+  return kModelSd_mm * kModelSd_mm + left + fading;
+}
+
 Eigen::Matrix2d detector_covariance(const ViewUncertainty& uncertainty,
                                     const HermiteMesh& compressed, const CompressedView& view,
                                     const Detector& detector, const MeshPoint& point) {
@@ -42,9 +57,8 @@ Eigen::Matrix2d detector_covariance(const ViewUncertainty& uncertainty,
   }
   for (int i = kMechanical; i < kStates; ++i)
     J.col(i) = detector.project(placed(x, uncertainty.sd, i)) - here;
-  const double unexplained =
-      kModelSd_mm * kModelSd_mm + uncertainty.discrepancy_mm * uncertainty.discrepancy_mm;
-  return J * uncertainty.covariance * J.transpose() + unexplained * Eigen::Matrix2d::Identity();
+  return J * uncertainty.covariance * J.transpose() +
+         unexplained_mm2(uncertainty, detector, here) * Eigen::Matrix2d::Identity();
 }
 
 ViewUncertainty without_placement(ViewUncertainty uncertainty) {

@@ -26,10 +26,18 @@ struct ViewUncertainty {
   /// What is left unexplained besides kModelSd_mm, on the detector, the same in each direction
   /// [mm]; model_discrepancy.h.
   double discrepancy_mm = 0;
+  bool against_mammogram = false;  ///< that is what a search left, and so of tissue in the image
 };
 
-/// Covariance on the detector [mm^2] of a material point: J C J^T + kModelSd_mm^2 +
-/// discrepancy_mm^2, J being the slopes times a standard deviation.
+/// Variance in each direction [mm^2] at a place on the detector that no state explains:
+/// kModelSd_mm^2 + discrepancy_mm^2. What a mammogram shows of the model's displacements says the
+/// less of tissue the farther that lies beside the image: over their length (30 mm, as
+/// view_refinement.h has it) the discrepancy becomes that of a prediction that none corrects.
+double unexplained_mm2(const ViewUncertainty& uncertainty, const Detector& detector,
+                       const Eigen::Vector2d& on_detector);
+
+/// Covariance on the detector [mm^2] of a material point: J C J^T + unexplained_mm2, J being the
+/// slopes times a standard deviation.
 Eigen::Matrix2d detector_covariance(const ViewUncertainty& uncertainty,
                                     const HermiteMesh& compressed, const CompressedView& view,
                                     const Detector& detector, const MeshPoint& point);

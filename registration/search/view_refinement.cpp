@@ -11,7 +11,7 @@
 namespace mammotwin {
 namespace {
 
-constexpr double kDisplacementSd_mm = 2, kDisplacementLength_mm = 30;  // of the prior
+constexpr double kDisplacementSd_mm = 2;  // of the prior
 constexpr double kLeastOutline_mm = 0.5, kLeastPattern = 0.25;         // noise, whatever is left
 constexpr double kControlNudge = 0.1;                                  // of a standard deviation
 constexpr int kMostRefinements = 5;

@@ -109,6 +109,7 @@ SearchedView matched(const SearchInput& input, const ViewToSearch& found, const 
   result.discrepancy = model_discrepancy(*result.after);
   if (end.states.size() > 1) result.discrepancy.views_mm = disagreement(found.match, end, number);
   result.uncertainty.discrepancy_mm = result.discrepancy.sd_mm();
+  result.uncertainty.against_mammogram = true;
   return result;
 }
 

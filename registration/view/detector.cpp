@@ -1,5 +1,7 @@
 #include "registration/view/detector.h"
 
+#include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <string>
 
@@ -48,6 +50,15 @@ Eigen::Vector2d Detector::detector_from_image(const Eigen::Vector2d& column_row)
   const double from_middle = column_row.y() - 0.5 * (grid.rows - 1);
   return {(from_edge + 0.5) * grid.spacing_mm,
           from_middle * grid.spacing_mm * (grid.lateral_at_top ? -1 : 1)};
+}
+
+double Detector::beside_image_mm(const Eigen::Vector2d& on_detector) const {
+  if (!pixels) return 0;
+  const double width = pixels->columns * pixels->spacing_mm,
+               half_height = pixels->rows * pixels->spacing_mm / 2;
+  const double along = std::max({0.0, -on_detector.x(), on_detector.x() - width});
+  const double across = std::max(0.0, std::abs(on_detector.y()) - half_height);
+  return std::hypot(along, across);
 }
 
 void check_detector(const Detector& detector) {

@@ -43,6 +43,9 @@ struct Detector {
   /// Both throw std::logic_error without a pixel grid.
   Eigen::Vector2d image_from_detector(const Eigen::Vector2d& on_detector) const;
   Eigen::Vector2d detector_from_image(const Eigen::Vector2d& column_row) const;
+
+  /// How far (u, v) lies beside the image [mm]; 0 in it, and without a pixel grid.
+  double beside_image_mm(const Eigen::Vector2d& on_detector) const;
 };
 
 /// Throws std::invalid_argument naming the field unless distances are plausible: source 300 to

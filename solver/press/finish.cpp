@@ -65,6 +65,7 @@ class Finish {
     }
   };
   Errors errors(const State& state) const;
+  double imbalance(const State& state) const;
   void remember(const Errors& now, const State& state);
   Place here(const State& state) const;
   void go_back_to(const Place& place, State& state);
@@ -99,6 +100,12 @@ Finish::Errors Finish::errors(const State& state) const {
           tilt,
           std::abs(thickness) > options.thickness_tolerance,
           std::abs(tilt) > kTiltTolerance};
+}
+
+/// Of the forces that flow.
+double Finish::imbalance(const State& state) const {
+  const Balance balance = press_.newton().balance(state);
+  return balance.residual.norm() / balance.flow;
 }
 
 void Finish::remember(const Errors& now, const State& state) {
@@ -204,7 +211,9 @@ NewtonReport Finish::run(State& state) {
   }
   if (std::isfinite(best_error_)) go_back_to(best_, state);
   const Place last = here(state);
-  if (!settle(state)) go_back_to(last, state);
+  const double out_of_balance = imbalance(state);
+  if (!settle(state) && !(imbalance(state) < out_of_balance && errors(state).near_enough()))
+    go_back_to(last, state);
   return total_;
 }
 

@@ -40,15 +40,16 @@ MeasuredPage page_of(const json& table) {
   MeasuredPage page;
   page.name = text_at(table, "name", "[[page]]");
   const std::string where = "[[page]] " + page.name;
-  check_keys(
-      table,
-      {"name", "title", "about", "command", "case_name", "group_by", "every_case", "columns"},
-      where);
+  check_keys(table,
+             {"name", "title", "about", "command", "case_name", "group_by", "summary", "every_case",
+              "columns"},
+             where);
   page.title = text_at(table, "title", where);
   page.about = text_at(table, "about", where);
   page.command = text_at(table, "command", where);
   page.case_name = table.value("case_name", std::vector<std::string>{"name"});
   if (table.contains("group_by")) page.group_by = text_at(table, "group_by", where);
+  page.summary = table.value("summary", true);
   page.every_case = table.value("every_case", true);
   for (const json& column : table.value("columns", json::array()))
     page.columns.push_back(column_of(column, where));
@@ -175,10 +176,13 @@ std::string measured_markdown(const MeasuredPage& page, const json& evaluation) 
   const json& cases = evaluation.at("cases");
   std::string text = "# " + page.title + "\n\n" + page.about + "\n\nMeasured by `" + page.command +
                      "`; this page is written by `make measured` from [data/" + page.name +
-                     ".json](data/" + page.name +
-                     ".json). Numbers are median, worst; bold misses its aim.\n\n" +
-                     summary_table(page, cases);
-  if (page.every_case) text += "\n## Every case\n\n" + case_table(page, cases);
+                     ".json](data/" + page.name + ".json). ";
+  if (page.summary)
+    text += "Numbers are median, worst; bold misses its aim.\n\n" + summary_table(page, cases) +
+            (page.every_case ? "\n## Every case\n\n" : "");
+  else
+    text += "Bold misses its aim.\n\n";
+  if (page.every_case) text += case_table(page, cases);
   return text;
 }
 

@@ -24,6 +24,7 @@ struct MeasuredPage {
   std::string command;
   std::vector<std::string> case_name;   ///< keys that together name a case
   std::optional<std::string> group_by;  ///< the summary has a line for each value of this key
+  bool summary = true;                  ///< where its cases are of one kind
   bool every_case = true;               ///< a table with a line for each case follows the summary
   std::vector<MeasuredColumn> columns;
 };
@@ -32,8 +33,8 @@ struct MeasuredPage {
 /// naming the page and key that is missing or unknown.
 std::vector<MeasuredPage> measured_pages(const nlohmann::json& tables);
 
-/// Markdown: a summary (number of cases, median and worst of each column; of truth values, how
-/// many hold) and, where asked, a line for each case. `evaluation` holds the list `cases`; what is
+/// Markdown: where asked a summary (number of cases, median and worst of each column; of truth
+/// values, how many hold) and a line for each case. `evaluation` holds the list `cases`; what is
 /// null or absent in a case stands empty and does not count. Throws std::runtime_error if there is
 /// no such list or it is empty.
 std::string measured_markdown(const MeasuredPage& page, const nlohmann::json& evaluation);

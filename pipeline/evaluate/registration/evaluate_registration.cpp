@@ -75,11 +75,20 @@ Difficulty difficulty_of(const Arguments& args) {
   return args.hard ? Difficulty::hard : args.coarse ? Difficulty::coarse : Difficulty::easy;
 }
 
-/// The folder of patient n + 1, whose mammograms are shown as those of patient n.
+/// The folder of the next patient after n who can be drawn, whose mammograms are shown as those of
+/// patient n: plates do not come to every thickness.
 fs::path another_patient(int number, const Arguments& args, const fs::path& folder) {
-  const fs::path next = folder.parent_path() / ("mammograms-" + std::to_string(number + 1));
-  if (!args.judge) make_registration_case(number + 1, difficulty_of(args), next);
-  return next;
+  constexpr int kMostTried = 3;
+  for (int next = number + 1;; ++next) {
+    const fs::path other = folder.parent_path() / ("mammograms-" + std::to_string(next));
+    if (args.judge) return other;
+    try {
+      make_registration_case(next, difficulty_of(args), other);
+      return other;
+    } catch (const std::exception&) {
+      if (next == number + kMostTried) throw;
+    }
+  }
 }
 
 void add_misfits(int number, const fs::path& folder, const Arguments& args,

@@ -44,8 +44,8 @@
     J.push(to([x[0] + sd[DEPTH], x[1], x[2]]), to([x[0], x[1] + sd[LATERAL], x[2]]));
     return J;
   };
-  const ellipseOf = (view, point, x) => {
-    const J = slopes(view, point, x), { covariance, unexplained_mm2 } = view.what_if.ellipse;
+  const ellipseOf = (view, { point, unexplained_mm2 }, x) => {
+    const J = slopes(view, point, x), { covariance } = view.what_if.ellipse;
     const S = [unexplained_mm2, 0, unexplained_mm2];  // uu, uv, vv
     for (let i = 0; i < STATES; ++i)
       for (let j = 0; j < STATES; ++j) {
@@ -61,9 +61,9 @@
   };
   // Of a lesion by its number: where the sliders put it, and its ellipse.
   mammotwin.whatIf = (name, lesion) => {
-    const view = mammotwin.panes.get(name).view, model = view.what_if, { point } = model.lesions[lesion];
-    const x = placeOf(model, point);
-    return { uv: mammotwin.project(view, x), ellipse: ellipseOf(view, point, x) };
+    const view = mammotwin.panes.get(name).view, model = view.what_if;
+    const x = placeOf(model, model.lesions[lesion].point);
+    return { uv: mammotwin.project(view, x), ellipse: ellipseOf(view, model.lesions[lesion], x) };
   };
 
   // An outline's pieces, given by the numbers of their ends, one after the other.
@@ -121,7 +121,7 @@
     const { view } = pane, model = view.what_if, hidden = document.getElementById("lesions").classList;
     const colour = mammotwin.views.lesion_colour;
     for (const lesion of model.lesions) {
-      const x = placeOf(model, lesion.point), uv = mammotwin.project(view, x), ellipse = ellipseOf(view, lesion.point, x);
+      const x = placeOf(model, lesion.point), uv = mammotwin.project(view, x), ellipse = ellipseOf(view, lesion, x);
       if (!hidden.contains("without-ellipses")) {
         mammotwin.path(context, pane, rim(ellipse, uv));
         mammotwin.edged(context, colour, 2);

@@ -122,9 +122,7 @@ ViewUncertainty shown_uncertainty(const PatientResults& results, const ViewResul
 json ellipse_data(const ViewUncertainty& uncertainty) {
   const auto& c = uncertainty.covariance;
   return {{"sd", std::vector<double>(uncertainty.sd.begin(), uncertainty.sd.end())},
-          {"covariance", std::vector<double>(c.data(), c.data() + c.size())},
-          {"unexplained_mm2",
-           kModelSd_mm * kModelSd_mm + uncertainty.discrepancy_mm * uncertainty.discrepancy_mm}};
+          {"covariance", std::vector<double>(c.data(), c.data() + c.size())}};
 }
 
 /// Such a breast ends elsewhere at a little more or less of anything: no reduced model follows it.
@@ -175,6 +173,7 @@ json what_if_data(const PatientResults& results, const ViewResult& view) {
     data["lesions"].push_back(
         {{"id", lesions[n].id},
          {"point", point},
+         {"unexplained_mm2", unexplained_mm2(*view.uncertainty, view.detector, place.on_detector)},
          {"outline", outline_of(results, n, place, projection, rays, points)}});
   }
   if (const auto nipple = results.nipple()) {

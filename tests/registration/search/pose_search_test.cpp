@@ -7,6 +7,7 @@
 #include <random>
 
 #include "registration/carry/point_carrier.h"
+#include "registration/search/model_discrepancy.h"
 #include "registration/search/search_ellipse.h"
 #include "registration/search/view_disagreement.h"
 #include "tests/registration/box_view.h"
@@ -105,6 +106,28 @@ TEST(SearchEllipse, ItsRimPartsInsideFromOutside) {
     EXPECT_TRUE(contains(ellipse, 0.999 * off));
     EXPECT_FALSE(contains(ellipse, 1.001 * off));
   }
+}
+
+// Beside the image a search's 1 mm become 6.2: by 1 - exp(-1/2) of the way, in squares, at 30 mm.
+TEST(SearchEllipse, GrowsBesideTheImageThatTheSearchSaw) {
+  Detector detector;
+  detector.pixels = PixelGrid{0.5, 400, 600};  // 200 x 300 mm
+  ViewUncertainty uncertainty;
+  uncertainty.discrepancy_mm = 1;
+  const auto at = [&](double u, double v) {
+    return unexplained_mm2(uncertainty, detector, {u, v}) - kModelSd_mm * kModelSd_mm;
+  };
+  EXPECT_NEAR(at(-30, 0), 1, 1e-12) << "no search";
+  uncertainty.against_mammogram = true;
+  for (const auto& [u, v] : {std::pair{0., 0.}, {199., 149.}, {10., -149.}})
+    EXPECT_NEAR(at(u, v), 1, 1e-12);
+  const double far = kUncorrectedSd_mm * kUncorrectedSd_mm, share = 1 - std::exp(-0.5);
+  for (const auto& [u, v] : {std::pair{-30., 20.}, {230., 0.}, {50., -180.}, {-18., 174.}})
+    EXPECT_NEAR(at(u, v), 1 + share * (far - 1), 1e-9) << u << " " << v;
+  uncertainty.discrepancy_mm = 8;
+  EXPECT_NEAR(at(-30, 0), 64, 1e-9) << "never less than in the image";
+  detector.pixels.reset();
+  EXPECT_NEAR(at(-30, 0), 64, 1e-9);
 }
 
 TEST(SearchEllipse, GrowsWithWhatIsNotKnown) {

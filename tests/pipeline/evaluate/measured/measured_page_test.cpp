@@ -24,6 +24,7 @@ MeasuredPage small_page() {
           {"name", "side"},
           std::nullopt,
           true,
+          true,
           {{"rms_mm", "RMS [mm]", 2, false, 0.5},
            {"volume.share", "share", 1, true, 0.9},
            {"ok", "usable", 2, false, std::nullopt}}};
@@ -59,6 +60,15 @@ TEST(MeasuredPage, TheWorstOfSignedNumbersIsTheLargestInSize) {
   const std::string text = measured_markdown(small_page(), rows);
   EXPECT_NE(text.find("| all | 3 | 0.10, **-0.75** |"), std::string::npos) << text;
   EXPECT_NE(text.find("| b | **-0.75** |"), std::string::npos) << text;
+}
+
+TEST(MeasuredPage, MayBeItsCasesAlone) {
+  MeasuredPage page = small_page();
+  page.summary = false;
+  const std::string text = measured_markdown(page, kRows);
+  EXPECT_EQ(text.find("| all |"), std::string::npos) << text;
+  EXPECT_EQ(text.find("median"), std::string::npos) << text;
+  EXPECT_NE(text.find("| a left | 0.10 |"), std::string::npos) << text;
 }
 
 TEST(MeasuredPage, GroupsTheSummary) {
