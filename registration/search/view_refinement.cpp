@@ -11,9 +11,9 @@
 namespace mammotwin {
 namespace {
 
-constexpr double kDisplacementSd_mm = 2;  // of the prior
-constexpr double kLeastOutline_mm = 0.5, kLeastPattern = 0.25;         // noise, whatever is left
-constexpr double kControlNudge = 0.1;                                  // of a standard deviation
+constexpr double kDisplacementSd_mm = 2;                        // of the prior
+constexpr double kLeastOutline_mm = 0.5, kLeastPattern = 0.25;  // noise, whatever is left
+constexpr double kControlNudge = 0.1;                           // of a standard deviation
 constexpr int kMostRefinements = 5;
 constexpr double kRefinementGain = 0.01;  // of the cost: less is converged
 constexpr double kRefinementRadius = 1e4;
