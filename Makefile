@@ -83,7 +83,7 @@ help:
 	@echo '                       RESULTS/evaluation/registration.json; JOBS=2 at a time; SPOIL=1: also told'
 	@echo '                       wrongly of nipple, pectoral edge or abdomen (registration_spoilt.json); MISFIT=1: also'
 	@echo '                       with mammograms of another breast or view (registration_misfit.json); HARD=1: patients'
-	@echo '                       further from the model (registration_hard.json)'
+	@echo '                       further from the model (registration_hard.json); how honest all ellipses are: *_ellipses.json'
 	@echo 'make evaluate-tomosynthesis   registers 042 with tomosynthesis of another model: RESULTS/evaluation/tomosynthesis.json'
 	@echo 'make evaluate-real-pairs CASES=folder   patients with lesions marked on mammograms (marks.csv):'
 	@echo '                       RESULTS/evaluation/real_pairs.json'

@@ -23,10 +23,10 @@ constexpr double least_mm = 2;  // over the ball: less is the outline's own unev
 constexpr double least_ml = 0.08, most_ml = 3;
 constexpr double tip_mm = 1;         // the tip is the middle of what stands out as far as this
 constexpr double same_place_mm = 8;  // a papilla's tip from the place of the best sum
-constexpr double papilla_per_mm = 1, most_papilla = 6;  // of a sum, for its height
-constexpr double nearness_mm = 25;                      // to the most anterior point
-constexpr double reach_mm = 60;                         // what lies farther off is not looked at
-constexpr double beyond_mm = 20;                        // of the crop: what smoothing reaches
+constexpr double most_papilla = 6;   // of a sum, in which its height counts [mm]
+constexpr double nearness_mm = 25;   // to the most anterior point
+constexpr double reach_mm = 60;      // what lies farther off is not looked at
+constexpr double beyond_mm = 20;     // of the crop: what smoothing reaches
 constexpr double off_edge_mm = 5, off_midline_mm = 15;  // of the region: labels end there
 constexpr double least_evidence = 5;
 constexpr double apart_mm = 12;      // between candidates
@@ -118,7 +118,7 @@ struct StandingOut {
   /// What a papilla at a place is worth beside what its skin shows.
   double evidence(const Vector3d& x) const {
     const int id = at(x);
-    return id == 0 ? 0 : std::min(papilla_per_mm * bumps[id].height, most_papilla);
+    return id == 0 ? 0 : std::min(bumps[id].height, most_papilla);
   }
 };
 

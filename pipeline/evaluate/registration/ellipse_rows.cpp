@@ -68,14 +68,16 @@ json space_row(const std::string& name, const std::string& space, const json& ro
 }  // namespace
 
 json ellipse_rows(const json& rows) {
-  std::vector<JudgedMark> all, lesions, points;
+  std::vector<JudgedMark> all, lesions, points, inside, beside;
   for (const json& row : rows)
     for (const json& mark : row.value("marks", json::array())) {
       all.push_back(mark_of(mark));
       (all.back().lesion ? lesions : points).push_back(all.back());
+      (all.back().in_image ? inside : beside).push_back(all.back());
     }
   json table{marks_row("all marks", all), marks_row("lesions", lesions),
-             marks_row("points of gland", points)};
+             marks_row("points of gland", points), marks_row("in the image", inside),
+             marks_row("beside the image", beside)};
   std::stable_sort(all.begin(), all.end(), [](const JudgedMark& a, const JudgedMark& b) {
     return size_of(a) < size_of(b);
   });

@@ -72,6 +72,7 @@ std::string line_of(const char* what, const std::vector<std::vector<JudgedMark>>
 json mark_json(const JudgedMark& mark) {
   return {
       {"lesion", mark.lesion},
+      {"in_image", mark.in_image},
       {"off_mm", {mark.off.x(), mark.off.y()}},
       {"covariance_mm2", {mark.covariance(0, 0), mark.covariance(0, 1), mark.covariance(1, 1)}}};
 }
@@ -81,6 +82,7 @@ JudgedMark mark_of(const json& mark) {
   const auto c = mark.at("covariance_mm2").get<std::array<double, 3>>();
   JudgedMark judged{mark.at("lesion"), {off[0], off[1]}, {}};
   judged.covariance << c[0], c[1], c[1], c[2];
+  judged.in_image = mark.at("in_image");
   return judged;
 }
 

@@ -12,6 +12,7 @@ struct JudgedMark {
   bool lesion = false;                            ///< else a point of gland
   Eigen::Vector2d off = Eigen::Vector2d::Zero();  ///< true mark from the predicted one [mm]
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Identity();  ///< that was stated [mm^2]
+  bool in_image = true;                                      ///< the true mark
 };
 
 nlohmann::json mark_json(const JudgedMark& mark);

@@ -53,7 +53,8 @@ std::optional<JudgedMark> judged(const RegisteredView& view, const LandmarkPair&
   if (!covariance) return std::nullopt;
   const Eigen::Vector2d truth =
       view.projection.detector().detector_from_image(pair.marks.at(view.projection.view().name));
-  return JudgedMark{is_lesion(pair), truth - found.on_detector, *covariance};
+  return JudgedMark{is_lesion(pair), truth - found.on_detector, *covariance,
+                    view.projection.detector().beside_image_mm(truth) == 0};
 }
 
 void add_coverage(const Views& views, const std::vector<LandmarkPair>& pairs, json& row) {

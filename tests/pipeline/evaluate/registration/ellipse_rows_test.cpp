@@ -19,7 +19,7 @@ json patient(double off_mm, double sd_mm, double baseline_mm, const char* end) {
   row["search"] = {{"cc", {{"end", end}}}};
   for (const bool lesion : {true, false})
     row["marks"].push_back(
-        mark_json({lesion, {off_mm, 0}, sd_mm * sd_mm * Eigen::Matrix2d::Identity()}));
+        mark_json({lesion, {off_mm, 0}, sd_mm * sd_mm * Eigen::Matrix2d::Identity(), lesion}));
   return row;
 }
 
@@ -35,6 +35,8 @@ const json kThreePatients = ellipse_rows(
 TEST(EllipseRows, ThirdsAreBySize) {
   EXPECT_EQ(row_of(kThreePatients, "all marks")["marks"], 6);
   EXPECT_EQ(row_of(kThreePatients, "lesions")["marks"], 3);
+  EXPECT_EQ(row_of(kThreePatients, "in the image")["marks"], 3);  // the lesions are
+  EXPECT_EQ(row_of(kThreePatients, "beside the image")["marks"], 3);
   EXPECT_EQ(row_of(kThreePatients, "smallest third")["inside_90"], 0);  // 3 mm, of 2.1
   EXPECT_EQ(row_of(kThreePatients, "middle third")["inside_90"], 0);    // 30 mm, of 19
   EXPECT_EQ(row_of(kThreePatients, "largest third")["inside_90"], 1);   // 25 mm, of 43

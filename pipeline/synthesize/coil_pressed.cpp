@@ -1,4 +1,4 @@
-#include "pipeline/synthesize/views/coil_pressed.h"
+#include "pipeline/synthesize/coil_pressed.h"
 
 #include <tbb/parallel_for.h>
 
