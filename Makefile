@@ -26,6 +26,7 @@ override VIEWS := $(value VIEWS)
 override SPOIL := $(value SPOIL)
 override MISFIT := $(value MISFIT)
 override HARD := $(value HARD)
+override FATTY := $(value FATTY)
 override OTHERS := $(value OTHERS)
 override TABLE := $(value TABLE)
 override UNLOAD := $(value UNLOAD)
@@ -35,7 +36,7 @@ override ELEMENTS := $(value ELEMENTS)
 ifeq ($(RESULTS),)
 $(error RESULTS is empty: name the folder that results go to)
 endif
-export P DATA RESULTS FORCE BIN SEED PATIENTS JOBS ONLY ENGINE CONFIG PREFIX CASES SYNTHETIC CHANGES VIEWS SPOIL MISFIT HARD OTHERS TABLE UNLOAD PRESET PRESS AXE MESHES NUMBERS ELEMENTS
+export P DATA RESULTS FORCE BIN SEED PATIENTS JOBS ONLY ENGINE CONFIG PREFIX CASES SYNTHETIC CHANGES VIEWS SPOIL MISFIT HARD FATTY OTHERS TABLE UNLOAD PRESET PRESS AXE MESHES NUMBERS ELEMENTS
 unexport MAKEFLAGS MAKEOVERRIDES
 
 .PHONY: help patient segment fit unload compress register report slicer paraview synthesize exam cohort verify-results \
@@ -83,7 +84,8 @@ help:
 	@echo '                       RESULTS/evaluation/registration.json; JOBS=2 at a time; SPOIL=1: also told'
 	@echo '                       wrongly of nipple, pectoral edge or abdomen (registration_spoilt.json); MISFIT=1: also'
 	@echo '                       with mammograms of another breast or view (registration_misfit.json); HARD=1: patients'
-	@echo '                       further from the model (registration_hard.json); how honest all ellipses are: *_ellipses.json'
+	@echo '                       further from the model (registration_hard.json); FATTY=1: with next to no gland'
+	@echo '                       (registration_fatty.json); how honest all ellipses are: *_ellipses.json'
 	@echo 'make evaluate-tomosynthesis   registers 042 with tomosynthesis of another model: RESULTS/evaluation/tomosynthesis.json'
 	@echo 'make evaluate-real-pairs CASES=folder   patients with lesions marked on mammograms (marks.csv):'
 	@echo '                       RESULTS/evaluation/real_pairs.json'
@@ -173,8 +175,8 @@ evaluate-other-meshes: mammotwin-evaluate-other-meshes
 	  "$$RESULTS/evaluation/other_meshes.json" $${VIEWS:+--views $$VIEWS}
 
 evaluate-registration: mammotwin-evaluate-registration
-	@"$$BIN/mammotwin-evaluate-registration" "$$RESULTS/evaluation/registration$${HARD:+_hard}$${SPOIL:+_spoilt}$${MISFIT:+_misfit}.json" \
-	  $${SYNTHETIC:+--synthetic "$$SYNTHETIC"} $${JOBS:+--jobs "$$JOBS"} $${SPOIL:+--spoil} $${MISFIT:+--misfit} $${HARD:+--hard}
+	@"$$BIN/mammotwin-evaluate-registration" "$$RESULTS/evaluation/registration$${HARD:+_hard}$${FATTY:+_fatty}$${SPOIL:+_spoilt}$${MISFIT:+_misfit}.json" \
+	  $${SYNTHETIC:+--synthetic "$$SYNTHETIC"} $${JOBS:+--jobs "$$JOBS"} $${SPOIL:+--spoil} $${MISFIT:+--misfit} $${HARD:+--hard} $${FATTY:+--fatty}
 
 evaluate-tomosynthesis: mammotwin-evaluate-tomosynthesis
 	@"$$BIN/mammotwin-evaluate-tomosynthesis" "$$RESULTS/evaluation/tomosynthesis.json"

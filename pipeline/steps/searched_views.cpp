@@ -42,7 +42,8 @@ json figures_json(const MatchFigures& f) {
   return {{"outline_rms_mm", f.outline_rms_mm},
           {"nipple_mm", f.nipple_mm ? json(*f.nipple_mm) : json()},
           {"nipple_sd_mm", f.nipple_sd_mm},
-          {"pattern_correlation", f.pattern_correlation ? json(*f.pattern_correlation) : json()}};
+          {"pattern_correlation", f.pattern_correlation ? json(*f.pattern_correlation) : json()},
+          {"dense_detail_mm", f.dense_detail_mm ? json(*f.dense_detail_mm) : json()}};
 }
 
 json search_json(const SearchedView& view) {

@@ -16,7 +16,7 @@ void visit_numbers(Options& o, const Visit& visit) {
   visit("chest_half_width_mm", a.chest_half_width_mm, 115, 170, "mm", "rib cage, middle to side");
   visit("chest_roundness", a.chest_roundness, 0.55, 0.85, "-",
         "depth of the rib cage over its width");
-  visit("density", a.density, 0.05, 0.6, "-", "fibroglandular over breast volume");
+  visit("density", a.density, 0.005, 0.6, "-", "fibroglandular over breast volume");
   visit("skin_mm", a.skin_mm, 1, 3, "mm", "thickness of the skin");
   visit("subcutaneous_mm", a.subcutaneous_mm, 8, 25, "mm", "fat under the skin beside the breasts");
   visit("pectoral_mm", a.pectoral_mm, 10, 25, "mm", "pectoral muscle where it is thickest");

@@ -49,6 +49,20 @@ std::vector<double> broad_mean(const DensityGrid& grid, const std::vector<double
   return mean;
 }
 
+/// Of the counted cells, what is left without its mean over 25 mm, mean 0.
+Eigen::VectorXd detail_of(const DensityGrid& grid, const std::vector<double>& values) {
+  const std::vector<double> mean = broad_mean(grid, values);
+  Eigen::VectorXd detail(grid.cells.size());
+  for (std::size_t n = 0; n < grid.cells.size(); ++n)
+    detail[n] = values[grid.cells[n]] - mean[grid.cells[n]];
+  if (detail.size() > 0) detail.array() -= detail.mean();
+  return detail;
+}
+
+double root_mean_square(const Eigen::VectorXd& values) {
+  return values.size() == 0 ? 0 : values.norm() / std::sqrt(values.size());
+}
+
 }  // namespace
 
 DensityGrid density_grid(const std::vector<Eigen::Vector2d>& outline) {
@@ -73,13 +87,8 @@ DensityGrid density_grid(const std::vector<Eigen::Vector2d>& outline) {
 }
 
 Eigen::VectorXd pattern(const DensityGrid& grid, const std::vector<double>& values) {
-  const std::vector<double> mean = broad_mean(grid, values);
-  Eigen::VectorXd detail(grid.cells.size());
-  for (std::size_t n = 0; n < grid.cells.size(); ++n)
-    detail[n] = values[grid.cells[n]] - mean[grid.cells[n]];
-  if (detail.size() == 0) return detail;
-  detail.array() -= detail.mean();
-  const double sd = std::sqrt(detail.squaredNorm() / detail.size());
+  const Eigen::VectorXd detail = detail_of(grid, values);
+  const double sd = root_mean_square(detail);
   return sd > 0 ? Eigen::VectorXd(detail / sd) : detail;
 }
 
@@ -152,6 +161,12 @@ std::vector<double> DenseTissue::in_cells(const DensityGrid& grid, const Reduced
     add(i + 1, j + 1, a * b);
   }
   return sum;
+}
+
+double DenseTissue::detail_mm(const DensityGrid& grid, const ReducedView& view, const ViewState& z,
+                              const Detector& detector) const {
+  const double cell_mm2 = grid.cell_mm * grid.cell_mm;
+  return root_mean_square(detail_of(grid, in_cells(grid, view, z, detector))) / cell_mm2;
 }
 
 }  // namespace mammotwin

@@ -46,6 +46,11 @@ class DenseTissue {
   std::vector<double> in_cells(const DensityGrid& grid, const ReducedView& view, const ViewState& z,
                                const Detector& detector) const;
 
+  /// How much there is to compare: the standard deviation of the dense tissue's thickness in the
+  /// counted cells, without its mean over 25 mm [mm].
+  double detail_mm(const DensityGrid& grid, const ReducedView& view, const ViewState& z,
+                   const Detector& detector) const;
+
   void renew(const ReducedView& view) { samples_.renew(view); }
 
  private:

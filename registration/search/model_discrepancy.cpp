@@ -33,6 +33,7 @@ ModelDiscrepancy model_discrepancy(const MatchFigures& left) {
   d.outline_mm = std::max(root_beyond(r * r, kOutlineSd_mm), r / kNinety);
   if (left.nipple_mm && *left.nipple_mm > kExplained * left.nipple_sd_mm)
     d.nipple_mm = root_beyond(*left.nipple_mm * *left.nipple_mm / 2, left.nipple_sd_mm);
+  d.pattern_mm = kUncorrectedSd_mm;
   if (left.pattern_correlation) {
     const double c = std::max(no_registration::kCorrelation, *left.pattern_correlation);
     d.pattern_mm = kPatternLength_mm * std::sqrt(std::max(0.0, kInPlace / c - 1));

@@ -21,7 +21,7 @@ struct ModelDiscrepancy {
   /// Errors of sd e each way smear a pattern whose autocorrelation is exp(-d^2 / (2 l^2)) to a
   /// correlation c0 / (1 + e^2 / l^2), c0 being that of the same breast in place (0.88: nine of ten
   /// views of synthetic patients, whose marks are 1.2 mm off, correlate by more): e = l sqrt(c0 / c
-  /// - 1).
+  /// - 1). Without a pattern to compare, kUncorrectedSd_mm: those methods saw outlines alone.
   double pattern_mm = 0;
   /// How much further the views, each searched alone, put tissue from where both put it than their
   /// covariances say.
@@ -30,14 +30,14 @@ struct ModelDiscrepancy {
   double sd_mm() const { return std::max({outline_mm, nipple_mm, pattern_mm, views_mm}); }
 };
 
-ModelDiscrepancy model_discrepancy(const MatchFigures& left);
-
-/// The same of a prediction that no mammogram corrects. Mean and sd of the distances that methods
+/// Of a prediction whose inner tissue no mammogram shows. Mean and sd of the distances that methods
 /// with finite elements left on real patients after registering them to their mammograms: CC 5.65
 /// +- 2.76 and MLO 7.83 +- 3.04 (Garcia 2019), 11.6 +- 3.8 and 11.0 +- 5.4 (Mertzanidou 2014), 4.2
 /// +- 1.9 and 4.8 +- 1.3 mm (Solves-Llorens 2014). Root mean square of their six sqrt((mean^2 +
 /// sd^2) / 2).
 inline constexpr double kUncorrectedSd_mm = 6.2;
+
+ModelDiscrepancy model_discrepancy(const MatchFigures& left);
 
 /// Of a prediction that no mammogram corrects [mm]: kUncorrectedSd_mm, and as far as the nipple
 /// swung and a roll moved what lies at a plate, for a radiographer lets no breast escape sideways.

@@ -95,6 +95,12 @@ std::vector<std::string> why_look(const MatchFigures& left, const ViewState& sta
   if (left.pattern_correlation && *left.pattern_correlation < kPoorCorrelation)
     why.push_back(
         text_of("the patterns of dense tissue correlate by %.2f only", *left.pattern_correlation));
+  if (!left.pattern_correlation)
+    why.push_back(
+        text_of("registered by outline and nipple alone, for the MRI has next to no gland there "
+                "whose pattern could be compared (its thickness varies by %.1f mm); nothing else "
+                "says that this is her breast",
+                left.dense_detail_mm.value_or(0)));
   if (!complete)
     why.push_back(
         "the search stopped where no equilibrium was found, with the best state that it "

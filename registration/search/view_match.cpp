@@ -15,6 +15,10 @@ constexpr double kBehind_mm = 8;       // nearer to the detector's edge no outli
 constexpr double kBorder_mm = 3;       // of the image: an outline there is the image's end
 constexpr double kLeastNipple_mm = 3;  // sd: what the model knows of its own
 constexpr double kHuber = 2;           // standard deviations beyond which outliers count less
+/// Of dense tissue's thickness: vessels and ligaments in fat, 2 to 3 mm thick and no gland in the
+/// MRI, vary it as much over cells of 4 mm. Synthetic patients with 10 to 34 % of gland have 2 to
+/// 12.
+constexpr double kLeastDetail_mm = 1;
 
 /// Share of an independent piece of outline that lies between two rays.
 double piece(double radius_mm) {
@@ -105,7 +109,10 @@ ViewMatch::ViewMatch(ReducedView view, const std::vector<FaceLabels>& faces,
       }()) {
   for (int ray = 0; ray < kRays; ++ray)
     if (seen_[ray] && *seen_[ray] * ray_direction(ray).x() < kBehind_mm) seen_[ray].reset();
-  if (fractions) tissue_ = std::make_shared<DenseTissue>(view_, prone, *fractions);
+  if (!fractions) return;
+  tissue_ = std::make_shared<DenseTissue>(view_, prone, *fractions);
+  detail_mm_ = tissue_->detail_mm(evidence_.grid, view_, ViewState::Zero(), detector_);
+  if (*detail_mm_ < kLeastDetail_mm) tissue_.reset();
 }
 
 void ViewMatch::renew(ReducedView view) {
@@ -117,7 +124,7 @@ void ViewMatch::renew(ReducedView view) {
 
 Eigen::VectorXd ViewMatch::residuals(const ViewState& z, bool with_pattern,
                                      const MatchNoise& noise) const {
-  const bool patterned = with_pattern && tissue_ && evidence_.pattern.size() > 0;
+  const bool patterned = with_pattern && tissue_;
   Eigen::VectorXd r = Eigen::VectorXd::Zero(kRays + 2 + (patterned ? evidence_.pattern.size() : 0));
   const RayDistances found = silhouette_.at(view_, z, detector_, centre_);
   for (int ray = 0; ray < kRays; ++ray) {
@@ -164,7 +171,8 @@ MatchFigures ViewMatch::figures(const ViewState& z) const {
   figures.nipple_sd_mm = evidence_.nipple_sd_mm;
   if (evidence_.nipple)
     figures.nipple_mm = (detector_.project(nipple_.at(view_, z).col(0)) - *evidence_.nipple).norm();
-  if (tissue_ && evidence_.pattern.size() > 0)
+  figures.dense_detail_mm = detail_mm_;
+  if (tissue_)
     figures.pattern_correlation =
         pattern(evidence_.grid, tissue_->in_cells(evidence_.grid, view_, z, detector_))
             .dot(evidence_.pattern) /

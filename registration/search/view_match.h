@@ -34,6 +34,8 @@ struct MatchFigures {
   std::optional<double> nipple_mm;  ///< absent: the mammogram's was not looked for
   double nipple_sd_mm = 0;
   std::optional<double> pattern_correlation;  ///< absent: none to compare
+  /// How much pattern the MRI foretells there (DenseTissue::detail_mm); absent: not looked for.
+  std::optional<double> dense_detail_mm = {};
 };
 
 /// The pattern correlates as only that of the same breast in place does, and the outline lies
@@ -49,7 +51,8 @@ struct MatchNoise {
 /// How far a view in state z is from its mammogram.
 class ViewMatch {
  public:
-  /// Without `fractions` the dense pattern is not compared (the baseline's match).
+  /// Without `fractions` the dense pattern is not compared (the baseline's match), nor where they
+  /// foretell next to none: the breast is all fat, or what has gland is not in the picture.
   ViewMatch(ReducedView view, const std::vector<FaceLabels>& faces, const HermiteMesh& prone,
             const Volume<Fractions>* fractions, const Eigen::Vector3d& nipple_in_lps,
             const Detector& detector, ViewEvidence evidence);
@@ -86,7 +89,8 @@ class ViewMatch {
   RayDistances seen_;
   Silhouette silhouette_;
   ViewSamples nipple_;
-  std::shared_ptr<DenseTissue> tissue_;
+  std::shared_ptr<DenseTissue> tissue_;  ///< none: the pattern is not compared
+  std::optional<double> detail_mm_;
 };
 
 }  // namespace mammotwin

@@ -23,7 +23,7 @@ using nlohmann::json;
 struct Arguments {
   fs::path table;
   int synthetic = 10, first = 0, jobs = 2;
-  bool coarse = false, hard = false, spoil = false, misfit = false, judge = false;
+  bool coarse = false, hard = false, fatty = false, spoil = false, misfit = false, judge = false;
 };
 
 void declare(CommandLine& command, Arguments& args) {
@@ -39,6 +39,7 @@ void declare(CommandLine& command, Arguments& args) {
                "patients further from the registering model: other laws, springs and friction, "
                "large rolls and turns, detector's edges, muscle, abdomen, skin folds; MRI between "
                "a coil's plates, with a nipple, chest wall or region that is off");
+  command.flag("--fatty", args.fatty, "the patients with next to no gland");
   command.flag(
       "--spoil", args.spoil,
       "each patient also with mammograms of which the search is told wrongly: no nipple in "
@@ -73,7 +74,7 @@ std::string line_of(const json& row) {
 }
 
 Difficulty difficulty_of(const Arguments& args) {
-  return args.hard ? Difficulty::hard : args.coarse ? Difficulty::coarse : Difficulty::easy;
+  return args.hard ? Difficulty::hard : args.fatty ? Difficulty::fatty : args.coarse ? Difficulty::coarse : Difficulty::easy;
 }
 
 /// The folder of patient n + 1, whose mammograms are shown as those of patient n.
@@ -99,7 +100,7 @@ int run(const Arguments& args) {
   EvaluationTable table(args.table);
   work_through(args.synthetic, args.jobs, [&](std::size_t n) {
     const int number = args.first + static_cast<int>(n);
-    const std::string name = (args.hard ? "hard-" : "synthetic-") + std::to_string(number);
+    const std::string name = (args.hard ? "hard-" : args.fatty ? "fatty-" : "synthetic-") + std::to_string(number);
     const fs::path folder = table.folder() / "registration" / name;
     const auto add = [&](json row, const std::string& spoilt) {
       row["spoilt"] = spoilt;

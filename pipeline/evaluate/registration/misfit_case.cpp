@@ -57,6 +57,13 @@ void write_table(const fs::path& path, const Table& table) {
   write_text_atomically(path, text);
 }
 
+/// Only what `register` gives a reason for is a refusal of the mammograms.
+std::string end_without_product(const std::string& reason) {
+  const bool refused = reason.starts_with("register: ") &&
+                       reason.find("ended with code") == std::string::npos;
+  return refused ? "refused" : "failed";
+}
+
 void turn_upside_down(const fs::path& folder) {
   Table marks = read_table(folder / "landmarks.csv");
   for (std::size_t view = 0; view < 2; ++view) {
@@ -106,18 +113,18 @@ void make_misfit_case(const fs::path& made, const fs::path& another, const std::
 }
 
 void judge_misfit(json& row) {
-  bool registered = false;
+  bool all_noticed = true;
   for (const std::string view : {"cc", "mlo"}) {
     const json search = row.value("search", json::object());
-    const std::string end = !row["reason"].is_null() ? "refused"
+    const std::string end = !row["reason"].is_null() ? end_without_product(row["reason"])
                             : search.contains(view)  ? search[view].value("end", "none")
                                                      : "none";
     row["end_" + view] = end;
-    registered |= end == "ok" || end == "look";
+    all_noticed &= end == "refused" || end == "none" || end == "no registration";
   }
   const json inside = row["lesions"]["inside_90"];
   row["lesions_in_90"] = inside;
-  row["noticed"] = !registered || (inside.is_number() && inside.get<double>() == 1);
+  row["noticed"] = all_noticed || (inside.is_number() && inside.get<double>() == 1);
 }
 
 }  // namespace mammotwin

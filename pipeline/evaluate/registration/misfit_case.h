@@ -19,7 +19,8 @@ void make_misfit_case(const std::filesystem::path& made, const std::filesystem::
                       const std::string& misfit, const std::filesystem::path& folder);
 
 /// What of a judged case's row (registration_rows.h) says whether its misfit was noticed:
-/// `end_cc`, `end_mlo` ("refused": register gave no product), `lesions_in_90` of `lesions` marks,
+/// `end_cc`, `end_mlo` ("refused": by register, with a reason; "failed": another stage left no
+/// product, which notices nothing), `lesions_in_90` of `lesions` marks,
 /// and `noticed`: no view was registered, or every lesion's mark lies in its 90 % ellipse.
 void judge_misfit(nlohmann::json& row);
 

@@ -90,6 +90,12 @@ DrawnPatient draw_registration(int number, Difficulty difficulty, int attempt = 
   a.projection = build.uniform(1.2, 1.8);
   a.chest_half_width_mm = build.uniform(125, 150);
   a.lesions = 3;
+  if (difficulty == Difficulty::fatty) {  // large lesions would be a pattern, too
+    a.density = 0.01;
+    a.lesions = 1;
+    a.lesion_min_mm = 8;
+    a.lesion_max_mm = 8.5;
+  }
   drawn.patient.scan.contrast =
       number % 2 ? ScanContrast::not_suppressed : ScanContrast::fat_suppressed;
   const double factor = number % 2 ? 2 : 0.5;  // off what the registering model assumes
@@ -122,8 +128,9 @@ struct Landmark3d {
   Eigen::Vector3d prone_in_lps;
 };
 
-/// The lesions, and voxels of gland or fat drawn evenly from the breast in front of the chest wall.
-std::vector<Landmark3d> landmarks_of(const Segmentation& truth, int number) {
+/// The lesions, and voxels of gland, or of fat in a fatty breast, drawn evenly from the breast in
+/// front of the chest wall.
+std::vector<Landmark3d> landmarks_of(const Segmentation& truth, int number, bool fatty) {
   std::vector<Landmark3d> all;
   for (const Lesion& lesion : truth.lesions) all.push_back({lesion.id, lesion.centroid_in_lps});
   CounterRandom random(number, 77);
@@ -132,7 +139,8 @@ std::vector<Landmark3d> landmarks_of(const Segmentation& truth, int number) {
     const Eigen::Vector3i v(static_cast<int>(random.uniform(0, f.size.x())),
                             static_cast<int>(random.uniform(0, f.size.y())),
                             static_cast<int>(random.uniform(0, f.size.z())));
-    if (f(v.x(), v.y(), v.z()).fibroglandular > 0.7)
+    const Fractions& here = f(v.x(), v.y(), v.z());
+    if ((fatty ? here.fat : here.fibroglandular) > 0.7)
       all.push_back({"P" + std::to_string(all.size()), f.position(v.x(), v.y(), v.z())});
   }
   return all;
@@ -141,12 +149,12 @@ std::vector<Landmark3d> landmarks_of(const Segmentation& truth, int number) {
 /// `imaged`: the breast as the MRI shows it.
 std::string landmark_table(const TrueBreast& breast, const HermiteMesh& imaged,
                            const std::vector<TrueView>& views, const Detector& detector,
-                           int number) {
+                           int number, bool fatty) {
   const PointCarrier to_image(breast.prone(), imaged);
   std::ostringstream csv;
   csv << "name,mri_l_mm,mri_p_mm,mri_s_mm,cc_column,cc_row,mlo_column,mlo_row\n"
       << std::fixed << std::setprecision(3);
-  for (const Landmark3d& l : landmarks_of(breast.truth(), number)) {
+  for (const Landmark3d& l : landmarks_of(breast.truth(), number, fatty)) {
     csv << l.name;
     for (const double x : to_image.carry(l.prone_in_lps).in_lps) csv << "," << x;
     for (const TrueView& view : views)
@@ -251,7 +259,8 @@ void make_registration_case(int number, Difficulty difficulty, const fs::path& f
   if (hard) draw_over(number, folder);
   write_nrrd(folder / kScan, patient.scan.image);
   write_text_atomically(folder / "landmarks.csv",
-                        landmark_table(breast, imaged, views, detector, number));
+                        landmark_table(breast, imaged, views, detector, number,
+                                       difficulty == Difficulty::fatty));
   write_text_atomically(folder / "drawn.json", drawn_json(drawn, views).dump(1) + "\n");
   write_text_atomically(folder / "patient.toml",
                         (hard ? wrongly_found(patient, breast.truth(), number, folder) : "") +
@@ -290,7 +299,7 @@ void make_tomosynthesis_case(bool coarse, const fs::path& folder) {
   }
   write_nrrd(folder / kScan, patient.scan.image);
   write_text_atomically(folder / "landmarks.csv",
-                        landmark_table(breast, breast.prone(), views, detector, kPatient));
+                        landmark_table(breast, breast.prone(), views, detector, kPatient, false));
   write_text_atomically(folder / "slices.json", slices.dump(1) + "\n");
   write_text_atomically(folder / "drawn.json", drawn_json(drawn, views).dump(1) + "\n");
   write_text_atomically(folder / "patient.toml", toml);

@@ -56,8 +56,19 @@ TEST(SearchVerdict, IsNoRegistrationWithAnotherPattern) {
   EXPECT_TRUE(says(judged(left), "correlate by 0.07 only, less than 0.4"));
   left.pattern_correlation = 0.41;
   EXPECT_EQ(judged(left).end, SearchEnd::look);
-  left.pattern_correlation.reset();  // none to compare tells nothing
-  EXPECT_EQ(judged(left).end, SearchEnd::ok);
+}
+
+TEST(SearchVerdict, AsksToLookWhereNoPatternSaysWhoseBreastItIs) {
+  MatchFigures left = good();
+  left.pattern_correlation.reset();
+  left.dense_detail_mm = 0.42;
+  EXPECT_EQ(judged(left).end, SearchEnd::look);
+  EXPECT_TRUE(says(judged(left), "next to no gland"));
+  EXPECT_TRUE(says(judged(left), "varies by 0.4 mm"));
+  std::vector<SearchVerdict> both{judged(left), judged(left)};
+  judge_together({"cc", "mlo"}, both);
+  EXPECT_EQ(both[0].end, SearchEnd::look);
+  EXPECT_EQ(both[1].end, SearchEnd::look);
 }
 
 /// As good, but for a pattern that could be another breast's.
@@ -203,6 +214,14 @@ TEST(ModelDiscrepancy, CountsANippleBeyondWhatIsKnownOfIt) {
   // A nipple found with 40 mm that turns out 94 mm off was looked for in the wrong place.
   left.nipple_mm = 94, left.nipple_sd_mm = 40;
   EXPECT_EQ(model_discrepancy(left).nipple_mm, 0);
+}
+
+TEST(ModelDiscrepancy, WithoutAPatternIsThatOfMethodsThatSeeOutlines) {
+  MatchFigures left = good();
+  left.pattern_correlation.reset();
+  EXPECT_EQ(model_discrepancy(left).sd_mm(), kUncorrectedSd_mm);
+  left.outline_rms_mm = 7;
+  EXPECT_GT(model_discrepancy(left).sd_mm(), kUncorrectedSd_mm);
 }
 
 // At half of the correlation in place, errors are as large as the pattern's length, 15 / sqrt(pi).

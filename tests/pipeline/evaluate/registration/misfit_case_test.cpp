@@ -83,8 +83,13 @@ TEST(JudgeMisfit, IsNoticedWhereNothingIsRegisteredOrEllipsesHold) {
     return row;
   };
   const std::string none = "no registration";
-  EXPECT_EQ(judged("no outline", "", "", nullptr)["end_cc"], "refused");
-  EXPECT_EQ(judged("no outline", "", "", nullptr)["noticed"], true);
+  const std::string refusal = "register: the cc mammogram shows no outline";
+  EXPECT_EQ(judged(refusal, "", "", nullptr)["end_cc"], "refused");
+  EXPECT_EQ(judged(refusal, "", "", nullptr)["noticed"], true);
+  for (const char* failure : {"register: ended with code 139", "segment: no breast"}) {
+    EXPECT_EQ(judged(failure, "", "", nullptr)["end_mlo"], "failed");
+    EXPECT_EQ(judged(failure, "", "", nullptr)["noticed"], false);
+  }
   EXPECT_EQ(judged(nullptr, none, none, 0.5)["noticed"], true);
   EXPECT_EQ(judged(nullptr, none, "look", 0.5)["noticed"], false);
   EXPECT_EQ(judged(nullptr, "look", "ok", 1)["noticed"], true);
