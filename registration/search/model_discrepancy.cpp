@@ -4,12 +4,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "registration/search/search_ellipse.h"
 #include "registration/search/search_verdict.h"
 
 namespace mammotwin {
 namespace {
 
-const double kNinety = std::sqrt(2 * std::log(10));  // 90 % ellipse over sd
+const double kNinety = semi_axis_in_sd(0.9);
 // Independent pieces of pattern are kPatternPiece_mm wide: that is pi l^2 for this autocorrelation.
 const double kPatternLength_mm = kPatternPiece_mm / std::sqrt(M_PI);
 

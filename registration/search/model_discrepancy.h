@@ -13,7 +13,8 @@ namespace mammotwin {
 /// many points of outline say so.
 struct ModelDiscrepancy {
   /// Of the outline's RMS r beyond the sd s = 2 mm with which it was weighed: sqrt(r^2 - s^2); at
-  /// least r / sqrt(2 ln 10), with which no 90 % ellipse is narrower than the outline is off.
+  /// least r over the 90 % ellipse's semi-axis in sds, with which none is narrower than the outline
+  /// is off.
   double outline_mm = 0;
   /// Of the nipple's distance d beyond its own sd s each way: sqrt(d^2 / 2 - s^2); none within
   /// sqrt(2 ln 20) s, where 95 % of the nipples lie that are found with that sd.

@@ -23,7 +23,6 @@ constexpr double kFirstRadius = 100;
 // detectors' edges stand centimetres behind the chest wall at times, where the model's plates
 // cannot.
 constexpr double kShiftTail = 2;
-constexpr double kOwnObservations = 10;  // what the evidence's stated standard deviations count as
 
 /// All views' numbers in one vector, shared ones once.
 class Joint {

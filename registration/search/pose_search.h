@@ -6,13 +6,17 @@
 
 namespace mammotwin {
 
+/// How many observations the evidence's stated standard deviations count as: they were chosen on
+/// few patients.
+inline constexpr double kOwnObservations = 10;
+
 /// Where a search over all views' states ended. States are in standard deviations.
 struct PoseEstimate {
   std::vector<ViewState> states;                                     ///< of each view
   std::vector<Eigen::Matrix<double, kStates, kStates>> covariances;  ///< what is left unknown
   double cost = 0;                                                   ///< half the sum of squares
   /// Of the evidence's differences left, over the one that their standard deviations say, where it
-  /// is more (Birge's ratio): these count as ten observations, the mammograms as theirs less the
+  /// is more (Birge's ratio): these count as kOwnObservations, the mammograms as theirs less the
   /// numbers found from them. Is in the covariances.
   double evidence_variance = 1;
   int iterations = 0;

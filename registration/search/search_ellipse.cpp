@@ -69,10 +69,15 @@ ViewUncertainty without_placement(ViewUncertainty uncertainty) {
   return uncertainty;
 }
 
+double semi_axis_in_sd(double probability) {
+  constexpr double n = kOwnObservations;
+  return std::sqrt((n - 2) * (std::pow(1 - probability, -2 / n) - 1));
+}
+
 SearchEllipse search_ellipse(const Eigen::Matrix2d& covariance, double probability) {
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes;
   axes.computeDirect(covariance);
-  const double scale = std::sqrt(-2 * std::log(1 - probability));
+  const double scale = semi_axis_in_sd(probability);
   const Eigen::Vector2d major = axes.eigenvectors().col(1);
   double angle = std::atan2(major.y(), major.x()) * 180 / std::numbers::pi;
   if (angle <= -90) angle += 180;  // a direction, not an arrow

@@ -99,7 +99,7 @@ TEST_F(RealPatient, Mri8af60052) {
 // mm sideways, and 15 mm in depth in CC; and the 90 % ellipses, which know how far edges differ,
 // hold the radiologist's depths and reach no farther than such edges do: in MLO a shift of 12 mm
 // and a turn of a muscle's 11 degrees 70 mm from the nipple, with 6 mm of the model's own and 18 mm
-// that this breast swings and rolls, are 26 mm; the ellipse of 90 % is 2.15 times that, and a sixth
+// that this breast swings and rolls, are 26 mm; the ellipse of 90 % is 2.16 times that, and a sixth
 // more is left to mechanics.
 TEST_F(RealPatient, Mri6e4da81aAgainstItsMammograms) {
   mri("6e4da81a", "[fit]\nelements = [6, 6, 2]\n");  // by default 8 x 8 x 2, in twice the time

@@ -74,7 +74,10 @@ std::string line_of(const json& row) {
 }
 
 Difficulty difficulty_of(const Arguments& args) {
-  return args.hard ? Difficulty::hard : args.fatty ? Difficulty::fatty : args.coarse ? Difficulty::coarse : Difficulty::easy;
+  return args.hard     ? Difficulty::hard
+         : args.fatty  ? Difficulty::fatty
+         : args.coarse ? Difficulty::coarse
+                       : Difficulty::easy;
 }
 
 /// The folder of patient n + 1, whose mammograms are shown as those of patient n.
@@ -100,7 +103,10 @@ int run(const Arguments& args) {
   EvaluationTable table(args.table);
   work_through(args.synthetic, args.jobs, [&](std::size_t n) {
     const int number = args.first + static_cast<int>(n);
-    const std::string name = (args.hard ? "hard-" : args.fatty ? "fatty-" : "synthetic-") + std::to_string(number);
+    const std::string name = (args.hard    ? "hard-"
+                              : args.fatty ? "fatty-"
+                                           : "synthetic-") +
+                             std::to_string(number);
     const fs::path folder = table.folder() / "registration" / name;
     const auto add = [&](json row, const std::string& spoilt) {
       row["spoilt"] = spoilt;

@@ -59,8 +59,8 @@ void write_table(const fs::path& path, const Table& table) {
 
 /// Only what `register` gives a reason for is a refusal of the mammograms.
 std::string end_without_product(const std::string& reason) {
-  const bool refused = reason.starts_with("register: ") &&
-                       reason.find("ended with code") == std::string::npos;
+  const bool refused =
+      reason.starts_with("register: ") && reason.find("ended with code") == std::string::npos;
   return refused ? "refused" : "failed";
 }
 

@@ -19,18 +19,19 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-/// Half of a normal law's middle 90 and 50 %, in standard deviations.
-constexpr double kHalf90 = 1.6449, kHalf50 = 0.6745;
+/// Half of the middle 90 and 50 % along one axis, in standard deviations: Student's 1.8125 and
+/// 0.6998 for ten degrees of freedom (search_ellipse.h), times sqrt(8 / 10).
+constexpr double kHalf90 = 1.6211, kHalf50 = 0.6259;
 
 Eigen::Matrix2d covariance_of(const LesionRow& row) {
   if (!row.ellipse_major_mm || !row.detector_u_mm)
     throw std::runtime_error("lesions.csv has no ellipse for " + row.lesion + " in " + row.view +
                              "; it takes register.search = true");
-  const double one = std::sqrt(-2 * std::log(1 - 0.9));  // semi-axes over standard deviations
   const double t = *row.ellipse_angle_deg * M_PI / 180;
   Eigen::Matrix2d axes;
   axes << std::cos(t), -std::sin(t), std::sin(t), std::cos(t);
-  const Eigen::Vector2d sd = Eigen::Vector2d(*row.ellipse_major_mm, *row.ellipse_minor_mm) / one;
+  const Eigen::Vector2d sd =
+      Eigen::Vector2d(*row.ellipse_major_mm, *row.ellipse_minor_mm) / semi_axis_in_sd(0.9);
   return axes * sd.cwiseAbs2().asDiagonal() * axes.transpose();
 }
 

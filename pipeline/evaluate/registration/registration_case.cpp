@@ -148,8 +148,8 @@ std::vector<Landmark3d> landmarks_of(const Segmentation& truth, int number, bool
 
 /// `imaged`: the breast as the MRI shows it.
 std::string landmark_table(const TrueBreast& breast, const HermiteMesh& imaged,
-                           const std::vector<TrueView>& views, const Detector& detector,
-                           int number, bool fatty) {
+                           const std::vector<TrueView>& views, const Detector& detector, int number,
+                           bool fatty) {
   const PointCarrier to_image(breast.prone(), imaged);
   std::ostringstream csv;
   csv << "name,mri_l_mm,mri_p_mm,mri_s_mm,cc_column,cc_row,mlo_column,mlo_row\n"
@@ -258,9 +258,9 @@ void make_registration_case(int number, Difficulty difficulty, const fs::path& f
               true_mammogram(breast, view, detector, drawn.patient.anatomy.seed));
   if (hard) draw_over(number, folder);
   write_nrrd(folder / kScan, patient.scan.image);
-  write_text_atomically(folder / "landmarks.csv",
-                        landmark_table(breast, imaged, views, detector, number,
-                                       difficulty == Difficulty::fatty));
+  write_text_atomically(
+      folder / "landmarks.csv",
+      landmark_table(breast, imaged, views, detector, number, difficulty == Difficulty::fatty));
   write_text_atomically(folder / "drawn.json", drawn_json(drawn, views).dump(1) + "\n");
   write_text_atomically(folder / "patient.toml",
                         (hard ? wrongly_found(patient, breast.truth(), number, folder) : "") +

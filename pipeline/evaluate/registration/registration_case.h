@@ -10,7 +10,8 @@ enum class Difficulty { coarse, easy, hard, fatty };
 /// Makes synthetic patient n in `folder`: mri.nrrd, cc.png, mlo.png, patient.toml, landmarks.csv
 /// (lesions first, then points spread through the gland) and drawn.json. What is there already is
 /// kept. `coarse`: easy on few elements, to try it out; `fatty`: easy, with next to no gland, one
-/// lesion of 8 mm, and points in fat; what is hard stands in README.md. Throws std::runtime_error where the truth cannot be made.
+/// lesion of 8 mm, and points in fat; what is hard stands in README.md. Throws std::runtime_error
+/// where the truth cannot be made.
 void make_registration_case(int number, Difficulty difficulty, const std::filesystem::path& folder);
 
 /// Makes patient 042 with tomosynthesis in place of both mammograms: cc.dcm, mlo.dcm (all that

@@ -7,7 +7,7 @@
   const panes = [...mammotwin.panes.values()].filter(pane => pane.view.what_if);
   if (!panes.length) return;
   const STATES = 11, MECHANICAL = 8, TURN = 8, DEPTH = 9, LATERAL = 10;  // registration/search/view_state.h
-  const NINETY = Math.sqrt(-2 * Math.log(1 - 0.9));
+  const NINETY = Math.sqrt(8 * (Math.pow(1 - 0.9, -2 / 10) - 1));  // registration/search/search_ellipse.h
   const WORDS = {
     thickness_mm: ["Thickness", (by, view) => (view.thickness_mm + by).toFixed(1) + " mm"],
     roll_deg: ["Angle", (by, view) => (view.angle_deg + by).toFixed(1).replace("-", "−") + "°"],

@@ -77,22 +77,24 @@ TEST(ViewDisagreement, IsWhatCovariancesDoNotExpect) {
   EXPECT_EQ(view_disagreement(match, together, alone), 0);
 }
 
-// Variances 4 and 1 along axes turned by 30 degrees; chi-square with 2 degrees of freedom reaches
-// -2 ln(1 - p) with probability p.
+// Variances 4 and 1 along axes turned by 30 degrees, of Student's law with ten degrees of freedom:
+// a normal vector over the root of chi-square / 10, whose variance is 10 / 8.
 TEST(SearchEllipse, HoldsTheProbabilityThatItStates) {
   const Eigen::Matrix2d turn = Eigen::Rotation2Dd(M_PI / 6).toRotationMatrix();
   const Eigen::Matrix2d covariance = turn * Eigen::Vector2d(4, 1).asDiagonal() * turn.transpose();
   const SearchEllipse ninety = search_ellipse(covariance, 0.9),
                       half = search_ellipse(covariance, 0.5);
-  EXPECT_NEAR(ninety.major_mm, 2 * std::sqrt(2 * std::log(10)), 1e-12);
-  EXPECT_NEAR(ninety.minor_mm, std::sqrt(2 * std::log(10)), 1e-12);
+  EXPECT_NEAR(ninety.major_mm, 2 * 2.16313, 1e-4);
+  EXPECT_NEAR(ninety.minor_mm, 2.16313, 1e-4);
   EXPECT_NEAR(ninety.angle_deg, 30, 1e-9);
   std::mt19937 random(7);
   std::normal_distribution<double> normal;
+  std::chi_squared_distribution<double> chi_squared(10);
   int in_ninety = 0, in_half = 0;
   constexpr int draws = 4000;
   for (int n = 0; n < draws; ++n) {
-    const Eigen::Vector2d off = turn * Eigen::Vector2d(2 * normal(random), normal(random));
+    const double root = std::sqrt(chi_squared(random) / 8);
+    const Eigen::Vector2d off = turn * Eigen::Vector2d(2 * normal(random), normal(random)) / root;
     in_ninety += contains(ninety, off);
     in_half += contains(half, off);
   }

@@ -2,39 +2,44 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <random>
+
+#include "registration/search/search_ellipse.h"
 
 namespace mammotwin {
 namespace {
 
-/// Marks off by a normal law of standard deviations 2 and 1 mm, said to be `stated` times that.
+/// Marks off by Student's law with ten degrees of freedom (search_ellipse.h) of standard deviations
+/// 2 and 1 mm, said to be `stated` times that.
 std::vector<JudgedMark> marks(int count, double stated) {
   std::mt19937 random(5);
   std::normal_distribution<double> normal;
+  std::chi_squared_distribution<double> chi_squared(10);
   std::vector<JudgedMark> all;
   for (int n = 0; n < count; ++n) {
-    JudgedMark mark{n % 2 == 0, {2 * normal(random), normal(random)}, {}};
+    const double root = std::sqrt(chi_squared(random) / 8);
+    JudgedMark mark{n % 2 == 0, {2 * normal(random) / root, normal(random) / root}, {}};
     mark.covariance = stated * stated * Eigen::Vector2d(4, 1).asDiagonal().toDenseMatrix();
     all.push_back(mark);
   }
   return all;
 }
 
-// A normal law's ellipse of probability p has semi-axes sqrt(-2 ln(1 - p)) sd.
 TEST(MarkCoverage, AnHonestEllipseHoldsWhatItSays) {
   const auto row = coverage_of(marks(4000, 1));
   EXPECT_NEAR(row["inside_50"].get<double>(), 0.5,
               0.032);  // four standard deviations of 4000 draws
   EXPECT_NEAR(row["inside_90"].get<double>(), 0.9, 0.019);
-  EXPECT_NEAR(row["major_50_mm"].get<double>(), 2 * std::sqrt(2 * std::log(2.0)), 1e-9);
-  EXPECT_NEAR(row["major_90_mm"].get<double>(), 2 * std::sqrt(2 * std::log(10.0)), 1e-9);
+  EXPECT_NEAR(row["major_50_mm"].get<double>(), 2 * semi_axis_in_sd(0.5), 1e-9);
+  EXPECT_NEAR(row["major_90_mm"].get<double>(), 2 * semi_axis_in_sd(0.9), 1e-9);
 }
 
-// Twice as wide: 1 - exp(-4 ln 2) and 1 - exp(-4 ln 10).
+// Twice as wide: 1 - (1 + 4 a^2 / 8)^-5, a being 1.09 and 2.16.
 TEST(MarkCoverage, AnEllipseThatIsTooLargeHoldsMore) {
   const auto row = coverage_of(marks(4000, 2));
-  EXPECT_NEAR(row["inside_50"].get<double>(), 0.9375, 0.016);
-  EXPECT_GT(row["inside_90"].get<double>(), 0.998);
+  EXPECT_NEAR(row["inside_50"].get<double>(), 0.903, 0.019);
+  EXPECT_GT(row["inside_90"].get<double>(), 0.99);
 }
 
 TEST(MarkCoverage, GoesThroughJson) {

@@ -77,13 +77,13 @@ TEST_F(RealPairs, PlacesAreHeldAgainstEllipses) {
   EXPECT_FALSE(judged_mark({}, {30, 11.0}, prediction())["in_90"].get<bool>());
 }
 
-// 90 % of depths alone lie within 1.645 sd, sd being 20 / 2.146 = 9.32: 15.3 mm; half within 6.3.
+// 90 % of depths alone lie within 1.621 sd, sd being 20 / 2.163 = 9.25: 15.0 mm; half within 5.8.
 TEST_F(RealPairs, DepthsAreHeldAgainstTheirOwnInterval) {
-  const json row = judged_mark({}, {45, std::nullopt}, prediction());
+  const json row = judged_mark({}, {44.9, std::nullopt}, prediction());
   EXPECT_EQ(row["judged"], "depth");
-  EXPECT_NEAR(row["depth_off_mm"].get<double>(), 15, 1e-12);
-  EXPECT_NEAR(row["baseline_error_mm"].get<double>(), 12, 1e-12);
-  EXPECT_NEAR(row["reach_90_mm"].get<double>(), 15.33, 0.01);
+  EXPECT_NEAR(row["depth_off_mm"].get<double>(), 14.9, 1e-12);
+  EXPECT_NEAR(row["baseline_error_mm"].get<double>(), 11.9, 1e-12);
+  EXPECT_NEAR(row["reach_90_mm"].get<double>(), 14.99, 0.01);
   EXPECT_TRUE(row["in_90"].get<bool>());
   EXPECT_FALSE(row["in_50"].get<bool>());
   EXPECT_FALSE(judged_mark({}, {45.5, std::nullopt}, prediction())["in_90"].get<bool>());
