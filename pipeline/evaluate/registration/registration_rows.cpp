@@ -5,9 +5,11 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <numeric>
+#include <stdexcept>
 
 #include "pipeline/evaluate/cases/sorted_figures.h"
 #include "pipeline/evaluate/registration/mark_coverage.h"
+#include "pipeline/frame/outcome.h"
 #include "pipeline/frame/settings.h"
 #include "pipeline/patient/patient.h"
 #include "pipeline/steps/registered_view.h"
@@ -95,6 +97,10 @@ json empty_registration_row() {
 }
 
 json registration_row(const fs::path& folder) {
+  std::ifstream sidecar(folder / "lesions.csv.json");
+  const json said = sidecar ? json::parse(sidecar) : json::object();
+  if (said.value("status", "") == name_of(Status::refused))
+    throw std::runtime_error("register: " + said.at("reasons").at(0).get<std::string>());
   Patient patient;
   Settings settings;
   patient.declare(settings);
@@ -107,9 +113,7 @@ json registration_row(const fs::path& folder) {
   add_errors("", errors, true, row);
   add_errors("baseline_", errors, false, row);
   add_coverage(registered, pairs, row);
-  std::ifstream sidecar(folder / "lesions.csv.json");
-  if (sidecar) {
-    const json said = json::parse(sidecar);
+  if (!said.empty()) {
     row["search"] = said.at("quality").value("search", json::object());
     row["register_seconds"] = said.at("seconds");
   }
