@@ -44,6 +44,7 @@ json quality_of(const CompressionReport& r, double angle_deg) {
           {"wall_gap_mm", r.wall_gap_mm},
           {"steps", r.steps},
           {"cutbacks", r.cutbacks},
+          {"presses", r.presses},
           {"newton_iterations", r.newton_iterations},
           {"indefinite_matrices", r.indefinite_matrices},
           {"dof", r.dof},

@@ -12,13 +12,11 @@ namespace {
 
 constexpr double kNearBalance =
     0.02;  // of the flow: from here on the step is trusted by its length
-constexpr double kEquilibrium = 1e-4;  // of the flow: nearer, unstable states are left downhill
 // of the flow: nearer, potentials that hold something fixed follow the state. Farther off, points
 // stand deep in a plate, and friction of such pressures would hold all that touches.
 constexpr double kFollow = 1;
 constexpr double kFarFromBalance = 0.1;  // of the flow
-constexpr int kMostFalls = 5;
-constexpr double kFirstDamping = 0.4;  // shift after a step that no part of lowered the merit
+constexpr double kFirstDamping = 0.4;    // shift after a step that no part of lowered the merit
 
 bool balanced(const Balance& balance, const NewtonOptions& options) {
   return balance.residual.norm() <= options.tolerance * balance.flow &&
@@ -287,11 +285,13 @@ NewtonReport Newton::iterate(State& state, const NewtonOptions& options,
       nearest.forget();
     }
     if (good_enough || (pending.empty() && balanced(balance, options))) {
-      const bool minimum = !indefinite_ || options.keep_unstable ||
-                           options.tolerance > kEquilibrium || is_stable(state);
+      // A matrix that was definite is not this state's: near where one was not, this is asked.
+      const bool minimum = (!indefinite_ && report.indefinite == 0) || options.keep_unstable ||
+                           options.tolerance > options.stable_below || is_stable(state);
       nearest.forget();
       held_ = held_ || (following_ && falls > 0);  // it has led back to where it fell from
-      if (!minimum && ++falls <= kMostFalls && fall(state, balance, options, report)) continue;
+      if (!minimum && ++falls <= options.most_falls && fall(state, balance, options, report))
+        continue;
       report.converged = minimum;
       if (!minimum) report.reason = "the equilibrium found is unstable";
       return report;

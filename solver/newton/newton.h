@@ -21,6 +21,9 @@ struct NewtonOptions {
   /// Each step's merit is the energy of its start; the step itself knows that what is followed will
   /// move (SurfacePotential::circulation).
   Following following;
+  /// Solves of a tolerance up to this leave an unstable state downhill, at most so many times.
+  double stable_below = 1e-4;
+  int most_falls = 5;
   double max_shift = 1000;  ///< Laplacian shifts tried on an indefinite matrix before giving up [-]
   /// Takes a balanced state whose tangent is indefinite for an answer: for paths that only symmetry
   /// holds, such as a closed form's.

@@ -307,7 +307,23 @@ CompressionResult Compression::run_from(const CompressionResult& near) {
 CompressionResult compress(const CompressionProblem& problem, const CompressionOptions& options,
                            const Progress& progress, const CompressionRestart& restart) {
   check_shape(problem);
-  return Compression(problem, options, progress, restart).run();
+  CompressionResult quick = Compression(problem, options, progress, restart).run();
+  const CompressionReport& first = quick.report;
+  if (first.usable() || first.slipped_out || first.history.empty() || options.careful) return quick;
+  CompressionOptions carefully = options;
+  carefully.careful = true;
+  carefully.longest_move /= 2;
+  const Progress again = [&](double done, const std::string& what) {
+    progress(done, "once more, carefully: " + what);
+  };
+  CompressionResult result =
+      Compression(problem, carefully, progress ? again : Progress(), {}).run();
+  CompressionResult& better = result.report.usable() ? result : quick;
+  better.report.presses = 2;
+  better.report.newton_iterations = first.newton_iterations + result.report.newton_iterations;
+  better.report.indefinite_matrices = first.indefinite_matrices + result.report.indefinite_matrices;
+  better.report.seconds = first.seconds + result.report.seconds;
+  return std::move(better);
 }
 
 CompressionResult compress_from(const CompressionResult& near, const CompressionProblem& problem,

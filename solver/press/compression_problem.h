@@ -38,6 +38,8 @@ struct CompressionOptions {
   double longest_move = 10;           ///< of a plate in one load step [mm] > 0
   double smallest_step = 1.0 / 64;    ///< give up below this part of the way
   int max_iterations = 500;           ///< Newton iterations of the load steps together
+  /// Load steps come five times as near to balance, and to one that is stable.
+  bool careful = false;
   /// Of the tissue in front of the plates' edges, in [0, 1): where less stays there the breast
   /// counts as slipped out.
   double least_retained = 0.5;

@@ -24,7 +24,9 @@ enum class CompressionStatus { converged, not_converged };
 struct CompressionReport {
   CompressionStatus status = CompressionStatus::not_converged;
   std::string reason;  ///< why not, with the last good thickness
-  int steps = 0, cutbacks = 0, newton_iterations = 0, indefinite_matrices = 0;
+  int presses = 1;     ///< 2: once more, carefully (compress)
+  int steps = 0, cutbacks = 0;
+  int newton_iterations = 0, indefinite_matrices = 0;  ///< of all presses
   double target_thickness_mm = 0;
   double thickness_mm = 0;       ///< extent along `up` of the deformed skin between the plates
   double free_thickness_mm = 0;  ///< the same of the uncompressed breast

@@ -10,14 +10,9 @@ namespace mammotwin {
 
 namespace {
 
-constexpr double kStepTolerance = 5e-2;  // of load steps before the last
-
-PenaltyOptions penalties_of_steps() {
-  PenaltyOptions penalties;
-  penalties.first = 10;  // soft enough for a breast at rest: tissue comes in by some 2 mm
-  penalties.newton = loosened({}, kStepTolerance);
-  return penalties;
-}
+constexpr double kStepTolerance = 5e-2, kCarefulTolerance = 1e-2;  // of load steps
+constexpr int kCarefulFalls = 20;
+constexpr double kSoft = 10;  // for a breast at rest: tissue comes in by some 2 mm
 
 }  // namespace
 
@@ -71,7 +66,9 @@ double Press::tilt_error(const State& state) const {
 
 NewtonReport Press::squeeze(State& state, double penalty, bool near) {
   const double unit = breast_.penalty_unit();
-  PenaltyOptions penalties = penalties_of_steps();
+  PenaltyOptions penalties;
+  penalties.first = kSoft;
+  penalties.newton = newton_to(options_.careful ? kCarefulTolerance : kStepTolerance);
   if (penalty > 0) {
     penalties.last = penalty / unit;
     penalties.first = near ? penalties.last : penalties.last / penalties.growth;
@@ -83,8 +80,16 @@ NewtonReport Press::squeeze(State& state, double penalty, bool near) {
                           [&](const State& s) { return penetration(s); }, penalties.newton, state));
 }
 
+NewtonOptions Press::newton_to(double tolerance) const {
+  NewtonOptions newton = loosened({}, tolerance);
+  if (!options_.careful) return newton;
+  newton.stable_below = kCarefulTolerance;
+  newton.most_falls = kCarefulFalls;
+  return newton;
+}
+
 NewtonReport Press::resettle(State& state, double tolerance) {
-  return mammotwin::resettle(newton_, *breast_.contact, loosened({}, tolerance), state);
+  return mammotwin::resettle(newton_, *breast_.contact, newton_to(tolerance), state);
 }
 
 void Press::track_friction(const State& state) {

@@ -251,5 +251,18 @@ TEST(Compress, SaysHowFarItCameWhereItCannotGoOn) {
   EXPECT_NE(result.report.reason.find("stopped at"), std::string::npos);
 }
 
+TEST(Compress, PressesOnceMoreWhatItCannotBringThere) {
+  CompressionOptions options;
+  options.max_iterations = 8;  // of the load steps of each press
+  std::vector<std::string> said;
+  const CompressionResult result = compress(
+      squeezed_problem(), options, [&](double, const std::string& what) { said.push_back(what); });
+  EXPECT_FALSE(result.report.usable());
+  EXPECT_EQ(result.report.presses, 2);
+  EXPECT_GT(result.report.newton_iterations, 8);
+  EXPECT_NE(said.back().find("once more, carefully"), std::string::npos);
+  EXPECT_EQ(squeezed().report.presses, 1);
+}
+
 }  // namespace
 }  // namespace mammotwin
