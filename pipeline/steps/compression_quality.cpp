@@ -45,7 +45,7 @@ json quality_of(const CompressionReport& r, double angle_deg) {
           {"steps", r.steps},
           {"cutbacks", r.cutbacks},
           {"presses", r.presses},
-          {"earlier_iterations", r.earlier_iterations},
+          {"other_press_iterations", r.other_press_iterations},
           {"newton_iterations", r.newton_iterations},
           {"indefinite_matrices", r.indefinite_matrices},
           {"dof", r.dof},

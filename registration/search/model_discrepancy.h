@@ -22,7 +22,7 @@ struct ModelDiscrepancy {
   /// Errors of sd e each way smear a pattern whose autocorrelation is exp(-d^2 / (2 l^2)) to a
   /// correlation c0 / (1 + e^2 / l^2), c0 being that of the same breast in place (0.88: nine of ten
   /// views of synthetic patients, whose marks are 1.2 mm off, correlate by more): e = l sqrt(c0 / c
-  /// - 1). Without a pattern to compare, kUncorrectedSd_mm: those methods saw outlines alone.
+  /// - 1). Without a pattern to compare, kUncorrectedSd_mm.
   double pattern_mm = 0;
   /// How much further the views, each searched alone, put tissue from where both put it than their
   /// covariances say.

@@ -15,9 +15,9 @@ constexpr double kBehind_mm = 8;       // nearer to the detector's edge no outli
 constexpr double kBorder_mm = 3;       // of the image: an outline there is the image's end
 constexpr double kLeastNipple_mm = 3;  // sd: what the model knows of its own
 constexpr double kHuber = 2;           // standard deviations beyond which outliers count less
-/// Of dense tissue's thickness: vessels and ligaments in fat, 2 to 3 mm thick and no gland in the
-/// MRI, vary it as much over cells of 4 mm. Synthetic patients with 10 to 34 % of gland have 2 to
-/// 12.
+/// Of dense tissue's thickness. Reckoned, not measured: vessels and ligaments in fat, 2 to 3 mm
+/// thick and no gland in the MRI, would vary it as much over cells of 4 mm. Synthetic patients with
+/// 10 to 34 % of gland have 2 to 12.
 constexpr double kLeastDetail_mm = 1;
 
 /// Share of an independent piece of outline that lies between two rays.

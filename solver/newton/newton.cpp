@@ -285,7 +285,8 @@ NewtonReport Newton::iterate(State& state, const NewtonOptions& options,
       nearest.forget();
     }
     if (good_enough || (pending.empty() && balanced(balance, options))) {
-      // A matrix that was definite is not this state's: near where one was not, this is asked.
+      // The last matrix is that of the state before: where one on the way was not definite, this
+      // state's own is asked.
       const bool minimum = (!indefinite_ && report.indefinite == 0) || options.keep_unstable ||
                            options.tolerance > options.stable_below || is_stable(state);
       nearest.forget();

@@ -320,7 +320,8 @@ CompressionResult compress(const CompressionProblem& problem, const CompressionO
       Compression(problem, carefully, progress ? again : Progress(), {}).run();
   CompressionResult& better = result.report.usable() ? result : quick;
   better.report.presses = 2;
-  better.report.earlier_iterations = (&better == &quick ? result.report : first).newton_iterations;
+  better.report.other_press_iterations =
+      (&better == &quick ? result.report : first).newton_iterations;
   better.report.newton_iterations = first.newton_iterations + result.report.newton_iterations;
   better.report.indefinite_matrices = first.indefinite_matrices + result.report.indefinite_matrices;
   better.report.seconds = first.seconds + result.report.seconds;

@@ -14,7 +14,7 @@ struct CompressionCheckpoint;
 struct CompressionRestart {
   const CompressionCheckpoint* from = nullptr;  ///< of the same problem; null: anew
   std::function<void(const CompressionCheckpoint&)>
-      keep;  ///< called after each load step; or empty
+      keep;  ///< called after each load step, but for those of a second press; or empty
 };
 
 /// Squeezes the breast between support and paddle to the thickness asked.

@@ -23,9 +23,9 @@ enum class CompressionStatus { converged, not_converged };
 
 struct CompressionReport {
   CompressionStatus status = CompressionStatus::not_converged;
-  std::string reason;          ///< why not, with the last good thickness
-  int presses = 1;             ///< 2: once more, carefully (compress)
-  int earlier_iterations = 0;  ///< of the press that is not this result's
+  std::string reason;              ///< why not, with the last good thickness
+  int presses = 1;                 ///< 2: once more, carefully (compress)
+  int other_press_iterations = 0;  ///< of the press that is not this result's
   int steps = 0, cutbacks = 0;
   int newton_iterations = 0, indefinite_matrices = 0;  ///< of all presses
   double target_thickness_mm = 0;

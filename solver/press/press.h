@@ -54,10 +54,6 @@ class Press {
   /// By how much the spring would have the paddle tilt further [deg]; 0 for a rigid one.
   double tilt_error(const State& state) const;
 
-  /// Of a solve to this tolerance; a careful one asks that the loose states of load steps are
-  /// stable.
-  NewtonOptions newton_to(double tolerance) const;
-
   /// Equilibrium with the plates where they are, to the tolerance of load steps: at a soft penalty
   /// first, then at stiffer ones until no point is more than half a millimetre inside. `penalty` is
   /// one that was enough nearby [kPa/mm]; 0: none is known. `near`: the state goes with the plates
@@ -80,6 +76,10 @@ class Press {
   void hold_by_friction(const std::vector<PlateFriction::Hold>& holds, const State& state);
 
  private:
+  /// Of a solve to this tolerance; a careful one asks that the loose states of load steps are
+  /// stable.
+  NewtonOptions newton_to(double tolerance) const;
+
   const CompressionProblem& problem_;
   const CompressionOptions& options_;
   MeshFile positioned_;

@@ -3,6 +3,7 @@
 #include <functional>
 #include <iostream>
 #include <sstream>
+#include <stdexcept>
 
 #include "pipeline/evaluate/cases/case_arguments.h"
 #include "pipeline/evaluate/cases/evaluation_table.h"
@@ -73,17 +74,23 @@ std::string line_of(const json& row) {
   return line.str();
 }
 
-Difficulty difficulty_of(const Arguments& args) {
-  return args.hard     ? Difficulty::hard
-         : args.fatty  ? Difficulty::fatty
-         : args.coarse ? Difficulty::coarse
-                       : Difficulty::easy;
+struct Drawn {
+  Difficulty difficulty = Difficulty::easy;
+  std::string prefix = "synthetic-";  ///< of their folders
+};
+
+Drawn drawn_by(const Arguments& args) {
+  if (args.coarse + args.hard + args.fatty > 1)
+    throw std::runtime_error("--coarse, --hard and --fatty are patients of three kinds: name one");
+  if (args.hard) return {Difficulty::hard, "hard-"};
+  if (args.fatty) return {Difficulty::fatty, "fatty-"};
+  return {args.coarse ? Difficulty::coarse : Difficulty::easy};
 }
 
 /// The folder of patient n + 1, whose mammograms are shown as those of patient n.
 fs::path another_patient(int number, const Arguments& args, const fs::path& folder) {
   const fs::path next = folder.parent_path() / ("mammograms-" + std::to_string(number + 1));
-  if (!args.judge) make_registration_case(number + 1, difficulty_of(args), next);
+  if (!args.judge) make_registration_case(number + 1, drawn_by(args).difficulty, next);
   return next;
 }
 
@@ -100,13 +107,11 @@ void add_misfits(int number, const fs::path& folder, const Arguments& args,
 }
 
 int run(const Arguments& args) {
+  const Drawn drawn = drawn_by(args);
   EvaluationTable table(args.table);
   work_through(args.synthetic, args.jobs, [&](std::size_t n) {
     const int number = args.first + static_cast<int>(n);
-    const std::string name = (args.hard    ? "hard-"
-                              : args.fatty ? "fatty-"
-                                           : "synthetic-") +
-                             std::to_string(number);
+    const std::string name = drawn.prefix + std::to_string(number);
     const fs::path folder = table.folder() / "registration" / name;
     const auto add = [&](json row, const std::string& spoilt) {
       row["spoilt"] = spoilt;
@@ -114,7 +119,7 @@ int run(const Arguments& args) {
       table.add(n, std::move(row), line);
     };
     add(evaluate(
-            folder, [&] { make_registration_case(number, difficulty_of(args), folder); }, args),
+            folder, [&] { make_registration_case(number, drawn.difficulty, folder); }, args),
         "nothing");
     if (args.spoil)
       for (const std::string spoil : kSpoils) {

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <numeric>
 #include <stdexcept>
 
 #include "pipeline/evaluate/cases/sorted_figures.h"
+#include "pipeline/evaluate/cases/stage_command.h"
 #include "pipeline/evaluate/registration/mark_coverage.h"
 #include "pipeline/frame/outcome.h"
 #include "pipeline/frame/settings.h"
@@ -97,9 +97,8 @@ json empty_registration_row() {
 }
 
 json registration_row(const fs::path& folder) {
-  std::ifstream sidecar(folder / "lesions.csv.json");
-  const json said = sidecar ? json::parse(sidecar) : json::object();
-  if (said.value("status", "") == name_of(Status::refused))
+  const json said = stage_sidecar(folder / "lesions.csv");
+  if (said.is_object() && said.at("status") == name_of(Status::refused))
     throw std::runtime_error("register: " + said.at("reasons").at(0).get<std::string>());
   Patient patient;
   Settings settings;
@@ -113,7 +112,7 @@ json registration_row(const fs::path& folder) {
   add_errors("", errors, true, row);
   add_errors("baseline_", errors, false, row);
   add_coverage(registered, pairs, row);
-  if (!said.empty()) {
+  if (said.is_object()) {
     row["search"] = said.at("quality").value("search", json::object());
     row["register_seconds"] = said.at("seconds");
   }

@@ -36,8 +36,9 @@ std::optional<Series> series_of(const PatientResults& results, const std::string
       counted += iterations;
     }
   if (series.bars.empty()) return std::nullopt;
-  series.bars.push_back({"end", std::max(0, quality.value("newton_iterations", counted) -
-                                                quality.value("earlier_iterations", 0) - counted)});
+  series.bars.push_back(
+      {"end", std::max(0, quality.value("newton_iterations", counted) -
+                              quality.value("other_press_iterations", 0) - counted)});
   return series;
 }
 

@@ -216,7 +216,7 @@ TEST(ModelDiscrepancy, CountsANippleBeyondWhatIsKnownOfIt) {
   EXPECT_EQ(model_discrepancy(left).nipple_mm, 0);
 }
 
-TEST(ModelDiscrepancy, WithoutAPatternIsThatOfMethodsThatSeeOutlines) {
+TEST(ModelDiscrepancy, WithoutAPatternIsThatOfPublishedMethods) {
   MatchFigures left = good();
   left.pattern_correlation.reset();
   EXPECT_EQ(model_discrepancy(left).sd_mm(), kUncorrectedSd_mm);
