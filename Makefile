@@ -40,7 +40,7 @@ export P DATA RESULTS FORCE BIN SEED PATIENTS JOBS ONLY ENGINE CONFIG PREFIX CAS
 unexport MAKEFLAGS MAKEOVERRIDES
 
 .PHONY: help patient segment fit unload compress register report slicer paraview synthesize exam cohort verify-results \
-        evaluate-segmentation evaluate-fitting evaluate-compression evaluate-unload evaluate-gravity evaluate-registration \
+        evaluate-segmentation evaluate-segmentation-changes evaluate-fitting evaluate-compression evaluate-unload evaluate-gravity evaluate-registration \
         evaluate-stability evaluate-refinement evaluate-stabilisation evaluate-other-meshes evaluate-supine-spread evaluate-what-if evaluate-page evaluate-outlines evaluate-mammograms evaluate-mammogram-changes evaluate-tomosynthesis evaluate-real-pairs evaluate-niftysim evaluate-victre calibrate-tissue measured validate bench chain programs configured \
         configured_to_test install docs test clean
 .NOTPARALLEL:  # ninja itself uses all cores
@@ -59,6 +59,8 @@ help:
 	@echo 'make verify-results P=042   are all files still those that were written?'
 	@echo 'make evaluate-segmentation  segments SYNTHETIC=20 synthetic patients, and MRI simulated from the'
 	@echo '                       label maps of CASES=folder: RESULTS/evaluation/segmentation.json; JOBS=2 at a time'
+	@echo 'make evaluate-segmentation-changes CASES=folder   segments the MRI of its patients (folders with patient.toml)'
+	@echo '                       again, mirrored, turned, resampled, noisier ...: RESULTS/evaluation/segmentation_changes.json'
 	@echo 'make evaluate-fitting  fits every breast of CASES=folder, and SYNTHETIC=20 drawn ones:'
 	@echo '                       RESULTS/evaluation/fitting.json; ONLY="Exam_02-left Exam_04"'
 	@echo 'make evaluate-other-meshes OTHERS=folder   presses breasts with our meshes and with those of another'
@@ -133,6 +135,10 @@ cohort:
 evaluate-segmentation: mammotwin-evaluate-segmentation
 	@"$$BIN/mammotwin-evaluate-segmentation" "$$RESULTS/evaluation/segmentation.json" --cases "$$CASES" \
 	  $${SYNTHETIC:+--synthetic "$$SYNTHETIC"} $${JOBS:+--jobs "$$JOBS"} $${ONLY:+--only "$$ONLY"}
+
+evaluate-segmentation-changes: mammotwin-evaluate-segmentation-changes
+	@"$$BIN/mammotwin-evaluate-segmentation-changes" "$$CASES" "$$RESULTS/evaluation/segmentation_changes.json" \
+	  $${ONLY:+--only $$ONLY} $${JOBS:+--jobs "$$JOBS"}
 
 evaluate-fitting: mammotwin-evaluate-fitting
 	@"$$BIN/mammotwin-evaluate-fitting" "$$CASES" "$$RESULTS/evaluation/fitting.json" \

@@ -1,15 +1,12 @@
 #include "pipeline/evaluate/compression/changed_image.h"
 
-#include <itkBSplineInterpolateImageFunction.h>
-#include <itkImage.h>
-#include <tbb/parallel_for.h>
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
 
+#include "pipeline/evaluate/cases/spline_resampled.h"
 #include "segmentation/image/flipped.h"
 
 namespace mammotwin {
@@ -37,57 +34,19 @@ std::uint16_t label_at(const Volume<std::uint16_t>& labels, const Eigen::Vector3
       ->first;
 }
 
-/// What stands at a place between voxels.
-template <class T>
-class Between;
-
-template <>
-class Between<std::uint16_t> {
- public:
-  explicit Between(const Volume<std::uint16_t>& labels) : labels_(labels) {}
-  std::uint16_t at(const Eigen::Vector3d& x) const { return label_at(labels_, x); }
-
- private:
-  const Volume<std::uint16_t>& labels_;
-};
-
-template <>
-class Between<float> {
- public:
-  explicit Between(const Volume<float>& grey) : grey_(grey) {
-    const auto image = Image::New();
-    image->SetRegions(Image::SizeType{static_cast<itk::SizeValueType>(grey.size.x()),
-                                      static_cast<itk::SizeValueType>(grey.size.y()),
-                                      static_cast<itk::SizeValueType>(grey.size.z())});
-    image->Allocate();
-    std::copy(grey.values.begin(), grey.values.end(), image->GetBufferPointer());
-    spline_->SetSplineOrder(3);
-    spline_->SetInputImage(image);
-  }
-
-  float at(const Eigen::Vector3d& x) const {
-    const Eigen::Vector3d index = grey_.index(x);
-    const Spline::ContinuousIndexType place(index.data());
-    if (!spline_->IsInsideBuffer(place)) return 0;
-    return std::max(0.0F, static_cast<float>(spline_->EvaluateAtContinuousIndex(place)));
-  }
-
- private:
-  using Image = itk::Image<float, 3>;
-  using Spline = itk::BSplineInterpolateImageFunction<Image, double, float>;
-  const Volume<float>& grey_;
-  Spline::Pointer spline_ = Spline::New();
-};
-
 /// On another grid, whose place x shows what stands at `from(x)`.
-template <class T, class From>
-Volume<T> resampled(const Volume<T>& image, Volume<T> onto, From from) {
-  const Between<T> between(image);
-  tbb::parallel_for(0, onto.size.z(), [&](int k) {
+template <class From>
+Volume<float> resampled(const Volume<float>& image, Volume<float> onto, From from) {
+  return spline_resampled(image, std::move(onto), from);
+}
+
+template <class From>
+Volume<std::uint16_t> resampled(const Volume<std::uint16_t>& labels, Volume<std::uint16_t> onto,
+                                From from) {
+  for (int k = 0; k < onto.size.z(); ++k)
     for (int j = 0; j < onto.size.y(); ++j)
       for (int i = 0; i < onto.size.x(); ++i)
-        onto(i, j, k) = between.at(from(onto.position(i, j, k)));
-  });
+        onto(i, j, k) = label_at(labels, from(onto.position(i, j, k)));
   return onto;
 }
 
