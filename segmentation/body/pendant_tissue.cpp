@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "segmentation/image/components.h"
 
@@ -58,28 +59,48 @@ PendantTissue find_pendant_tissue(const Volume<std::uint8_t>& labels, const Tiss
           labels.position(first, 0, 0).x() + outward * labels.spacing.x(), side};
 }
 
-OutsideRegion outside_region(const PendantTissue& pendant, const Volume<std::uint8_t>& labels,
-                             const BreastRegion& region) {
+Volume<std::uint8_t> hanging_tissue(const PendantTissue& pendant,
+                                    const Volume<std::uint8_t>& labels) {
   auto hanging = labels.like<std::uint8_t>(0);
   for (int k = 0; k < labels.size.z(); ++k)
     for (int j = 0; j < labels.size.y(); ++j)
       for (int i = 0; i < labels.size.x(); ++i)
         hanging(i, j, k) =
             label::is_breast(labels(i, j, k)) && pendant.contains(labels.position(i, j, k));
-  hanging = largest_component(hanging);
+  return largest_component(hanging);
+}
+
+double lateral_reach(const PendantTissue& pendant, const Volume<std::uint8_t>& hanging,
+                     double share) {
+  std::vector<double> counts(hanging.size.x(), 0);
+  double beyond = 0;
+  for (int k = 0; k < hanging.size.z(); ++k)
+    for (int j = 0; j < hanging.size.y(); ++j)
+      for (int i = 0; i < hanging.size.x(); ++i)
+        counts[i] += hanging(i, j, k), beyond += share * hanging(i, j, k);
+  const bool left = pendant.side == Side::left;
+  int i = left ? hanging.size.x() - 1 : 0;
+  for (const int end = left ? 0 : hanging.size.x() - 1; i != end && beyond >= counts[i];
+       i += left ? -1 : 1)
+    beyond -= counts[i];
+  const double part = counts[i] > 0 ? beyond / counts[i] : 0;  // of the last column
+  return hanging.position(i, 0, 0).x() + (left ? 0.5 - part : part - 0.5) * hanging.spacing.x();
+}
+
+OutsideRegion outside_region(const Volume<std::uint8_t>& hanging, const BreastRegion& region) {
   OutsideRegion outside;
   double all = 0, out = 0;
-  for (int k = 0; k < labels.size.z(); ++k)
-    for (int j = 0; j < labels.size.y(); ++j)
-      for (int i = 0; i < labels.size.x(); ++i) {
+  for (int k = 0; k < hanging.size.z(); ++k)
+    for (int j = 0; j < hanging.size.y(); ++j)
+      for (int i = 0; i < hanging.size.x(); ++i) {
         if (!hanging(i, j, k)) continue;
         ++all;
-        const Eigen::Vector3d x = labels.position(i, j, k);
+        const Eigen::Vector3d x = hanging.position(i, j, k);
         if (!region.contains(x)) ++out, outside.middle_in_lps += x;
       }
   if (out > 0) outside.middle_in_lps /= out;
   outside.share = all > 0 ? out / all : 0;
-  outside.volume_ml = out * labels.voxel_volume() / 1000;
+  outside.volume_ml = out * hanging.voxel_volume() / 1000;
   return outside;
 }
 

@@ -24,14 +24,20 @@ struct PendantTissue {
 PendantTissue find_pendant_tissue(const Volume<std::uint8_t>& labels, const TissueColumns& columns,
                                   const ColumnBox& half, int apex_i, int apex_k, Side side);
 
-/// What of it, of its largest connected part (ghosts beside the body are others), lies outside a
-/// region.
+/// Its largest connected part (ghosts beside the body are others) as a mask on the labels' grid.
+Volume<std::uint8_t> hanging_tissue(const PendantTissue& pendant,
+                                    const Volume<std::uint8_t>& labels);
+
+/// How far it reaches laterally: beyond that x [mm, LPS] lies this share of its volume.
+double lateral_reach(const PendantTissue& pendant, const Volume<std::uint8_t>& hanging,
+                     double share);
+
+/// What of it lies outside a region.
 struct OutsideRegion {
   double share = 0;  ///< of its volume
   double volume_ml = 0;
   Eigen::Vector3d middle_in_lps = Eigen::Vector3d::Zero();  ///< of what is outside [mm]
 };
-OutsideRegion outside_region(const PendantTissue& pendant, const Volume<std::uint8_t>& labels,
-                             const BreastRegion& region);
+OutsideRegion outside_region(const Volume<std::uint8_t>& hanging, const BreastRegion& region);
 
 }  // namespace mammotwin

@@ -146,6 +146,34 @@ TEST(BreastRegion, TellsHowMuchOfTheBreastItLeavesOut) {
   EXPECT_GT(found.outside.middle_in_lps.z(), 15);
 }
 
+/// A breast beside whose foot the flank falls off steeply, thick along the columns as far as the
+/// body is imaged, from under the breast on.
+Volume<std::uint8_t> breast_and_flank(int columns_of_flank) {
+  Volume<std::uint8_t> labels({70 + columns_of_flank, 130, 80}, Eigen::Vector3d::Constant(2),
+                              {2, -51, -79}, label::air);
+  for (int k = 0; k < labels.size.z(); ++k)
+    for (int j = 0; j < labels.size.y(); ++j)
+      for (int i = 0; i < labels.size.x(); ++i) {
+        const Eigen::Vector3d x = labels.position(i, j, k);
+        const double height =
+            60 * std::max(0.0, 1 - (std::pow(x.x() - 60, 2) + x.z() * x.z()) / 2500);
+        const double fall = 2.5 * std::max(0.0, x.x() - 110);
+        if (x.y() > chest_front + 40 + fall || (x.x() < 90 && x.y() > chest_front))
+          labels(i, j, k) = label::muscle;
+        else if (x.y() > chest_front - coat - height + fall)
+          labels(i, j, k) = label::fat;
+      }
+  return labels;
+}
+
+TEST(BreastRegion, EndsLaterallyByHowFarTheBreastHangsAndNotByTheFlank) {
+  const FoundRegion narrow = find_region(breast_and_flank(15), Side::left, LabelsHold::one_side);
+  const FoundRegion wide = find_region(breast_and_flank(40), Side::left, LabelsHold::one_side);
+  EXPECT_NEAR(narrow.region.x_max, wide.region.x_max, 1e-9);
+  // It hangs to 110 mm; 1 % of a paraboloid lies beyond 0.75 of its radius of 50 mm or so.
+  EXPECT_NEAR(wide.region.x_max, 60 + 40 + 35, 5);
+}
+
 TEST(BreastRegion, IsWidenedWhereTheThickPartLeavesBreastOut) {
   // A tall peg on a wide, low breast: thick (over 0.35 of the peg's column) is the peg alone.
   Volume<std::uint8_t> labels({160, 90, 100}, Eigen::Vector3d::Constant(2), {-159, -91, -99},
