@@ -11,6 +11,10 @@ constexpr double differs_mm = 5;
 // More of the disputed rays than this lose their support: 0.06 where the prior mended a real wall,
 // 0.38 to 0.62 where it spoilt one.
 constexpr double most_lost = 0.15;
+// No woman's wall lies this much deeper than others' do (their spread is 6 to 10 mm): the image's
+// edge is that of liver, heart or lung, and the thin muscle before it has lung behind, which is as
+// dark as suppressed fat.
+constexpr double organs_mm = 15, most_lost_before_organs = 0.5;
 
 double unsupported(const PectoralWall& wall, Side side, double z_low, double z_high) {
   return wall.doubt(side, z_low, z_high) + wall.fat_behind(side, z_low, z_high);
@@ -56,8 +60,9 @@ SettledWall settled_wall(const PectoralWall& by_image, const PectoralWall& with_
     const WallDispute found = wall_dispute(with_prior, by_image, side, z_low, z_high);
     const double lost =
         unsupported(with_prior, side, z_low, z_high) - unsupported(by_image, side, z_low, z_high);
+    const double allowed = found.median_mm < -organs_mm ? most_lost_before_organs : most_lost;
     bool& by_prior = side == Side::left ? settled.left_by_prior : settled.right_by_prior;
-    by_prior = found.share > 0 && lost <= most_lost * found.share;
+    by_prior = found.share > 0 && lost <= allowed * found.share;
     if (by_prior) continue;
     take_side(by_image, side, settled.wall);
     take_side(with_prior, side, settled.other);

@@ -25,8 +25,9 @@ struct SettledWall {
 /// Of each side the wall found without the prior (wall_prior.h), unless the one with it differs
 /// somewhere by more than 5 mm and keeps the image's support there (of the rays that differ, doubt
 /// and fat behind together grow by 0.15 at most): liver and heart have edges as good as muscle's,
-/// so the usual place decides between two edges; but a chest unlike others keeps its own. Both
-/// walls have the same grid.
+/// so the usual place decides between two edges; but a chest unlike others keeps its own. Where the
+/// image's wall lies more than 15 mm deeper, which is no chest's, they may grow by 0.5. Both walls
+/// have the same grid.
 SettledWall settled_wall(const PectoralWall& by_image, const PectoralWall& with_prior, double z_low,
                          double z_high);
 

@@ -40,6 +40,16 @@ TEST(SettledWall, IsTheImagesOnASideWhereThePriorFindsNoEdge) {
   for (int n = 0; n < 600; ++n) EXPECT_EQ(settled.wall.radius[n], n % 60 < 30 ? 85 : 105);
 }
 
+// Thin muscle before a lung that is as dark as suppressed fat, and the edge of a heart behind it.
+TEST(SettledWall, IsNotAnEdgeOfOrgansWhereALungLiesBehindTheMuscle) {
+  PectoralWall before_lung = wall_at(105);
+  for (int n = 0; n < 600; ++n)
+    if (n % 3 == 0) before_lung.behind[n] = 1;
+  EXPECT_TRUE(settled_wall(wall_at(85), before_lung, 0, 18).left_by_prior);
+  EXPECT_FALSE(settled_wall(wall_at(95), before_lung, 0, 18).left_by_prior)
+      << "10 mm deeper, a chest may be";
+}
+
 TEST(SettledWall, IsNotDisputedByLessThanFiveMm) {
   const SettledWall settled = settled_wall(wall_at(100), wall_at(104), 0, 18);
   EXPECT_EQ(wall_dispute(settled.wall, settled.other, Side::left, 0, 18).share, 0);
