@@ -8,6 +8,7 @@
 #include "segmentation/image/masked.h"
 #include "segmentation/image/otsu.h"
 #include "segmentation/image/smoothing.h"
+#include "segmentation/tissue/fraction_noise.h"
 
 namespace mammotwin {
 namespace {
@@ -162,8 +163,8 @@ TissueSplit split_tissue(const Volume<float>& image, const Volume<std::uint8_t>&
   TissueSplit result;
   result.gland_fraction = image.like<float>(0);
   for (std::size_t v = 0; v < image.values.size(); ++v)
-    if (interior.values[v])
-      result.gland_fraction.values[v] = std::clamp(split.fraction(v), 0.0F, 1.0F);
+    result.gland_fraction.values[v] = split.fraction(v);
+  result.gland_fraction = without_noise(std::move(result.gland_fraction), interior, statistics);
   result.gland = split.gland();
   result.corrected = std::move(split).corrected();
   return result;

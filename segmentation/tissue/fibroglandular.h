@@ -10,7 +10,7 @@ namespace mammotwin {
 struct TissueSplit {
   double gland = 1;              ///< brightness of pure gland in the corrected image, of fat 1
   Volume<float> corrected;       ///< the image with the remaining bias taken out
-  Volume<float> gland_fraction;  ///< (I - fat) / (gland - fat), cut to [0, 1]; 0 outside
+  Volume<float> gland_fraction;  ///< (I - fat) / (gland - fat) without_noise; 0 outside
 };
 
 /// Starts from Otsu's threshold, erodes both classes by a voxel so that partial volume leaves
