@@ -47,6 +47,7 @@ constexpr Limit kOfViews[] = {
     {"", "J_within_half", limits::share_of_sane_J, kNone, ""},
     {"", "swing_mm", -limits::swing_mm, limits::swing_mm, " mm"},
     {"", "roll_deg", -kNone, limits::roll_deg, "°"},
+    {"", "retained_fraction", limits::retained_fraction, kNone, ""},
 };
 
 std::string shown(double value, const char* unit) {

@@ -99,6 +99,10 @@ Outcome judge_compression(const CompressionReport& r, const SidewaysEscape& esca
   doubt(escape.roll_deg > limits::roll_deg,
         sentence("the breast rolled over by %.0f degrees between the plates; expected under %.0f",
                  escape.roll_deg, limits::roll_deg));
+  doubt(r.retained_fraction < limits::retained_fraction,
+        sentence("the breast slid backwards: %.0f %% of the tissue in front of the plates' edges "
+                 "stays there; expected at least %.0f %%",
+                 100 * r.retained_fraction, 100 * limits::retained_fraction));
   doubt(r.J_within_half < limits::share_of_sane_J,
         sentence("volume is locally kept within half at %.1f %% of the points; expected %.0f %%",
                  100 * r.J_within_half, 100 * limits::share_of_sane_J));

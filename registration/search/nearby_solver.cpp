@@ -21,16 +21,11 @@ constexpr std::array<double, 2> kSofter = {0.3, 1};
 // number, Coulomb's friction from the solved state finds no equilibrium in a third of the cases;
 // springs of 0.5 to 2 mm come as near, of 5 mm and more let a breast go.
 constexpr double kFrictionReach = 2;
-constexpr double kLeastRetained = 0.2;  // of the tissue between the plates; less is another breast
 
 CompressionOptions soft_options() {
   CompressionOptions options;
   options.gap_tolerance = 0.5;
   options.thickness_tolerance = 1e3;  // the plates stay where they are put
-  // Whether it slipped out is for the mammogram to say: next to a breast that keeps little more
-  // than half of its tissue between the plates are states that keep less, and the search passes
-  // them.
-  options.least_retained = kLeastRetained;
   options.frozen_friction = kFrictionReach;
   return options;
 }

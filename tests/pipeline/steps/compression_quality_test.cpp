@@ -39,6 +39,10 @@ TEST(CompressionQuality, WhatIsNotQuiteReachedIsToBeLookedAtAndSaysByHowMuch) {
   EXPECT_EQ(outcome(&CompressionReport::mean_gap_mm, 0.2).status, Status::ok);
   EXPECT_EQ(outcome(&CompressionReport::mean_gap_mm, 0.3).status, Status::look);
   EXPECT_EQ(outcome(&CompressionReport::max_penetration_mm, 0.6).status, Status::look);
+  EXPECT_EQ(outcome(&CompressionReport::retained_fraction, 0.65).status, Status::ok);
+  const Outcome slid = outcome(&CompressionReport::retained_fraction, 0.31);
+  EXPECT_EQ(slid.status, Status::look);
+  EXPECT_NE(slid.reasons.at(0).find("31 %"), std::string::npos);
 }
 
 }  // namespace

@@ -58,9 +58,9 @@ TEST(NearbySolver, SlopesAreWhatSolvesSay) {
 }
 
 // Far from the chest wall and on weak springs, 5 mm thinner: what then stays between the plates is
-// less than half of the tissue, which `compress` calls slipped out. A search has to be able to go
-// there. It slides back by a sixth of its tissue between 4 and 5 mm; beyond 6 mm it is found in
-// steps of 0.5 mm only, and from 7 mm on not at all.
+// less than half of the tissue. A search has to be able to go there. It slides back by a sixth of
+// its tissue between 4 and 5 mm; beyond 6 mm it is found in steps of 0.5 mm only, and from 7 mm on
+// not at all.
 TEST(NearbySolver, GoesOnWhereTheBreastSlipsBackwards) {
   const auto loose_at = [](const ViewState& state) {
     CompressionProblem problem = dome_problem(36 + state[kThickness], false);
