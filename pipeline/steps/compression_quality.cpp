@@ -72,6 +72,7 @@ Outcome judge_compression(const CompressionReport& r, const SidewaysEscape& esca
   }
   outcome.quality["swing_mm"] = escape.swing_mm;
   outcome.quality["roll_deg"] = escape.roll_deg;
+  outcome.quality["slid_mm"] = escape.slid_mm;
   const auto doubt = [&](bool doubtful, const std::string& reason) {
     if (!doubtful) return;
     outcome.status = Status::look;

@@ -41,7 +41,8 @@ inline constexpr double kUncorrectedSd_mm = 6.2;
 ModelDiscrepancy model_discrepancy(const MatchFigures& left);
 
 /// Of a prediction that no mammogram corrects [mm]: kUncorrectedSd_mm, and as far as the nipple
-/// swung and a roll moved what lies at a plate, for a radiographer lets no breast escape sideways.
+/// swung, a roll moved what lies at a plate and tissue slid back, for a radiographer lets no breast
+/// escape.
 double uncorrected_sd_mm(const SidewaysEscape& escape, double thickness_mm);
 
 }  // namespace mammotwin

@@ -37,6 +37,7 @@ void write_view(const CompressedView& view, Metadata& metadata) {
   metadata["view_axes"] = {columns.data(), columns.data() + columns.size()};
   metadata["view_swing_mm"] = {view.escape.swing_mm};
   metadata["view_roll_deg"] = {view.escape.roll_deg};
+  metadata["view_slid_mm"] = {view.escape.slid_mm};
   if (view.turn_deg != 0) metadata["view_turn_deg"] = {view.turn_deg};
 }
 
@@ -52,6 +53,7 @@ CompressedView compressed_view(const std::string& name, const std::string& file,
       Eigen::Matrix<double, 3, 3, Eigen::RowMajor>(entry(metadata, file, "view_axes", 9).data());
   view.escape.swing_mm = entry(metadata, file, "view_swing_mm", 1)[0];
   view.escape.roll_deg = entry(metadata, file, "view_roll_deg", 1)[0];
+  view.escape.slid_mm = entry(metadata, file, "view_slid_mm", 1)[0];
   if (metadata.contains("view_turn_deg"))
     view.turn_deg = entry(metadata, file, "view_turn_deg", 1)[0];
   const double difference =

@@ -28,7 +28,7 @@ void write_view(const CompressedView& view, std::map<std::string, std::vector<do
 
 /// What `compress` wrote beside the mesh: view_side (0 left, 1 right), view_angle_deg,
 /// thickness_mm, view_origin_lps_mm (3), view_axes (9: depth, lateral, height),
-/// view_swing_mm, view_roll_deg and, where the detector is turned, view_turn_deg.
+/// view_swing_mm, view_roll_deg, view_slid_mm and, where the detector is turned, view_turn_deg.
 /// Throws std::runtime_error naming `file` and the entry that is missing or contradicts the angle.
 CompressedView compressed_view(const std::string& name, const std::string& file,
                                const std::map<std::string, std::vector<double>>& metadata);

@@ -37,19 +37,23 @@ struct AffineSums {
 SidewaysEscape sideways_escape(const HermiteMesh& found, const HermiteMesh& pressed,
                                const MeshPoint& nipple, const ViewFrame& view) {
   AffineSums between;
+  double in_front = 0, forward = 0;
   for (int e = 0; e < found.num_elements(); ++e)
     for (int n = 0; n < kSamples * kSamples * kSamples; ++n) {
       const Eigen::Vector3d number(n % kSamples, n / kSamples % kSamples,
                                    n / (kSamples * kSamples));
       const MeshPoint p{e, (number.array() + 0.5) / kSamples};
+      const Eigen::Vector3d X = view.view_from_lps(found.position(p));
       const Eigen::Vector3d x = view.view_from_lps(pressed.position(p));
-      if (x.x() > 0)
-        between.add(found.jacobian(p).determinant(), view.view_from_lps(found.position(p)), x);
+      const double volume = found.jacobian(p).determinant();
+      if (x.x() > 0) between.add(volume, X, x);
+      if (X.x() > 0) in_front += volume, forward += volume * (x.x() - X.x());
     }
   const double kept = between.volume > 0 ? between.rotation()(2, 2) : 1;
   const Eigen::Vector3d moved = pressed.position(nipple) - found.position(nipple);
   return {view.axes.row(1).dot(moved),
-          std::acos(std::clamp(kept, -1.0, 1.0)) * 180 / std::numbers::pi};
+          std::acos(std::clamp(kept, -1.0, 1.0)) * 180 / std::numbers::pi,
+          in_front > 0 ? std::max(0.0, -forward / in_front) : 0};
 }
 
 }  // namespace mammotwin

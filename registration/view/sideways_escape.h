@@ -5,10 +5,11 @@
 
 namespace mammotwin {
 
-/// How far a breast escaped sideways from the plates that press it.
+/// How far a breast escaped from the plates that press it, sideways and backwards.
 struct SidewaysEscape {
   double swing_mm = 0;  ///< of the nipple along the plates' edges, lateral positive
   double roll_deg = 0;  ///< of the tissue between the plates, about an axis in their plane
+  double slid_mm = 0;   ///< backwards, in the mean, of the tissue that was in front of their edges
 };
 
 /// From the breast as the plates found it to the breast between them, both on the same elements.

@@ -201,6 +201,7 @@ TEST(ModelDiscrepancy, LeavesNoEllipseSmallerThanTheOutlineIsOff) {
 TEST(ModelDiscrepancy, OfAnUncorrectedViewHoldsWhatEscapedSideways) {
   EXPECT_EQ(uncorrected_sd_mm({}, 60), kUncorrectedSd_mm);
   EXPECT_NEAR(uncorrected_sd_mm({-20, 30}, 60), std::sqrt(6.2 * 6.2 + 400 + 225), 1e-9);
+  EXPECT_NEAR(uncorrected_sd_mm({0, 0, 45}, 60), std::sqrt(6.2 * 6.2 + 45 * 45), 1e-9);
 }
 
 // sqrt(20^2 / 2 - 3^2) = 13.8; within 3 mm each way nothing is left to explain.

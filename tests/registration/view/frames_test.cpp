@@ -98,6 +98,7 @@ TEST(CompressedView, IsReadFromTheFieldsOfTheMeshFile) {
       {"view_origin_lps_mm", {o.x(), o.y(), o.z()}},
       {"view_swing_mm", {-7}},
       {"view_roll_deg", {3}},
+      {"view_slid_mm", {40}},
       {"view_axes", axes}};
   const CompressedView read = compressed_view("mlo", "mlo.vtu", fields);
   EXPECT_EQ(read.frame.axes, made.frame.axes);
@@ -105,6 +106,7 @@ TEST(CompressedView, IsReadFromTheFieldsOfTheMeshFile) {
   EXPECT_EQ(read.side, Side::right);
   EXPECT_EQ(read.escape.swing_mm, -7);
   EXPECT_EQ(read.escape.roll_deg, 3);
+  EXPECT_EQ(read.escape.slid_mm, 40);
 
   fields["view_angle_deg"] = {40};
   EXPECT_THROW(compressed_view("mlo", "mlo.vtu", fields), std::runtime_error);

@@ -43,6 +43,17 @@ TEST(SidewaysEscape, IsTheTurnAndTheNipplesMoveAlongTheEdges) {
   EXPECT_NEAR(escape.swing_mm, 12, 1e-9);
 }
 
+// The edges lie at y = 100 and the whole block before them; depth points to -y.
+TEST(SidewaysEscape, IsHowFarTissueSlidBackAndNothingWhereItGoesForward) {
+  const auto slid = [](double by) {
+    return sideways_escape(kBlock, mapped(kBlock, Eigen::Matrix3d::Identity(), {0, by, 0}), kFront,
+                           cc())
+        .slid_mm;
+  };
+  EXPECT_NEAR(slid(30), 30, 1e-9);
+  EXPECT_EQ(slid(-5), 0);
+}
+
 // What lies behind the plates' edges does not count: here all that turns.
 TEST(SidewaysEscape, LeavesOutWhatIsBehindTheEdges) {
   ViewFrame far = cc();
