@@ -21,6 +21,9 @@ constexpr double beyond_thick_mm = 15;
 constexpr double beyond_hanging_mm = 35, hanging_beyond = 0.01;
 constexpr double least_apex_mm = 15;  // a breast thinner than this is none
 constexpr double flank_worth = 0.1;   // of tissue behind the breastbone's skin, over that before it
+constexpr double most_outside = 0.03;        // of the pendant tissue, before the region is widened
+constexpr double worth_setting_back = 0.02;  // of the pendant tissue: for less no muscle is moved
+constexpr double surely_breast_mm = 10;  // in front of the breastbone's skin: the breast, for sure
 
 /// The columns of one side, from the medial end on.
 ColumnBox side_columns(const Volume<std::uint8_t>& labels, const TissueColumns& columns, Side side,
@@ -120,6 +123,39 @@ std::vector<double> worth_of(const TissueColumns& columns, double sternal_y) {
   return worth;
 }
 
+/// All columns with tissue in front of the skin over the breastbone that a box round the apex
+/// holds.
+ColumnBox pendant_box(const Volume<std::uint8_t>& labels, const ColumnBox& half,
+                      const PendantTissue& pendant) {
+  const auto slice = [&](double z) {
+    return static_cast<int>(std::lround((z - labels.origin.z()) / labels.spacing.z()));
+  };
+  return {half.i0, half.i1, slice(pendant.z_low), slice(pendant.z_high)};
+}
+
+/// The columns with muscle close under the skin as if it lay least_tissue_mm deep, so far medially
+/// as the breast stands out in front of the breastbone's skin.
+TissueColumns thickened(const TissueColumns& columns, const PendantTissue& pendant,
+                        const ColumnBox& pendant_rows, const Apex& apex, Side side) {
+  const int medially = side == Side::left ? -1 : 1;
+  int end = apex.i;
+  for (int k = pendant_rows.k0; k <= pendant_rows.k1; ++k) {
+    int i = apex.i;
+    const auto stands = [&](int at) {
+      return at >= 0 && at < columns.nx &&
+             columns.front[columns.at(at, k)] + pendant.sternal_y > surely_breast_mm;
+    };
+    while (stands(i + medially)) i += medially;
+    end = side == Side::left ? std::min(end, i) : std::max(end, i);
+  }
+  TissueColumns thick = columns;
+  for (int k = pendant_rows.k0; k <= pendant_rows.k1; ++k)
+    for (int i = end; i != apex.i; i -= medially)
+      if (const std::size_t n = columns.at(i, k); columns.on_muscle[n])
+        thick.tissue[n] = std::max(thick.tissue[n], least_tissue_mm);
+  return thick;
+}
+
 double thin_area(const TissueColumns& columns, const Volume<std::uint8_t>& labels,
                  const BreastRegion& region) {
   double count = 0;
@@ -168,13 +204,12 @@ BreastColumns breast_columns(const Volume<std::uint8_t>& labels, Side side, Labe
   return breast;
 }
 
-/// The columns of its side, laterally to where what hangs ends (but for 1 % of it) and `beyond` mm
-/// farther.
-ColumnBox to_beyond_what_hangs(const BreastColumns& breast, const Volume<std::uint8_t>& labels,
-                               double beyond) {
+/// The columns of its side, laterally no farther than a region may reach: 35 mm beyond where what
+/// hangs ends (but for 1 % of it).
+ColumnBox beside_the_breast(const BreastColumns& breast, const Volume<std::uint8_t>& labels) {
   const bool left = breast.pendant.side == Side::left;
-  const double x =
-      lateral_reach(breast.pendant, breast.hanging, hanging_beyond) + (left ? beyond : -beyond);
+  const double x = lateral_reach(breast.pendant, breast.hanging, hanging_beyond) +
+                   (left ? beyond_hanging_mm : -beyond_hanging_mm);
   const int end = static_cast<int>(std::lround((x - labels.origin.x()) / labels.spacing.x()));
   ColumnBox half = breast.half;
   if (left)
@@ -184,37 +219,42 @@ ColumnBox to_beyond_what_hangs(const BreastColumns& breast, const Volume<std::ui
   return half;
 }
 
-/// All columns with tissue in front of the skin over the breastbone that a box round the apex
-/// holds.
-ColumnBox pendant_box(const BreastColumns& breast, const Volume<std::uint8_t>& labels) {
-  const auto slice = [&](double z) {
-    return static_cast<int>(std::lround((z - labels.origin.z()) / labels.spacing.z()));
-  };
-  ColumnBox box = to_beyond_what_hangs(breast, labels, 0);
-  box.k0 = slice(breast.pendant.z_low), box.k1 = slice(breast.pendant.z_high);
-  return box;
-}
-
 }  // namespace
 
 FoundRegion find_region(const Volume<std::uint8_t>& labels, Side side, LabelsHold hold) {
   const BreastColumns breast = breast_columns(labels, side, hold);
   const TissueColumns& columns = breast.columns;
-  const ColumnBox half = to_beyond_what_hangs(breast, labels, beyond_hanging_mm);
+  const ColumnBox half = beside_the_breast(breast, labels);
   const Apex& apex = breast.apex;
   FoundRegion found;
   found.pendant = breast.pendant;
+  const std::vector<double> worth = worth_of(columns, found.pendant.sternal_y);
+  const auto fullest_within = [&](const TissueColumns& of, const ColumnBox& within) {
+    ColumnBox box = fullest_box(of, worth, within, apex.i, apex.k, {side});
+    hold_lesions(labels, breast.half, box);
+    return region_of(box, labels, side);
+  };
+  const auto take_if_better = [&](const BreastRegion& other, double by) {
+    const OutsideRegion less = outside_region(breast.hanging, other);
+    const bool better = less.share < found.outside.share - by;
+    if (better) found.region = other, found.outside = less;
+    return better;
+  };
   const ColumnBox thick = thick_box(columns, half, apex);
-  ColumnBox within = widened(thick, half, labels, side);
-  within.k0 = std::max(within.k0, std::min(apex.k, fold_below(columns, half, thick)));
-  const ColumnBox pendant = pendant_box(breast, labels);
-  within.hold(pendant.i0, pendant.k0), within.hold(pendant.i1, pendant.k1);
-  ColumnBox box = fullest_box(columns, worth_of(columns, found.pendant.sternal_y), within, apex.i,
-                              apex.k, {side});
-  hold_lesions(labels, breast.half, box);
-  found.region = region_of(box, labels, side);
+  ColumnBox usual = widened(thick, half, labels, side);
+  usual.k0 = std::max(usual.k0, std::min(apex.k, fold_below(columns, half, thick)));
+  found.region = fullest_within(columns, usual);
   found.outside = outside_region(breast.hanging, found.region);
-  found.thin_mm2 = thin_area(columns, labels, found.region);
+  if (found.outside.share <= most_outside) return found;
+  ColumnBox wider = pendant_box(labels, half, found.pendant);
+  ColumnBox rows = wider;  // as far laterally as usual
+  wider.hold(usual.i0, usual.k0), wider.hold(usual.i1, usual.k1);
+  take_if_better(fullest_within(columns, wider), 0);
+  if (found.outside.share <= most_outside) return found;
+  const TissueColumns with_medial = thickened(columns, found.pendant, rows, apex, side);
+  (side == Side::left ? rows.i1 : rows.i0) = side == Side::left ? usual.i1 : usual.i0;
+  if (take_if_better(fullest_within(with_medial, rows), worth_setting_back))
+    found.thin_mm2 = thin_area(columns, labels, found.region);
   return found;
 }
 

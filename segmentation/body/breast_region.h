@@ -27,16 +27,17 @@ struct FoundRegion {
 /// It is bounded
 ///   medially   by the valley of the skin between the two apices; with one side in the labels,
 ///              by the end of the labels;
-///   laterally  35 mm beyond what hangs (but for 1 % of it);
+///   laterally  35 mm beyond what hangs (but for 1 % of it), and as below;
 ///   elsewhere  15 mm beyond the part around the apex where tissue is thicker than 0.35 of the
-///              apex column, laterally, too, where that is nearer;
+///              apex column; where more than 3 % of the pendant tissue would be left out so, by
+///              the slices of that tissue and the end of the labels;
 ///   below      nearer than that by the inframammary fold, where the skin comes forward by 3 mm
 ///              again below it;
-/// but by no slice of the pendant tissue, and is, of all rectangles within these bounds, the one
-/// with most tissue, that behind the breastbone's skin counting a tenth; then pushed out to hold
-/// every lesion of that side. Each column has 5 mm of tissue (8 mm in the lateral edge's): where
-/// muscle lies closer under the skin it can be set back, each missing millimetre counts as 6 of
-/// tissue that is given up.
+/// and is, of all rectangles within these bounds of whose columns every one has 5 mm of tissue (8
+/// mm in the lateral edge's), the one with most tissue, that behind the breastbone's skin counting
+/// a tenth; then pushed out to hold every lesion of that side. Where that leaves out more than 3 %
+/// still, muscle close under the skin beside the breast, where its medial edge slants over the
+/// breastbone, counts as 5 mm of tissue, if more of the breast is held so.
 ///
 /// Throws std::runtime_error if that side holds no breast that stands out from the chest.
 FoundRegion find_region(const Volume<std::uint8_t>& labels, Side side,

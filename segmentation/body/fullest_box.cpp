@@ -5,73 +5,65 @@
 namespace mammotwin {
 namespace {
 
-/// Rows of columns between a lower and an upper edge, summed up row by row.
-class SummedRows {
+/// Sums over boxes of columns in constant time.
+class BoxSums {
  public:
-  SummedRows(const TissueColumns& columns, const std::vector<double>& worth,
-             const FullestBoxRules& rules)
-      : columns_(columns), worth_(worth), rules_(rules), sums_(columns.nx) {}
-
-  void add(int k) {
-    for (int i = 0; i < columns_.nx; ++i) {
-      const std::size_t n = columns_.at(i, k);
-      const double missing = std::max(0.0, rules_.least_mm - columns_.tissue[n]);
-      sums_[i].worth += worth_[n] - rules_.cost_of_missing * missing;
-      sums_[i].empty |= missing > 0 && !columns_.on_muscle[n];
-      sums_[i].thin |= columns_.tissue[n] < rules_.least_lateral_mm;
-    }
+  BoxSums(const std::vector<double>& values, int nx, int nz)
+      : nx_(nx + 1), sum_(static_cast<std::size_t>(nx + 1) * (nz + 1), 0) {
+    for (int k = 0; k < nz; ++k)
+      for (int i = 0; i < nx; ++i)
+        sum_[at(i + 1, k + 1)] = values[static_cast<std::size_t>(k) * nx + i] + sum_[at(i, k + 1)] +
+                                 sum_[at(i + 1, k)] - sum_[at(i, k)];
   }
-
-  bool holds(int i) const { return !sums_[i].empty; }
-  double worth(int i) const { return sums_[i].worth; }
-
-  struct Side {
-    int end;
-    double worth;
-  };
-  /// From beside column `i` on, to `last` at most, the columns that are worth most together.
-  Side best_side(int i, int last, bool lateral) const {
-    const int step = last < i ? -1 : 1;
-    Side best{i, 0};
-    double worth = 0;
-    for (int at = i; at != last && holds(at + step);) {
-      at += step;
-      worth += sums_[at].worth;
-      if (worth > best.worth && !(lateral && sums_[at].thin)) best = {at, worth};
-    }
-    return best;
+  double operator()(const ColumnBox& b) const {
+    return sum_[at(b.i1 + 1, b.k1 + 1)] - sum_[at(b.i0, b.k1 + 1)] - sum_[at(b.i1 + 1, b.k0)] +
+           sum_[at(b.i0, b.k0)];
   }
 
  private:
-  struct Sum {
-    double worth = 0;
-    bool empty = false;  ///< one of them has too little tissue and no muscle
-    bool thin = false;   ///< one of them is too thin for the lateral edge
-  };
-  const TissueColumns& columns_;
-  const std::vector<double>& worth_;
-  const FullestBoxRules& rules_;
-  std::vector<Sum> sums_;
+  std::size_t at(int i, int k) const { return static_cast<std::size_t>(k) * nx_ + i; }
+  int nx_;
+  std::vector<double> sum_;
 };
+
+/// 1 where a column has less tissue than that.
+std::vector<double> poorer_than(const TissueColumns& columns, double least_mm) {
+  std::vector<double> poor;
+  for (const double tissue : columns.tissue) poor.push_back(tissue < least_mm);
+  return poor;
+}
+
+/// How far one row reaches from column i without a poor one.
+void narrow(const TissueColumns& columns, int k, int i, double least_mm, ColumnBox& box) {
+  int low = i, high = i;
+  while (low > box.i0 && columns.tissue[columns.at(low - 1, k)] >= least_mm) --low;
+  while (high < box.i1 && columns.tissue[columns.at(high + 1, k)] >= least_mm) ++high;
+  box.i0 = low, box.i1 = high;
+}
 
 }  // namespace
 
 ColumnBox fullest_box(const TissueColumns& columns, const std::vector<double>& worth,
                       const ColumnBox& within, int i, int k, const FullestBoxRules& rules) {
+  const BoxSums worths(worth, columns.nx, columns.nz);
+  const BoxSums thin(poorer_than(columns, rules.least_lateral_mm), columns.nx, columns.nz);
+  const auto rich = [&](int row) { return columns.tissue[columns.at(i, row)] >= rules.least_mm; };
+  const auto lateral_edge = [&](ColumnBox box) {
+    int& edge = rules.side == Side::left ? box.i1 : box.i0;
+    const int inward = rules.side == Side::left ? -1 : 1;
+    while (edge != i && thin({edge, edge, box.k0, box.k1}) > 0) edge += inward;
+    return box;
+  };
   ColumnBox best{i, i, k, k};
   double most = -1;
-  SummedRows lower(columns, worth, rules);
-  for (int k0 = k; k0 >= within.k0; --k0) {
-    lower.add(k0);
-    if (!lower.holds(i)) break;
-    SummedRows rows = lower;
-    for (int k1 = k; k1 <= within.k1; ++k1) {
-      if (k1 > k) rows.add(k1);
-      if (!rows.holds(i)) break;
-      const auto right = rows.best_side(i, within.i0, rules.side == Side::right);
-      const auto left = rows.best_side(i, within.i1, rules.side == Side::left);
-      const double sum = rows.worth(i) + right.worth + left.worth;
-      if (sum > most) most = sum, best = {right.end, left.end, k0, k1};
+  ColumnBox lower{within.i0, within.i1, k, k};
+  for (int k0 = k; k0 >= within.k0 && rich(k0); --k0) {
+    narrow(columns, lower.k0 = k0, i, rules.least_mm, lower);
+    ColumnBox box = lower;
+    for (int k1 = k; k1 <= within.k1 && rich(k1); ++k1) {
+      narrow(columns, box.k1 = k1, i, rules.least_mm, box);
+      const ColumnBox edged = lateral_edge(box);
+      if (const double sum = worths(edged); sum > most) most = sum, best = edged;
     }
   }
   return best;

@@ -107,7 +107,8 @@ double at_share(const std::vector<double>& sorted, double share) {
   return sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1))];
 }
 
-/// Share of the first one's breast that lies outside the region found in the changed image.
+/// Share of the first one's breast, as far as the changed image shows it, that lies outside the
+/// region found there.
 double left_out(const Segmentation& first, const Segmentation& after, const ChangedMri& changed) {
   double all = 0, outside = 0;
   for (int k = 0; k < first.labels.size.z(); ++k)
@@ -115,8 +116,11 @@ double left_out(const Segmentation& first, const Segmentation& after, const Chan
       for (int i = 0; i < first.labels.size.x(); ++i) {
         const Eigen::Vector3d x = first.labels.position(i, j, k);
         if (!first.region.contains(x) || !label::is_breast(first.labels(i, j, k))) continue;
+        const Eigen::Vector3d there = changed.changed_from_first(x);
+        const Eigen::Vector3i v = changed.image.index(there).array().round().cast<int>();
+        if (!changed.image.contains(v.x(), v.y(), v.z())) continue;
         ++all;
-        outside += !after.region.contains(changed.changed_from_first(x));
+        outside += !after.region.contains(there);
       }
   return outside / std::max(1.0, all);
 }
