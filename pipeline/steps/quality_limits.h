@@ -14,8 +14,8 @@ inline constexpr double share_of_sane_J = 0.99;    ///< of points, at least, wit
 /// Mammograms show the nipple at the front and the breast spread, not rolled over.
 inline constexpr double swing_mm = 20;  ///< of the nipple along the plates' edges, either way
 inline constexpr double roll_deg = 20;  ///< of the tissue between the plates
-/// Of the tissue in front of the plates' edges, at least: ten breasts of label maps keep 0.9, four
-/// real ones 0.7 to 0.9.
+/// Of the tissue in front of the plates' edges, at least: ten breasts of label maps keep 0.9, two
+/// real ones 0.7 to 0.9 in both views.
 inline constexpr double retained_fraction = 0.6;
 /// Hanging. With tissue that goes as far as women's from prone to supine, ten breasts have 1.35
 /// to 1.7.
