@@ -38,13 +38,11 @@ void crop(SegmentResult& result) {
 
 /// Over the breastbone's border, beside a breast whose medial edge slants.
 void set_wall_back(const FoundRegion& found, Segmentation& s, SegmentQuality& quality) {
-  constexpr double worth_a_note_mm2 = 100;
   const Volume<std::uint8_t> before = s.labels;
   set_muscle_back(s.labels, found.region, least_tissue_mm);
   for (std::size_t v = 0; v < before.values.size(); ++v)
     if (s.labels.values[v] != before.values[v])
       s.fractions.values[v] = pure_fractions(s.labels.values[v]);
-  if (found.thin_mm2 < worth_a_note_mm2) return;
   quality.notes.push_back(
       "over " + std::to_string(std::lround(found.thin_mm2 / 100)) +
       " cm2 beside the breast the chest wall lay less than 5 mm under the skin; "
