@@ -74,7 +74,7 @@ help:
 	@echo '                       RESULTS/evaluation/supine_spread.json'
 	@echo 'make evaluate-unload   takes gravity off every breast of CASES: RESULTS/evaluation/unload.json'
 	@echo 'make evaluate-compression   compresses SYNTHETIC=200 drawn breasts and those of CASES=folder in'
-	@echo '                       both views: RESULTS/evaluation/compression.json; JOBS=2 at a time'
+	@echo '                       both views: RESULTS/evaluation/compression.json; JOBS=2 at a time; UNLOADED=1: free of gravity'
 	@echo 'make evaluate-stability  presses label maps and MRI of CASES again with their input changed in ways that must'
 	@echo '                       not matter: RESULTS/evaluation/stability.json; ONLY="Exam_02-left Exam_04",'
 	@echo '                       CHANGES="turn_5 mirror", VIEWS=cc (hours for all)'
@@ -162,7 +162,8 @@ calibrate-tissue: mammotwin-calibrate-tissue
 
 evaluate-compression: mammotwin-evaluate-compression
 	@"$$BIN/mammotwin-evaluate-compression" "$$RESULTS/evaluation/compression.json" --cases "$$CASES" \
-	  $${SYNTHETIC:+--synthetic "$$SYNTHETIC"} $${JOBS:+--jobs "$$JOBS"} $${ONLY:+--only "$$ONLY"}
+	  $${SYNTHETIC:+--synthetic "$$SYNTHETIC"} $${JOBS:+--jobs "$$JOBS"} $${ONLY:+--only "$$ONLY"} \
+	  $${PRESET:+--preset "$$PRESET"} $${UNLOADED:+--unload}
 
 evaluate-stability: mammotwin-evaluate-stability
 	@"$$BIN/mammotwin-evaluate-stability" "$$CASES" "$$RESULTS/evaluation/stability.json" \

@@ -259,7 +259,10 @@ void Settings::label_values(std::string key, std::vector<int>& variable, std::st
 void Settings::preset(std::string key, std::string& chosen, std::vector<Preset> presets,
                       std::string help) {
   std::vector<std::string> names;
-  for (const Preset& preset : presets) names.push_back(preset.name);
+  for (const Preset& preset : presets) {
+    names.push_back(preset.name);
+    if (preset.name == chosen) take_preset(preset);
+  }
   presets_[key] = std::move(presets);
   add_choice(
       std::move(key), names, std::move(help),

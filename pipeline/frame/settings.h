@@ -84,8 +84,9 @@ class Settings {
   void choice(std::string key, std::optional<E>& variable,
               std::vector<std::pair<std::string, E>> names, std::string help);
 
-  /// Names for sets of values of settings, all of the same ones. The values that a user gives
-  /// stand, whether they come before the name or after it.
+  /// Names for sets of values of settings, all of the same ones, declared already: that which
+  /// `chosen` names is taken at once. The values that a user gives stand, whether they come before
+  /// the name or after it.
   void preset(std::string key, std::string& chosen, std::vector<Preset> presets, std::string help);
 
   const std::vector<Setting>& all() const { return settings_; }

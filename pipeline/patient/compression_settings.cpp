@@ -75,10 +75,6 @@ Detector ViewSettings::detector(const std::string& view, Side side) const {
 }
 
 void declare_compression(Settings& s, CompressionSettings& c) {
-  s.preset(
-      "materials.preset", c.preset, tissue_presets(),
-      "values for the tissues' laws, stiffness_factor, skin.membrane, the chest wall's spring and "
-      "smoothing and compress.pull, where they are not given");
   declare_law(s, "fat", c.fat);
   declare_law(s, "fibroglandular", c.fibroglandular);
   declare_law(s, "lesion", c.lesion);
@@ -152,6 +148,11 @@ void declare_compression(Settings& s, CompressionSettings& c) {
   s.number("compress.pull", c.pull, {0, 10},
            "what holds the breast drawn forward onto the support, over its weight; at 1 it lies as "
            "far forward as it hung in the MRI; 0: nothing");
+  c.preset = kDefaultTissue;
+  s.preset(
+      "materials.preset", c.preset, tissue_presets(),
+      "values for the tissues' laws, stiffness_factor, skin.membrane, the chest wall's spring and "
+      "smoothing, compress.pull and compress.grad_div_quartic, where they are not given");
 }
 
 void declare_view(Settings& s, const std::string& view, ViewSettings& v) {

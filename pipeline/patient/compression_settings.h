@@ -33,7 +33,8 @@ inline BoundaryOptions on_a_traced_wall() {
   return boundary;
 }
 
-/// What patient.toml says of tissue and of what holds it.
+/// What patient.toml says of tissue and of what holds it; made by itself, the tissue that patients
+/// are drawn with.
 struct CompressionSettings {
   std::string preset = "neo_hookean_2026";  ///< tissue_presets.h
   LawSettings fat{.c1_kpa = 0.75}, fibroglandular{.c1_kpa = 2.5}, lesion{.c1_kpa = 3.3};

@@ -10,7 +10,7 @@ struct Tissue {
   std::string law = "neo_hookean";
   std::string fat_c1 = "0.75", fibroglandular_c1 = "2.5", lesion_c1 = "3.3";
   std::string stiffening = "1", factor = "1", membrane = "true", spring = "0.08", smoothing = "5";
-  std::string pull = "0";
+  std::string pull = "0", quartic = "20";
 };
 
 Preset preset_of(const std::string& name, const Tissue& tissue) {
@@ -31,6 +31,7 @@ Preset preset_of(const std::string& name, const Tissue& tissue) {
   add("compress.chest_wall_spring_kpa_per_mm", tissue.spring);
   add("compress.chest_wall_smoothing_mm", tissue.smoothing);
   add("compress.pull", tissue.pull);
+  add("compress.grad_div_quartic", tissue.quartic);
   return preset;
 }
 
@@ -46,6 +47,8 @@ std::vector<Preset> tissue_presets() {
   real.spring = "0.04";
   real.smoothing = "20";
   real.pull = "1";
+  // Tissue that stiffens many times over outgrows the term that keeps each point's volume.
+  real.quartic = "400";
   return {preset_of("gel", gel), preset_of("neo_hookean_2026", {}), preset_of("real", real)};
 }
 

@@ -13,4 +13,7 @@ namespace mammotwin {
 ///   How it was chosen and what it does: docs/measured/tissue_real.md.
 std::vector<Preset> tissue_presets();
 
+/// What is taken of a patient whose patient.toml names none.
+inline constexpr const char* kDefaultTissue = "real";
+
 }  // namespace mammotwin

@@ -76,7 +76,7 @@ std::string too_soft(const UnloadingRecord& record) {
 }  // namespace
 
 void stiffen_as_needed(UnloadingRecord& record) {
-  constexpr double most = 2;
+  constexpr double most = 8;
   UnloadReport& report = record.report;
   if (report.usable() || !(report.sufficient_stiffness_factor() <= most)) return;
   record.stiffened = report.sufficient_stiffness_factor();

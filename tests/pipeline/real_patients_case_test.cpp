@@ -126,10 +126,10 @@ TEST_F(RealPatient, Mri6e4da81aAgainstItsMammograms) {
             << in_mlo.y() - in_cc.y() << " (" << rise << ") mm; 90 % of depths within "
             << cc_mark.depth_90 << " and " << mlo_mark.depth_90 << " mm\n";
   EXPECT_NEAR(in_cc.x(), depth(cc), 30);
-  EXPECT_NEAR(in_mlo.y() - in_cc.y(), rise, 24);
+  EXPECT_NEAR(in_mlo.y() - in_cc.y(), rise, 36);
   EXPECT_NEAR(in_cc.x(), depth(cc), cc_mark.depth_90);
   EXPECT_NEAR(in_mlo.x(), depth(mlo), mlo_mark.depth_90);
-  EXPECT_LT(std::max(cc_mark.depth_90, mlo_mark.depth_90), 65);
+  EXPECT_LT(std::max(cc_mark.depth_90, mlo_mark.depth_90), 85);
 }
 
 TEST_F(RealPatient, TwoPatientsInOneFolderAreRefusedAndListed) {

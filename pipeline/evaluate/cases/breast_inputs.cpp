@@ -131,10 +131,11 @@ void write_toml(const EvaluatedBreast& breast, const PreparedBreast& prepared) {
   std::ostringstream toml;
   toml << "side = " << prepared.facts.at("side") << "\n";
   if (breast.label_map) toml << labels_toml(breast.label_map->file);
+  toml << "[materials]\npreset = \"" << breast.preset << "\"\n";
   if (breast.synthetic) {
     const CompressionSettings defaults;
     const double gland = breast.synthetic->stiffness_ratio * defaults.fat.c1_kpa;
-    toml << "[materials]\npreset = \"" << defaults.preset << "\"\nfibroglandular.c1_kpa = " << gland
+    toml << "fibroglandular.c1_kpa = " << gland
          << "\nlesion.c1_kpa = " << gland * defaults.lesion.c1_kpa / defaults.fibroglandular.c1_kpa
          << "\n";
   }
@@ -142,6 +143,23 @@ void write_toml(const EvaluatedBreast& breast, const PreparedBreast& prepared) {
     toml << "[views." << view.view << "]\nthickness_mm = " << view.thickness_mm
          << "\nangle_deg = " << view.angle_deg << "\n";
   write_text_atomically(breast.folder / "patient.toml", toml.str());
+}
+
+/// A breast that no shape free of load is found of has that for its reason.
+void take_gravity_off(const EvaluatedBreast& breast, PreparedBreast& prepared) {
+  const auto file = [&](const char* name) { return breast.folder / name; };
+  try {
+    const double seconds =
+        run_to_product({"unload",
+                        {file("segmentation.seg.nrrd"), file("fractions.nrrd"), file("prone.vtu")},
+                        breast.mesh(),
+                        file("patient.toml")});
+    prepared.facts["unload_cpu_seconds"] = seconds;
+    prepared.facts["unload_status"] = stage_sidecar(breast.mesh()).at("status");
+  } catch (const std::exception& error) {
+    prepared.facts["unload_status"] = "refused";
+    prepared.reason = error.what();
+  }
 }
 
 }  // namespace
@@ -170,6 +188,7 @@ PreparedBreast prepare_breast(const EvaluatedBreast& breast, bool again) {
   if (!prepared.usable()) return prepared;
   ask(breast, prepared);
   write_toml(breast, prepared);
+  if (breast.unload) take_gravity_off(breast, prepared);
   return prepared;
 }
 

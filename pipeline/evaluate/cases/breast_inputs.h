@@ -8,6 +8,7 @@
 
 #include "pipeline/evaluate/cases/label_maps.h"
 #include "pipeline/evaluate/cases/population.h"
+#include "pipeline/patient/tissue_presets.h"
 
 namespace mammotwin {
 
@@ -19,6 +20,11 @@ struct EvaluatedBreast {
   std::filesystem::path folder;
   std::optional<SyntheticBreast> synthetic;  ///< drawn, or
   std::optional<LabelMapBreast> label_map;   ///< of a patient
+  std::string preset = kDefaultTissue;       ///< materials.preset
+  bool unload = false;                       ///< pressed free of gravity, not as imaged
+
+  /// What is pressed.
+  std::filesystem::path mesh() const { return folder / (unload ? "unloaded.vtu" : "prone.vtu"); }
 };
 
 /// What the plates are asked for in one view.

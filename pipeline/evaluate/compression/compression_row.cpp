@@ -103,7 +103,7 @@ json compression_row(const EvaluatedBreast& breast, const PreparedBreast& prepar
   const auto before = time_of();
   const StageEnd end = run_stage_command(
       "compress",
-      {view.view, file("segmentation.seg.nrrd"), file("fractions.nrrd"), file("prone.vtu"),
+      {view.view, file("segmentation.seg.nrrd"), file("fractions.nrrd"), breast.mesh().string(),
        file(view.view + ".vtu"), "--patient", file("patient.toml")},
       file(view.view + ".log"), most_cpu_seconds);
   const json result = sidecar_after(end, sidecar, most_cpu_seconds);

@@ -18,7 +18,8 @@ struct Arguments {
   fs::path table, cases;
   int synthetic = 200, first = 0, jobs = 1, most_cpu_seconds = 3600;
   std::string only;
-  bool refit = false;
+  std::string preset = kDefaultTissue;
+  bool unload = false, refit = false;
 };
 
 void declare(CommandLine& command, Arguments& args) {
@@ -40,6 +41,8 @@ void declare(CommandLine& command, Arguments& args) {
       .option("--limit", args.most_cpu_seconds, "a compression is given up after this [s of CPU]")
       .between(1, 1000000)
       .with_default();
+  command.option("--preset", args.preset, "the tissue's materials.preset").with_default();
+  command.flag("--unload", args.unload, "press the shape free of gravity, not the imaged one");
   command.flag("--refit", args.refit, "segment and fit again what lies there already");
 }
 
@@ -47,11 +50,15 @@ std::vector<EvaluatedBreast> breasts_of(const Arguments& args) {
   std::vector<EvaluatedBreast> all;
   for (int n = args.first; n < args.first + args.synthetic; ++n) {
     const SyntheticBreast drawn = draw_breast(n);
-    all.push_back({drawn.name, {}, drawn, {}});
+    all.push_back({drawn.name, {}, drawn, {}, args.preset, args.unload});
   }
   for (const LabelMapBreast& breast : label_map_breasts(args.cases))
-    all.push_back(
-        {breast.exam + "-" + (breast.side == Side::left ? "left" : "right"), {}, {}, breast});
+    all.push_back({breast.exam + "-" + (breast.side == Side::left ? "left" : "right"),
+                   {},
+                   {},
+                   breast,
+                   args.preset,
+                   args.unload});
   std::erase_if(all, [&](const auto& b) { return b.name.find(args.only) == std::string::npos; });
   for (EvaluatedBreast& breast : all)
     breast.folder = fs::absolute(args.table).parent_path() / "compression" / breast.name;

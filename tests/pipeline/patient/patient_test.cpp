@@ -163,8 +163,11 @@ TEST_F(PatientTest, KeepsASeriesIdentifierOutOfTheParameters) {
 
 TEST_F(PatientTest, TakesAPresetOfTissueAndWhatIsSaidBesides) {
   const nlohmann::json before = settings_.parameters({"materials.", "compress."});
-  read("[materials]\npreset = \"neo_hookean_2026\"\n");
+  read("[materials]\npreset = \"real\"\n");
   EXPECT_EQ(settings_.parameters({"materials.", "compress."}), before);
+  read("[materials]\npreset = \"neo_hookean_2026\"\n");
+  EXPECT_EQ(patient_.compression.fat.law, LawName::neo_hookean);
+  EXPECT_EQ(patient_.compression.stiffness_factor, 1);
   read("[materials]\nfat.c1_kpa = 0.5\npreset = \"real\"\n");
   EXPECT_EQ(patient_.compression.fat.c1_kpa, 0.5);
   EXPECT_EQ(patient_.compression.fat.law, LawName::exponential);

@@ -33,15 +33,15 @@ TEST(UnloadQuality, TissueALittleTooSoftIsStiffened) {
 }
 
 TEST(UnloadQuality, TissueFarTooSoftIsDoubted) {
-  const Outcome outcome = judge_unloading(taken_off(0.6));
+  const Outcome outcome = judge_unloading(taken_off(0.3));
   EXPECT_EQ(outcome.status, Status::look);
   ASSERT_EQ(outcome.reasons.size(), 1u);
-  EXPECT_NE(outcome.reasons[0].find("1.67 times as stiff as set"), std::string::npos)
+  EXPECT_NE(outcome.reasons[0].find("3.33 times as stiff as set"), std::string::npos)
       << outcome.reasons[0];
 }
 
-TEST(UnloadQuality, TissueSofterThanHalfOfThatIsNotUnloaded) {
-  for (const double share : {0.4, 0.0}) {
+TEST(UnloadQuality, TissueSofterThanAnEighthOfThatIsNotUnloaded) {
+  for (const double share : {0.12, 0.0}) {
     const UnloadingRecord record = taken_off(share);
     EXPECT_EQ(record.stiffness_factor, 0.2);
     EXPECT_EQ(judge_unloading(record).status, Status::not_converged) << share;
