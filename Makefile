@@ -87,7 +87,8 @@ help:
 	@echo '                       wrongly of nipple, pectoral edge or abdomen (registration_spoilt.json); MISFIT=1: also'
 	@echo '                       with mammograms of another breast or view (registration_misfit.json); HARD=1: patients'
 	@echo '                       further from the model (registration_hard.json); FATTY=1: with next to no gland'
-	@echo '                       (registration_fatty.json); how honest all ellipses are: *_ellipses.json'
+	@echo '                       (registration_fatty.json); PRESET=real: registered with another tissue than the drawn one'
+	@echo '                       (registration_hard_real.json); how honest all ellipses are: *_ellipses.json'
 	@echo 'make evaluate-tomosynthesis   registers 042 with tomosynthesis of another model: RESULTS/evaluation/tomosynthesis.json'
 	@echo 'make evaluate-real-pairs CASES=folder   patients with lesions marked on mammograms (marks.csv):'
 	@echo '                       RESULTS/evaluation/real_pairs.json'
@@ -161,7 +162,7 @@ calibrate-tissue: mammotwin-calibrate-tissue
 	  $${JOBS:+--jobs "$$JOBS"} $${ONLY:+--only $$ONLY} $${NUMBERS:+--numbers $$NUMBERS} $${ELEMENTS:+--elements "$$ELEMENTS"}
 
 evaluate-compression: mammotwin-evaluate-compression
-	@"$$BIN/mammotwin-evaluate-compression" "$$RESULTS/evaluation/compression.json" --cases "$$CASES" \
+	@"$$BIN/mammotwin-evaluate-compression" "$$RESULTS/evaluation/$${TABLE:-compression}.json" --cases "$$CASES" \
 	  $${SYNTHETIC:+--synthetic "$$SYNTHETIC"} $${JOBS:+--jobs "$$JOBS"} $${ONLY:+--only "$$ONLY"} \
 	  $${PRESET:+--preset "$$PRESET"} $${UNLOADED:+--unload}
 
@@ -182,8 +183,9 @@ evaluate-other-meshes: mammotwin-evaluate-other-meshes
 	  "$$RESULTS/evaluation/other_meshes.json" $${VIEWS:+--views $$VIEWS}
 
 evaluate-registration: mammotwin-evaluate-registration
-	@"$$BIN/mammotwin-evaluate-registration" "$$RESULTS/evaluation/registration$${HARD:+_hard}$${FATTY:+_fatty}$${SPOIL:+_spoilt}$${MISFIT:+_misfit}.json" \
-	  $${SYNTHETIC:+--synthetic "$$SYNTHETIC"} $${JOBS:+--jobs "$$JOBS"} $${SPOIL:+--spoil} $${MISFIT:+--misfit} $${HARD:+--hard} $${FATTY:+--fatty}
+	@"$$BIN/mammotwin-evaluate-registration" "$$RESULTS/evaluation/registration$${HARD:+_hard}$${FATTY:+_fatty}$${SPOIL:+_spoilt}$${MISFIT:+_misfit}$${PRESET:+_$$PRESET}.json" \
+	  $${SYNTHETIC:+--synthetic "$$SYNTHETIC"} $${JOBS:+--jobs "$$JOBS"} $${SPOIL:+--spoil} $${MISFIT:+--misfit} $${HARD:+--hard} $${FATTY:+--fatty} \
+	  $${PRESET:+--preset "$$PRESET"}
 
 evaluate-tomosynthesis: mammotwin-evaluate-tomosynthesis
 	@"$$BIN/mammotwin-evaluate-tomosynthesis" "$$RESULTS/evaluation/tomosynthesis.json"

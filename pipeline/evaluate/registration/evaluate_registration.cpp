@@ -23,6 +23,7 @@ using nlohmann::json;
 
 struct Arguments {
   fs::path table;
+  std::string preset;
   int synthetic = 10, first = 0, jobs = 2;
   bool coarse = false, hard = false, fatty = false, spoil = false, misfit = false, judge = false;
 };
@@ -48,6 +49,8 @@ void declare(CommandLine& command, Arguments& args) {
   command.flag("--misfit", args.misfit,
                "each patient also with mammograms that are not what patient.toml says: another "
                "patient's, the other breast's, upside down, views exchanged");
+  command.option("--preset", args.preset,
+                 "materials.preset of the model that registers; default that of the truth");
   command.flag("--judge", args.judge, "judge what lies there, without making or running anything");
 }
 
@@ -58,6 +61,7 @@ json evaluate(const fs::path& folder, const std::function<void()>& make, const A
   try {
     if (!args.judge) {
       make();
+      if (!args.preset.empty()) take_tissue(args.preset, folder);
       run_registration_case(folder);
     }
     row.update(registration_row(folder));

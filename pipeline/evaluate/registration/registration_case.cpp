@@ -3,6 +3,7 @@
 #include <fstream>
 #include <iomanip>
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <sstream>
 #include <stdexcept>
 
@@ -303,6 +304,15 @@ void make_tomosynthesis_case(bool coarse, const fs::path& folder) {
   write_text_atomically(folder / "slices.json", slices.dump(1) + "\n");
   write_text_atomically(folder / "drawn.json", drawn_json(drawn, views).dump(1) + "\n");
   write_text_atomically(folder / "patient.toml", toml);
+}
+
+void take_tissue(const std::string& preset, const fs::path& folder) {
+  const fs::path file = folder / "patient.toml";
+  std::ifstream in(file);
+  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  const std::regex named("materials\\.preset = \"[^\"]*\"");
+  write_text_atomically(file,
+                        std::regex_replace(text, named, "materials.preset = \"" + preset + "\""));
 }
 
 void run_registration_case(const fs::path& folder) {

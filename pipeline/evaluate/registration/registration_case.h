@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 namespace mammotwin {
 
@@ -18,6 +19,9 @@ void make_registration_case(int number, Difficulty difficulty, const std::filesy
 /// registration needs to know is in their headers) and slices.json, the slice of each lesion. Truth
 /// is of another model, as above.
 void make_tomosynthesis_case(bool coarse, const std::filesystem::path& folder);
+
+/// Has its patient.toml name another materials.preset than that of its truth.
+void take_tissue(const std::string& preset, const std::filesystem::path& folder);
 
 /// Takes it through segment, fit, unload, compress and register, which skip what is current.
 /// Throws std::runtime_error with the reason of a stage that leaves no product.
