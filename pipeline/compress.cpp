@@ -64,14 +64,14 @@ MeshFile compressed_file(const MeshFile& reference, const CompressionResult& res
   return file;
 }
 
-SidewaysEscape escape_of(const MeshFile& mesh, const Segmentation& segmentation,
-                         const CompressionResult& result, const CompressedView& view) {
+PlateEscape escape_of(const MeshFile& mesh, const Segmentation& segmentation,
+                      const CompressionResult& result, const CompressedView& view) {
   const auto with = [&](const std::vector<HermiteMesh::Node>& nodes) {
     return HermiteMesh(nodes, mesh.mesh.elements());
   };
-  return sideways_escape(with(result.found), with(result.deformed),
-                         InverseMap(prone_file(mesh).mesh).nearest(segmentation.nipple_in_lps),
-                         view.frame);
+  return plate_escape(with(result.found), with(result.deformed),
+                      InverseMap(prone_file(mesh).mesh).nearest(segmentation.nipple_in_lps),
+                      view.frame);
 }
 
 /// How far a run that was interrupted had come, if it was of the same problem.
@@ -113,7 +113,7 @@ Outcome run(const Arguments& args, const Patient& patient, StageRun& stage) {
       view_problem(patient, view, axes, mesh, tissue_of(mesh, segmentation.fractions));
   const CompressionResult result =
       compress_with_checkpoints(problem, patient.compression.options, stage);
-  SidewaysEscape escape;
+  PlateEscape escape;
   if (result.report.usable()) {
     CompressedView pressed = view_of_plates(args.view, side, view.angle(), problem.plates, result);
     escape = pressed.escape = escape_of(mesh, segmentation, result, pressed);

@@ -60,8 +60,8 @@ std::string sentence(const char* format, double value, double limit) {
 
 }  // namespace
 
-Outcome judge_compression(const CompressionReport& r, const SidewaysEscape& escape,
-                          double angle_deg, bool assumed_thickness) {
+Outcome judge_compression(const CompressionReport& r, const PlateEscape& escape, double angle_deg,
+                          bool assumed_thickness) {
   Outcome outcome;
   outcome.quality = quality_of(r, angle_deg);
   outcome.quality["thickness_assumed"] = assumed_thickness;

@@ -23,7 +23,7 @@ double root_beyond(double squared, double expected) {
 
 }  // namespace
 
-double uncorrected_sd_mm(const SidewaysEscape& escape, double thickness_mm) {
+double uncorrected_sd_mm(const PlateEscape& escape, double thickness_mm) {
   const double rolled_mm = std::sin(escape.roll_deg * std::numbers::pi / 180) * thickness_mm / 2;
   return std::hypot(std::hypot(kUncorrectedSd_mm, escape.swing_mm, rolled_mm), escape.slid_mm);
 }

@@ -43,6 +43,6 @@ ModelDiscrepancy model_discrepancy(const MatchFigures& left);
 /// Of a prediction that no mammogram corrects [mm]: kUncorrectedSd_mm, and as far as the nipple
 /// swung, a roll moved what lies at a plate and tissue slid back, for a radiographer lets no breast
 /// escape.
-double uncorrected_sd_mm(const SidewaysEscape& escape, double thickness_mm);
+double uncorrected_sd_mm(const PlateEscape& escape, double thickness_mm);
 
 }  // namespace mammotwin

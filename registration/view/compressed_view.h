@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "registration/view/sideways_escape.h"
+#include "registration/view/plate_escape.h"
 #include "registration/view/view_frame.h"
 
 namespace mammotwin {
@@ -17,7 +17,7 @@ struct CompressedView {
   double thickness_mm = 0;  ///< measured extent of the compressed breast along the beam
   ViewFrame frame;
   double turn_deg = 0;  ///< of the detector about the beam, from lateral towards depth
-  SidewaysEscape escape{};
+  PlateEscape escape{};
 };
 
 /// Axes of the view: those of its angle, turned.

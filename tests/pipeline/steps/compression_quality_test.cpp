@@ -16,7 +16,7 @@ CompressionReport good_report() {
   return report;
 }
 
-TEST(CompressionQuality, SidewaysEscapeBeyondItsLimitsIsToBeLookedAt) {
+TEST(CompressionQuality, EscapeBeyondItsLimitsIsToBeLookedAt) {
   const auto status = [&](double swing, double roll) {
     return judge_compression(good_report(), {swing, roll}, 0, false).status;
   };

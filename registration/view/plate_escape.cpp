@@ -1,4 +1,4 @@
-#include "registration/view/sideways_escape.h"
+#include "registration/view/plate_escape.h"
 
 #include <Eigen/LU>
 #include <Eigen/SVD>
@@ -34,8 +34,8 @@ struct AffineSums {
 
 }  // namespace
 
-SidewaysEscape sideways_escape(const HermiteMesh& found, const HermiteMesh& pressed,
-                               const MeshPoint& nipple, const ViewFrame& view) {
+PlateEscape plate_escape(const HermiteMesh& found, const HermiteMesh& pressed,
+                         const MeshPoint& nipple, const ViewFrame& view) {
   AffineSums between;
   double in_front = 0, forward = 0;
   for (int e = 0; e < found.num_elements(); ++e)

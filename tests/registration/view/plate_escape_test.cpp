@@ -1,4 +1,4 @@
-#include "registration/view/sideways_escape.h"
+#include "registration/view/plate_escape.h"
 
 #include <gtest/gtest.h>
 
@@ -25,29 +25,29 @@ const MeshPoint kFront{4, {0.5, 0, 0.5}};
 ViewFrame cc() { return {{0, 100, 0}, view_axes(Side::left, 0)}; }
 
 // Flattening along the beam with spreading across it is no roll, however strong.
-TEST(SidewaysEscape, IsNoneOfASpread) {
+TEST(PlateEscape, IsNoneOfASpread) {
   const Eigen::Matrix3d spread = Eigen::Vector3d(1.5, 1.3, 0.5).asDiagonal();
-  const auto escape = sideways_escape(kBlock, mapped(kBlock, spread, {0, 0, 7}), kFront, cc());
+  const auto escape = plate_escape(kBlock, mapped(kBlock, spread, {0, 0, 7}), kFront, cc());
   EXPECT_NEAR(escape.roll_deg, 0, 1e-5);
 }
 
 // Turned by 25 degrees about depth and carried on so that the nipple moves 12 mm to the left.
-TEST(SidewaysEscape, IsTheTurnAndTheNipplesMoveAlongTheEdges) {
+TEST(PlateEscape, IsTheTurnAndTheNipplesMoveAlongTheEdges) {
   const Eigen::Matrix3d turn(
       Eigen::AngleAxisd(25 * std::numbers::pi / 180, Eigen::Vector3d::UnitY()));
   const HermiteMesh moved = mapped(kBlock, turn, {0, 0, 0});
   const Eigen::Vector3d by = Eigen::Vector3d(12, 3, 5) - moved.position(kFront) +
                              kBlock.position(kFront);  // the nipple moves by just this
-  const auto escape = sideways_escape(kBlock, mapped(kBlock, turn, by), kFront, cc());
+  const auto escape = plate_escape(kBlock, mapped(kBlock, turn, by), kFront, cc());
   EXPECT_NEAR(escape.roll_deg, 25, 1e-9);
   EXPECT_NEAR(escape.swing_mm, 12, 1e-9);
 }
 
 // The edges lie at y = 100 and the whole block before them; depth points to -y.
-TEST(SidewaysEscape, IsHowFarTissueSlidBackAndNothingWhereItGoesForward) {
+TEST(PlateEscape, IsHowFarTissueSlidBackAndNothingWhereItGoesForward) {
   const auto slid = [](double by) {
-    return sideways_escape(kBlock, mapped(kBlock, Eigen::Matrix3d::Identity(), {0, by, 0}), kFront,
-                           cc())
+    return plate_escape(kBlock, mapped(kBlock, Eigen::Matrix3d::Identity(), {0, by, 0}), kFront,
+                        cc())
         .slid_mm;
   };
   EXPECT_NEAR(slid(30), 30, 1e-9);
@@ -55,11 +55,11 @@ TEST(SidewaysEscape, IsHowFarTissueSlidBackAndNothingWhereItGoesForward) {
 }
 
 // What lies behind the plates' edges does not count: here all that turns.
-TEST(SidewaysEscape, LeavesOutWhatIsBehindTheEdges) {
+TEST(PlateEscape, LeavesOutWhatIsBehindTheEdges) {
   ViewFrame far = cc();
   far.origin_in_lps = {0, -200, 0};
   const Eigen::Matrix3d turn(Eigen::AngleAxisd(0.5, Eigen::Vector3d::UnitY()));
-  EXPECT_EQ(sideways_escape(kBlock, mapped(kBlock, turn, {0, 0, 0}), kFront, far).roll_deg, 0);
+  EXPECT_EQ(plate_escape(kBlock, mapped(kBlock, turn, {0, 0, 0}), kFront, far).roll_deg, 0);
 }
 
 }  // namespace
