@@ -15,9 +15,12 @@ inline constexpr const char* kAccuracyWords =
 /// What a supine place is worth, by docs/measured/gravity.md and women imaged in both poses
 /// (there).
 inline constexpr const char* kSupineWords =
-    "Not calibrated: from prone to supine the model's tissue moves nipples by 15 mm in the median, "
-    "women's move by 93 mm (56 to 172), so a place beside the ribs may be off by several "
-    "centimetres. Seen from the nipple, 90 % is as wide as what landmarks of 32 women did.";
+    "Not calibrated to her: from prone to supine women's nipples move by 93 mm in the median (56 "
+    "to "
+    "172), the default tissue's by 103 and neo_hookean_2026's by 15, so a place beside the ribs "
+    "may "
+    "be off by several centimetres. Seen from the nipple, 90 % is as wide as what landmarks of 32 "
+    "women did.";
 
 /// The page's first words: a list of lesions, each {"lesion", "place", "views": [{"view", "where",
 /// "search", "full"}], "supine"}, in a report's language. `full` is the ellipse on a mammogram that

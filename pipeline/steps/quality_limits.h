@@ -21,5 +21,7 @@ inline constexpr double retained_fraction = 0.6;
 /// to 1.7.
 inline constexpr double stretch_p95 = 1.75;
 inline constexpr double stiffened = 1.25;  ///< of the tissue as set, so that the breast hangs
+/// From where a breast was imaged to another pose. Of 64 women's nipples 95 % go less than 172 mm.
+inline constexpr double pose_move_mm = 200;
 
 }  // namespace mammotwin::limits

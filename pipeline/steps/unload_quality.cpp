@@ -53,6 +53,7 @@ json quality_of(const UnloadingRecord& record) {
     if (pose.result.report.usable()) {
       quality[name + "_sag_max_mm"] = pose.result.report.sag_max_mm;
       quality[name + "_slide_max_mm"] = pose.wall_slide_mm;
+      quality[name + "_move_max_mm"] = pose.move_mm;
     }
   if (record.stiffness_fit && record.stiffness_fit->usable())
     quality["stiffness_fit"] = fit_json(*record.stiffness_fit);
@@ -122,6 +123,11 @@ Outcome judge_unloading(const UnloadingRecord& record) {
     const HangReport& r = pose.result.report;
     doubt(!r.usable(), "the breast does not come to rest " + name + ": " + r.reason +
                            "; no markups are written for that state");
+    doubt(
+        r.usable() && pose.move_mm > limits::pose_move_mm,
+        sentence("%s, the breast goes as far as %.0f mm from where it was imaged; women's nipples "
+                 "go 56 to 172 mm from prone to supine: do not believe its places there",
+                 name.c_str(), pose.move_mm));
   }
   return outcome;
 }

@@ -15,6 +15,7 @@ namespace mammotwin {
 struct PoseState {
   HangResult result;
   double wall_slide_mm = 0;  ///< largest way of a chest-wall node
+  double move_mm = 0;        ///< largest way of a node from where it was imaged
 };
 
 /// What the stage did, for the sidecar.

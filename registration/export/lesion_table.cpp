@@ -72,7 +72,7 @@ const std::array kLesionColumns = {
                      "`anterior`, `middle`, `posterior`"),
     MAMMOTWIN_COLUMN(supine_skin_l_mm,
                      "`mri` rows: the skin straight above the lesion, the patient on her back, "
-                     "towards her left, in the MRI's frame; not calibrated"),
+                     "towards her left, in the MRI's frame; not calibrated to her"),
     MAMMOTWIN_COLUMN(supine_skin_p_mm, "the same towards posterior"),
     MAMMOTWIN_COLUMN(supine_skin_s_mm, "the same towards superior"),
     MAMMOTWIN_COLUMN(supine_depth_mm, "of the lesion below that point"),

@@ -59,5 +59,17 @@ TEST(UnloadQuality, PlatesOfTheCoilAreSaid) {
   EXPECT_EQ(outcome.quality.at("coil_plates").at("apart_mm"), 64);
 }
 
+TEST(UnloadQuality, PlacesOfABreastThatFallsFartherThanWomensAreDoubted) {
+  for (const double move_mm : {160.0, 250.0}) {
+    UnloadingRecord record = taken_off(1);
+    PoseState& supine = record.poses["supine"];
+    supine.result.report.converged = true;
+    supine.move_mm = move_mm;
+    const Outcome outcome = judge_unloading(record);
+    EXPECT_EQ(outcome.quality.at("supine_move_max_mm"), move_mm);
+    EXPECT_EQ(outcome.status, move_mm > 200 ? Status::look : Status::ok);
+  }
+}
+
 }  // namespace
 }  // namespace mammotwin
