@@ -164,7 +164,7 @@ calibrate-tissue: mammotwin-calibrate-tissue
 evaluate-compression: mammotwin-evaluate-compression
 	@"$$BIN/mammotwin-evaluate-compression" "$$RESULTS/evaluation/$${TABLE:-compression}.json" --cases "$$CASES" \
 	  $${SYNTHETIC:+--synthetic "$$SYNTHETIC"} $${JOBS:+--jobs "$$JOBS"} $${ONLY:+--only "$$ONLY"} \
-	  $${PRESET:+--preset "$$PRESET"} $${UNLOADED:+--unload}
+	  $${PRESET:+--preset "$$PRESET"} $${UNLOADED:+--unloaded}
 
 evaluate-stability: mammotwin-evaluate-stability
 	@"$$BIN/mammotwin-evaluate-stability" "$$CASES" "$$RESULTS/evaluation/stability.json" \

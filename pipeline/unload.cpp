@@ -2,7 +2,6 @@
 
 #include "solver/gravity/unload.h"
 
-#include <algorithm>
 #include <fstream>
 
 #include "pipeline/frame/sidecar.h"
@@ -69,12 +68,10 @@ void hang_in_other_poses(const BreastProblem& unloaded, UnloadingRecord& record)
   for (const Pose pose : {Pose::standing, Pose::supine}) {
     BreastProblem problem = unloaded;
     problem.gravity = gravity_in_lps(pose);
-    PoseState state{hang(problem, to_another_pose()), 0, 0};
+    PoseState state{hang(problem, to_another_pose())};
     state.wall_slide_mm =
         wall_slide(problem.mesh, problem.mesh.mesh.nodes(), state.result.deformed);
-    for (std::size_t n = 0; n < state.result.deformed.size(); ++n)
-      state.move_mm = std::max(state.move_mm,
-                               (state.result.deformed[n].col(0) - problem.prone[n].col(0)).norm());
+    state.move_mm = largest_distance(state.result.deformed, problem.prone);
     record.poses.emplace(name_of(pose), std::move(state));
   }
 }

@@ -32,8 +32,7 @@ struct UnloadingRecord {
 /// Where gravity could be taken off in part only, the shape found is that of tissue stiffer by as
 /// much under all of it: the record then says so, and is usable. A breast that hangs is at least so
 /// stiff, and how soft tissue is, is known least of all. Not beyond eight times
-/// the stiffness set: then tissue as soft as in the softest breasts would be stiffer than samples
-/// measured outside of the body.
+/// the stiffness set, which makes of `real` about the stiffness of `neo_hookean_2026`.
 void stiffen_as_needed(UnloadingRecord& record);
 
 Outcome judge_unloading(const UnloadingRecord& record);

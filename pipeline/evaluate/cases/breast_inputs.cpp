@@ -147,15 +147,15 @@ void write_toml(const EvaluatedBreast& breast, const PreparedBreast& prepared) {
 
 /// A breast that no shape free of load is found of has that for its reason.
 void take_gravity_off(const EvaluatedBreast& breast, PreparedBreast& prepared) {
-  const auto file = [&](const char* name) { return breast.folder / name; };
+  const auto file = [&](const char* name) { return (breast.folder / name).string(); };
   try {
-    const double seconds =
-        run_to_product({"unload",
-                        {file("segmentation.seg.nrrd"), file("fractions.nrrd"), file("prone.vtu")},
-                        breast.mesh(),
-                        file("patient.toml")});
-    prepared.facts["unload_cpu_seconds"] = seconds;
-    prepared.facts["unload_status"] = stage_sidecar(breast.mesh()).at("status");
+    const json sidecar =
+        run_stage_in(breast.folder, "unload",
+                     {file("segmentation.seg.nrrd"), file("fractions.nrrd"), file("prone.vtu"),
+                      file("unloaded.vtu"), "--patient", file("patient.toml")},
+                     "unloaded.vtu");
+    prepared.facts["unload_status"] = sidecar.at("status");
+    prepared.facts["unload_seconds"] = sidecar.at("seconds");
   } catch (const std::exception& error) {
     prepared.facts["unload_status"] = "refused";
     prepared.reason = error.what();

@@ -42,7 +42,7 @@ void declare(CommandLine& command, Arguments& args) {
       .between(1, 1000000)
       .with_default();
   command.option("--preset", args.preset, "the tissue's materials.preset").with_default();
-  command.flag("--unload", args.unload, "press the shape free of gravity, not the imaged one");
+  command.flag("--unloaded", args.unload, "press the shape free of gravity, not the imaged one");
   command.flag("--refit", args.refit, "segment and fit again what lies there already");
 }
 
