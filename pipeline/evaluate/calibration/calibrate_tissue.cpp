@@ -39,7 +39,7 @@ void declare(CommandLine& command, Arguments& args) {
       "materials.skin.c1_kpa, compress.chest_wall_spring_kpa_per_mm, compress.cut_face_depth_mm");
   command.option("--preset", args.preset, "materials.preset to start from").with_default();
   command.option("--elements", args.elements, "of each breast's mesh").with_default();
-  command.option("--jobs", args.jobs, "breasts at a time [1 to 64]").between(1, 64).with_default();
+  declare_jobs(command, args.jobs);
 }
 
 /// Segmented, fitted and pressed with the numbers that the calibration starts from, in a folder of

@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "pipeline/evaluate/compression/supine_points.h"
 #include "registration/export/csv.h"
 
 namespace mammotwin {
@@ -35,7 +36,7 @@ struct PointRow {
   std::string woman, side;
   bool is_nipple = false;
   Eigen::Vector3d prone, supine;
-  double supine_to_ribs = 0;  ///< [mm], of landmarks
+  double prone_to_ribs = 0, supine_to_ribs = 0;  ///< [mm], of landmarks
 };
 
 std::vector<PointRow> read_rows(const std::filesystem::path& points_csv) {
@@ -45,8 +46,9 @@ std::vector<PointRow> read_rows(const std::filesystem::path& points_csv) {
   if (!std::getline(in, line)) throw std::runtime_error(file + ": cannot be read, or empty");
   std::map<std::string, std::size_t> columns;
   for (const std::string& name : csv::cells(line)) columns.emplace(name, columns.size());
-  for (const char* name : {"woman", "point", "side", "prone_l_mm", "prone_p_mm", "prone_s_mm",
-                           "supine_l_mm", "supine_p_mm", "supine_s_mm", "supine_to_ribs_mm"})
+  for (const char* name :
+       {"woman", "point", "side", "prone_l_mm", "prone_p_mm", "prone_s_mm", "supine_l_mm",
+        "supine_p_mm", "supine_s_mm", "prone_to_ribs_mm", "supine_to_ribs_mm"})
     if (!columns.contains(name)) throw std::runtime_error(file + " has no column " + name);
   std::vector<PointRow> rows;
   for (int number = 2; std::getline(in, line); ++number) {
@@ -63,8 +65,7 @@ std::vector<PointRow> read_rows(const std::filesystem::path& points_csv) {
                  cells[columns.at("side")],
                  cells[columns.at("point")] == "nipple",
                  {},
-                 {},
-                 0};
+                 {}};
     const double outward = row.side == "left" ? 1 : -1;
     const auto point = [&](const std::string& pose) {
       return Eigen::Vector3d(outward * number_in(pose + "_l_mm"), number_in(pose + "_p_mm"),
@@ -72,7 +73,10 @@ std::vector<PointRow> read_rows(const std::filesystem::path& points_csv) {
     };
     row.prone = point("prone");
     row.supine = point("supine");
-    if (!row.is_nipple) row.supine_to_ribs = number_in("supine_to_ribs_mm");
+    if (!row.is_nipple) {
+      row.prone_to_ribs = number_in("prone_to_ribs_mm");
+      row.supine_to_ribs = number_in("supine_to_ribs_mm");
+    }
     rows.push_back(row);
   }
   return rows;
@@ -107,7 +111,8 @@ WomensMoves read_womens_moves(const std::filesystem::path& points_csv) {
     if (row.is_nipple) {
       add(lateral, way.x());
       add(posterior, way.y());
-    } else {
+    } else if (row.prone_to_ribs >= kNearestToRibs_mm &&
+               row.prone_to_ribs <= kFarthestFromRibs_mm) {
       add(landmark, way.norm());
       add(ribs, row.supine_to_ribs);
     }

@@ -26,8 +26,8 @@ MiddleHalf middle_half(const std::vector<double>& values);
 /// What breasts of women imaged in both poses do from prone to supine [mm].
 struct WomensMoves {
   PopulationFigure lateral, posterior;  ///< of nipples
-  PopulationFigure landmark, ribs;  ///< of points inside: their way, and how far from the ribs they
-                                    ///< lie supine
+  PopulationFigure landmark, ribs;  ///< of points inside, 10 to 60 mm from the ribs prone: their
+                                    ///< way, and how far from the ribs they lie supine
 };
 
 /// prone_supine/points.csv of a folder of real cases (its README has the columns). Throws

@@ -4,6 +4,7 @@
 #include <iostream>
 
 #include "pipeline/evaluate/cases/breast_inputs.h"
+#include "pipeline/evaluate/cases/case_arguments.h"
 #include "pipeline/evaluate/cases/evaluation_table.h"
 #include "pipeline/evaluate/compression/compression_row.h"
 #include "pipeline/evaluate/compression/compression_summary.h"
@@ -34,9 +35,7 @@ void declare(CommandLine& command, Arguments& args) {
   command.option("--first", args.first, "the first of them").between(0, 10000).with_default();
   command.option("--cases", args.cases, "folder with label_maps/*.nii.gz (none: no patients)");
   command.option("--only", args.only, "breasts whose name contains this (text)");
-  command.option("--jobs", args.jobs, "breasts at a time, each on all cores [1 to 64]")
-      .between(1, 64)
-      .with_default();
+  declare_jobs(command, args.jobs, "breasts at a time, each on all cores");
   command
       .option("--limit", args.most_cpu_seconds, "a compression is given up after this [s of CPU]")
       .between(1, 1000000)

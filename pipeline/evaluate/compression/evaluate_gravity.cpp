@@ -27,7 +27,7 @@ void declare(CommandLine& command, Arguments& args) {
   declare_cases(command, args.cases);
   declare_table(command, args.table, "gravity");
   declare_only(command, args.only);
-  command.option("--jobs", args.jobs, "breasts at a time [1 to 64]").between(1, 64).with_default();
+  declare_jobs(command, args.jobs);
   command.option("--unload", args.unload_options,
                  "options of mammotwin-unload (such as --unload=--stiffness-factor "
                  "--unload=0.4)");

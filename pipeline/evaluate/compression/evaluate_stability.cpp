@@ -26,7 +26,7 @@ void declare(CommandLine& command, Arguments& args) {
   command.option("--changes", args.changes,
                  "turn_1, turn_3, turn_5, mirror, half_voxel, elements, thickness (default: all)");
   command.option("--views", args.views, "cc, mlo (default: both)");
-  command.option("--jobs", args.jobs, "breasts at a time [1 to 64]").between(1, 64).with_default();
+  declare_jobs(command, args.jobs);
 }
 
 std::vector<InputChange> changes_asked(const Arguments& args) {

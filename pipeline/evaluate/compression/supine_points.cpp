@@ -2,6 +2,8 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
+#include <numeric>
 #include <random>
 #include <stdexcept>
 
@@ -14,14 +16,23 @@ namespace mammotwin {
 namespace {
 
 constexpr double kMuscle_mm = 6;  // label maps: 4 to 8 mm in front of the ribs
-constexpr double kNearestToRibs_mm = 10, kFarthestFromRibs_mm = 60;
+/// Bounds of bands of distance from the ribs [mm], and how many of the women's 54 lie in each.
+constexpr std::array kBands_mm{kNearestToRibs_mm,   15.0, 20.0, 30.0, 40.0, 50.0,
+                               kFarthestFromRibs_mm};
+constexpr std::array kWomensInBand{13, 16, 7, 7, 5, 6};
+constexpr int kWomens = std::accumulate(kWomensInBand.begin(), kWomensInBand.end(), 0);
 constexpr double kAboveNipple_mm = 22, kMedialOfNipple_mm = 9;
-constexpr int kLandmarks = 500, kMostDraws = 200'000, kLandmarkSeed = 1;
+constexpr int kLandmarks = 540, kMostDraws = 200'000, kLandmarkSeed = 1;
 
 Eigen::AlignedBox3d box_of(const HermiteMesh& mesh) {
   Eigen::AlignedBox3d box;
   for (const HermiteMesh::Node& node : mesh.nodes()) box.extend(node.col(0));
   return box;
+}
+
+std::size_t band_of(double ribs_mm) {
+  return std::upper_bound(kBands_mm.begin() + 1, kBands_mm.end() - 1, ribs_mm) -
+         (kBands_mm.begin() + 1);
 }
 
 double sorted_median(std::vector<double> values) {
@@ -41,14 +52,22 @@ SupinePoints::SupinePoints(const MeshFile& prone, Side side, const Eigen::Vector
   const Eigen::AlignedBox3d box = box_of(prone_);
   std::mt19937 random(kLandmarkSeed);
   const auto share = [&] { return random() / 4294967296.0; };
-  for (int n = 0; n < kMostDraws && landmarks_.size() < kLandmarks; ++n) {
+  std::array<int, kWomensInBand.size()> left;
+  for (std::size_t band = 0; band < left.size(); ++band)
+    left[band] = kLandmarks * kWomensInBand[band] / kWomens;
+  for (int n = 0; n<kMostDraws&& * std::max_element(left.begin(), left.end())> 0; ++n) {
     const Eigen::Vector3d shares(share(), share(), share());
     const Eigen::Vector3d x = box.min() + shares.cwiseProduct(box.sizes());
     const double outward = (side == Side::left ? 1 : -1) * (x - nipple_in_lps).x();
     if ((x - nipple_in_lps).z() < kAboveNipple_mm || outward < -kMedialOfNipple_mm) continue;
     const double ribs = wall_.gap(x).gap + kMuscle_mm;
     if (ribs < kNearestToRibs_mm || ribs > kFarthestFromRibs_mm) continue;
-    if (const auto point = inverse.locate(x)) landmarks_.push_back({*point, x, ribs});
+    int& wanted = left[band_of(ribs)];
+    if (wanted == 0) continue;
+    if (const auto point = inverse.locate(x)) {
+      landmarks_.push_back({*point, x, ribs});
+      --wanted;
+    }
   }
   if (landmarks_.empty())
     throw std::runtime_error(

@@ -17,11 +17,17 @@ struct SupineMoves {
   double ribs_prone_mm = 0, ribs_supine_mm = 0;      ///< the points' medians
 };
 
-/// The points of one breast that are followed: its nipple, and 500 of the prone tissue, the same
-/// for each breast of that shape, uniform in volume where the women's landmarks lie. These are seen
-/// 10 to 60 mm from the ribs (6 mm behind the chest wall of the mesh, which is the front of the
-/// muscle) and in the upper outer part: all 84 lie 22 to 182 mm above the nipple and 95 % no more
-/// than 9 mm medial of it. (Above: the data's axis that is called superior must point down, as
+/// Of the women's landmarks those are compared with a model that lie so far from the ribs prone:
+/// a mesh reaches neither the ribs nor the axilla.
+inline constexpr double kNearestToRibs_mm = 10, kFarthestFromRibs_mm = 60;
+
+/// The points of one breast that are followed: its nipple, and 540 of the prone tissue, the same
+/// for each breast of that shape, where the women's landmarks lie: 54 of 84 are seen 10 to 60 mm
+/// from the ribs (6 mm behind the chest wall of the mesh, which is the front of the muscle), half
+/// of them within 19 mm, and as many of the points lie in each band of that distance, if the breast
+/// has such tissue. All lie in the upper outer part, 22 to 182 mm above the nipple, half of them
+/// more than 85 mm, which is above most meshes; 95 % lie no more than 10 mm medial of it and half
+/// more than 30 mm lateral. (Above: the data's axis that is called superior must point down, as
 /// nipples would go 18 mm down along it as women lie back, and all landmarks lie below the breast.)
 class SupinePoints {
  public:

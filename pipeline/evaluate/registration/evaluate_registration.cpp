@@ -32,9 +32,7 @@ void declare(CommandLine& command, Arguments& args) {
   declare_table(command, args.table, "registration", "each patient's");
   command.option("--synthetic", args.synthetic, "patients").between(1, 10000).with_default();
   command.option("--first", args.first, "the first of them").between(0, 10000).with_default();
-  command.option("--jobs", args.jobs, "patients at a time, each on all cores [1 to 64]")
-      .between(1, 64)
-      .with_default();
+  declare_jobs(command, args.jobs, "patients at a time, each on all cores");
   command.flag("--coarse", args.coarse,
                "few elements in the truth and in the model: seconds a patient, to try it out");
   command.flag("--hard", args.hard,

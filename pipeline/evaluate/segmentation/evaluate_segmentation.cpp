@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iostream>
 
+#include "pipeline/evaluate/cases/case_arguments.h"
 #include "pipeline/evaluate/cases/evaluation_table.h"
 #include "pipeline/evaluate/segmentation/segmentation_row.h"
 #include "pipeline/frame/command_line.h"
@@ -25,9 +26,7 @@ void declare(CommandLine& command, Arguments& args) {
                  "folder with label_maps/*_labels.nii.gz: MRI is simulated from them, too");
   command.option("--only", args.only, "cases whose name contains one of these (texts)");
   command.option("--keep", args.keep, "folder for each case's image, true and found labels");
-  command.option("--jobs", args.jobs, "cases at a time, about 1 GB each")
-      .between(1, 64)
-      .with_default();
+  declare_jobs(command, args.jobs, "cases at a time, about 1 GB each");
 }
 
 std::vector<SegmentationCase> chosen_cases(const Arguments& args) {

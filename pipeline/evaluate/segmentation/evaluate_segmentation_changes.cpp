@@ -27,9 +27,7 @@ void declare(CommandLine& command, Arguments& args) {
   declare_table(command, args.table, "segmentation_changes");
   declare_only(command, args.only);
   command.option("--changes", args.changes, "those whose names are given (default: all)");
-  command.option("--jobs", args.jobs, "breasts at a time, about 2 GB each")
-      .between(1, 64)
-      .with_default();
+  declare_jobs(command, args.jobs, "breasts at a time, about 2 GB each");
 }
 
 std::vector<MriChange> changes_asked(const Arguments& args) {

@@ -16,12 +16,12 @@ class SupineSpread : public ScratchFolder {
   std::vector<WomensLandmark> landmarks() const {
     write("points.csv",
           "woman,point,side,prone_l_mm,prone_p_mm,prone_s_mm,supine_l_mm,supine_p_mm,supine_s_mm,"
-          "supine_to_ribs_mm\n"
-          "1,nipple,left,60,-100,0,90,-40,0,\n"
-          "1,landmark1,left,60,0,0,70,60,0,20\n"
-          "2,nipple,right,-60,-100,0,-90,-40,0,\n"
-          "2,landmark1,right,-60,-100,50,-90,-40,45,20\n"
-          "3,landmark1,left,0,0,0,9,9,9,20\n");
+          "prone_to_ribs_mm,supine_to_ribs_mm\n"
+          "1,nipple,left,60,-100,0,90,-40,0,,\n"
+          "1,landmark1,left,60,0,0,70,60,0,30,20\n"
+          "2,nipple,right,-60,-100,0,-90,-40,0,,\n"
+          "2,landmark1,right,-60,-100,50,-90,-40,45,30,20\n"
+          "3,landmark1,left,0,0,0,9,9,9,30,20\n");
     return read_womens_landmarks(folder_ / "points.csv");
   }
 };

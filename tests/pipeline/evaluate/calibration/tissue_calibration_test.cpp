@@ -107,12 +107,13 @@ TEST_F(TissueCalibration, ReadsWhatWomenDo) {
                           "1,nipple,left,60,-90,0,100,-10,0,,,,\n"
                           "1,nipple,right,-60,-90,0,-120,-20,0,,,,\n"
                           "1,landmark1,left,80,-50,0,80,-10,30,20,10,15,10\n"
-                          "2,landmark1,left,80,-50,0,80,-40,0,20,10,25,10\n");
+                          "2,landmark1,left,80,-50,0,80,-40,0,20,10,25,10\n"
+                          "3,landmark1,left,80,-50,0,80,70,0,61,10,45,10\n");
   const WomensMoves moves = read_womens_moves(folder_ / "points.csv");
   EXPECT_DOUBLE_EQ(moves.lateral.middle, 50);
   EXPECT_DOUBLE_EQ(moves.posterior.middle, 75);
   EXPECT_EQ(moves.lateral.women, 1);
-  EXPECT_DOUBLE_EQ(moves.landmark.middle, 30);  // of 50 and 10
+  EXPECT_DOUBLE_EQ(moves.landmark.middle, 30);  // of 50 and 10; the third lies too far forward
   EXPECT_EQ(moves.landmark.women, 2);
   EXPECT_DOUBLE_EQ(moves.ribs.middle, 20);
   write("points.csv", "woman,point\n1,nipple\n");
