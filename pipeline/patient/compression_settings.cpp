@@ -137,6 +137,11 @@ void declare_compression(Settings& s, CompressionSettings& c) {
            "Prosthet. Orthot. Int. 23, 1999)");
   s.number("compress.friction_slip_mm", c.friction.slip, {0.001, 1, "mm"},
            "slip up to which friction is elastic");
+  s.number(
+      "compress.most_force_n", c.most_force_n, {10, 1000, "N"},
+      "where nobody says how thick the breast became, the paddle stops at this force if it "
+      "comes before the thickness that is typical of the volume; Norway's screening recommends "
+      "108 to 177 N");
   s.number("compress.gap_tolerance_mm", c.options.gap_tolerance, {0.02, 1, "mm"},
            "mean distance of plates from the skin that they press, weighed by pressure");
   s.number("compress.grad_div", c.options.solid.grad_div, {0, 100},

@@ -45,6 +45,7 @@ struct CompressionSettings {
   SkinOptions skin;
   BoundaryOptions boundary = on_a_traced_wall();
   FrictionOptions friction{.coefficient = 0.3};
+  double most_force_n = 150;  ///< of the paddle, where nobody says how thick the breast became
   CompressionOptions options;
   double plate_rounding_mm = PlateOptions{}.rounding;
   double wall_clearance_mm = PlateOptions{}.wall_clearance;

@@ -56,7 +56,21 @@ std::string supine_words(const LesionRow& row) {
               : "");
 }
 
-json view_entry(const LesionRow& row) {
+/// "Pressed to 56 mm, where the paddle presses with 144 N: nobody says how thick the breast
+/// became"; empty where somebody does.
+std::string thickness_words(const json* sidecar) {
+  if (!sidecar || !sidecar->contains("quality")) return "";
+  const json& quality = sidecar->at("quality");
+  if (!quality.value("thickness_assumed", false)) return "";
+  const bool by_force = quality.value("stopped_by_force", false);
+  return "Pressed to " + whole_mm(quality.value("thickness_mm", 0.0)) +
+         (by_force ? ", where the paddle presses with " +
+                         word::number(quality.value("force_N", 0.0), 0) + " N"
+                   : ", which is typical of such a volume") +
+         ": nobody says how thick the breast became";
+}
+
+json view_entry(const LesionRow& row, const json* sidecar) {
   std::string search, full;
   if (row.picture_ellipse_major_mm) {
     search = "Search within " + axes(*row.picture_ellipse_major_mm, *row.picture_ellipse_minor_mm) +
@@ -69,7 +83,8 @@ json view_entry(const LesionRow& row) {
   return {{"view", title_of_view(row.view)},
           {"where", view_words(row)},
           {"search", search},
-          {"full", full}};
+          {"full", full},
+          {"thickness", thickness_words(sidecar)}};
 }
 
 }  // namespace
@@ -80,7 +95,8 @@ json answer_data(const PatientResults& results) {
     if (mri.view != "mri") continue;
     json views = json::array();
     for (const LesionRow& row : results.rows)
-      if (row.lesion == mri.lesion && row.view != "mri") views.push_back(view_entry(row));
+      if (row.lesion == mri.lesion && row.view != "mri")
+        views.push_back(view_entry(row, results.sidecar(row.view + ".vtu")));
     lesions.push_back({{"lesion", mri.lesion},
                        {"place", place_words(mri)},
                        {"views", views},

@@ -16,15 +16,14 @@ inline constexpr const char* kAccuracyWords =
 /// (there).
 inline constexpr const char* kSupineWords =
     "Not calibrated to her: from prone to supine women's nipples move by 93 mm in the median (56 "
-    "to "
-    "172), the default tissue's by 103 and neo_hookean_2026's by 15, so a place beside the ribs "
-    "may "
-    "be off by several centimetres. Seen from the nipple, 90 % is as wide as what landmarks of 32 "
-    "women did.";
+    "to 172), the default tissue's by 103 and neo_hookean_2026's by 15, so a place beside the ribs "
+    "may be off by several centimetres. Seen from the nipple, 90 % is as wide as what landmarks of "
+    "32 women did.";
 
 /// The page's first words: a list of lesions, each {"lesion", "place", "views": [{"view", "where",
-/// "search", "full"}], "supine"}, in a report's language. `full` is the ellipse on a mammogram that
-/// was not there to be searched, else empty. Empty without rows of lesions.csv.
+/// "search", "full", "thickness"}], "supine"}, in a report's language. `full` is the ellipse on a
+/// mammogram that was not there to be searched, else empty; `thickness` says what was assumed of
+/// the view's, or is empty. Empty without rows of lesions.csv.
 nlohmann::json answer_data(const PatientResults& results);
 
 }  // namespace mammotwin

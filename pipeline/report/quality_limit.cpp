@@ -45,6 +45,7 @@ constexpr Limit kOfViews[] = {
     {"", "max_penetration_mm", -kNone, limits::penetration_mm, " mm"},
     {"", "imbalance_percent", -kNone, limits::imbalance_percent, " %"},
     {"", "J_within_half", limits::share_of_sane_J, kNone, ""},
+    {"", "force_N", -kNone, limits::force_N, " N"},
     {"", "swing_mm", -limits::swing_mm, limits::swing_mm, " mm"},
     {"", "roll_deg", -kNone, limits::roll_deg, "°"},
     {"", "retained_fraction", limits::retained_fraction, kNone, ""},

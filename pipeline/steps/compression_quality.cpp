@@ -65,6 +65,7 @@ Outcome judge_compression(const CompressionReport& r, const PlateEscape& escape,
   Outcome outcome;
   outcome.quality = quality_of(r, angle_deg);
   outcome.quality["thickness_assumed"] = assumed_thickness;
+  outcome.quality["stopped_by_force"] = r.stopped_by_force;
   if (!r.usable()) {
     outcome.status = Status::not_converged;
     outcome.reasons = {r.reason};
@@ -93,6 +94,10 @@ Outcome judge_compression(const CompressionReport& r, const PlateEscape& escape,
   doubt(100 * r.imbalance > limits::imbalance_percent,
         sentence("forces between the plates are out of balance by %.2f %%; expected under %.1f %%",
                  100 * r.imbalance, limits::imbalance_percent));
+  doubt(r.force_N > limits::force_N,
+        sentence("the paddle presses with %.0f N; machines stop at %.0f N, so the breast is softer "
+                 "than its tissue here, or was not pressed so thin",
+                 r.force_N, limits::force_N));
   doubt(std::abs(escape.swing_mm) > limits::swing_mm,
         sentence("the nipple swung %.0f mm to the side between the plates; mammograms show less "
                  "than %.0f mm",

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "pipeline/steps/breast_problem.h"
 #include "pipeline/steps/solution_record.h"
@@ -43,6 +44,7 @@ CompressionProblem changed(const Patient& patient, const ViewSettings& view, Sid
   problem.friction.coefficient =
       std::clamp(problem.friction.coefficient + state[kFriction], 0.0, 1.0);
   problem.plates.thickness = thickness_mm + state[kThickness];
+  problem.most_force = std::numeric_limits<double>::infinity();
   problem.plates.lift += state[kLift];
   problem.plates.wall_clearance = std::max(0.0, problem.plates.wall_clearance + state[kClearance]);
   problem.plates.paddle_tilt += state[kTilt];
@@ -74,6 +76,7 @@ CompressionProblem view_problem(const Patient& patient, const ViewSettings& view
                              {}};
   problem.friction = patient.compression.friction;
   problem.plates = plates_of(patient, view, axes, prone_file(mesh));
+  if (!view.thickness_mm) problem.most_force = patient.compression.most_force_n;
   if (patient.compression.standing_gravity) {
     problem.gravity = gravity_in_lps(Pose::standing);
     problem.density = patient.gravity.density();

@@ -72,14 +72,17 @@ class Compression {
   void judge(const LoadSteppingReport& load, const State& state);
   CompressionResult result_at(const State& state) const;
   void count(const NewtonReport& newton);
+  bool too_hard(const State& state);
+  void stop_by_force(const LoadSteppingReport& pressed, State& state);
 
   const CompressionProblem& problem_;
   const CompressionOptions& options_;
   const Progress progress_;
   const CompressionRestart restart_;
   Press press_;
-  const PlateWay way_;
+  PlateWay way_;
   CompressionCheckpoint good_;  ///< the last good step
+  double stop_ = 0;             ///< thickness at which the most force is reached [mm]; 0: not known
   bool lost_ = false;           ///< the breast has slipped out
   CompressionReport report_;
 };
@@ -122,7 +125,7 @@ NewtonReport Compression::balance_tilt(NewtonReport report, State& state) {
 
 /// From the last two steps extrapolated; where a short step fails so, from the last.
 NewtonReport Compression::equilibrate(double fraction, State& state) {
-  if (lost_) return {};  // pressing on what is left would tell nothing
+  if (lost_ || stop_ > 0) return {};  // pressing on what is left would tell nothing
   const auto attempt = [&](State& trial, bool near) {
     place(fraction);
     press_.restore_friction(good_.sticking);
@@ -151,6 +154,7 @@ void Compression::count(const NewtonReport& newton) {
 
 void Compression::record(const LoadSteppingReport& load, const State& state,
                          const NewtonReport& newton) {
+  if (too_hard(state)) return;
   const Balance balance = press_.newton().balance(state);
   report_.history.push_back({press_.thickness(state), press_.paddle_force(state), newton.iterations,
                              press_.penalty(), balance.min_J, balance.max_J, state.x});
@@ -161,15 +165,48 @@ void Compression::record(const LoadSteppingReport& load, const State& state,
   good_.sticking = press_.commit_friction(state);
   good_.report = report_;
   lost_ = slipped_out(press_, state);
-  if (restart_.keep) restart_.keep(good_);
+  if (restart_.keep && !report_.stopped_by_force) restart_.keep(good_);
   if (progress_)
     progress_(0.95 * load.reached, "compressed to " + in_mm(report_.history.back().thickness_mm));
+}
+
+/// Whether the paddle presses harder than it may; then `stop_` is where it came to that, by the
+/// force's logarithm between two steps.
+bool Compression::too_hard(const State& state) {
+  const double force = press_.paddle_force(state), most = problem_.most_force;
+  if (report_.stopped_by_force || force <= most) return false;
+  const double before = report_.history.empty() ? 0 : report_.history.back().force_N;
+  const double from = press_.thickness(good_.reached.state);
+  // From the first touch the force grows about with the square of the way.
+  const double share =
+      before > 0 ? std::log(most / before) / std::log(force / before) : std::sqrt(most / force);
+  stop_ = from + share * (press_.thickness(state) - from);
+  return true;
+}
+
+/// Back to the last good step, from which the way ends where the force is reached.
+void Compression::stop_by_force(const LoadSteppingReport& pressed, State& state) {
+  report_.target_thickness_mm = stop_;
+  report_.stopped_by_force = true;
+  constexpr double least = 1e-3;  // of the way
+  const double end = std::max({least, way_.fraction_at(stop_), good_.reached.fraction});
+  way_.end_at(end);
+  for (double* fraction : {&good_.before.fraction, &good_.reached.fraction, &good_.load.reached})
+    *fraction /= end;
+  good_.load.next_step = 1 - good_.load.reached;
+  good_.load.iterations = pressed.iterations;
+  good_.load.indefinite = pressed.indefinite;
+  state = good_.reached.state;
+  place(good_.reached.fraction);
+  press_.set_penalty(good_.penalty);
+  press_.restore_friction(good_.sticking);
+  stop_ = 0;
 }
 
 void Compression::judge(const LoadSteppingReport& load, const State& state) {
   // What "reached" means: nearer than anything that a breast is asked about. [mm] and of the flow.
   constexpr double most_error = 0.5, most_penetration = 1, most_imbalance = 1e-2;
-  const double error = std::abs(report_.thickness_mm - problem_.plates.thickness);
+  const double error = std::abs(report_.thickness_mm - report_.target_thickness_mm);
   const double apart = press_.placed().paddle_height - press_.placed().support_height;
   if (report_.slipped_out)
     report_.reason = "the breast slipped out backwards: the plates stand " + in_mm(apart) +
@@ -189,7 +226,7 @@ void Compression::judge(const LoadSteppingReport& load, const State& state) {
     report_.status = CompressionStatus::converged;
   if (!report_.usable())
     report_.reason = "stopped at " + in_mm(report_.thickness_mm) + " of " +
-                     in_mm(problem_.plates.thickness) + ": " + report_.reason;
+                     in_mm(report_.target_thickness_mm) + ": " + report_.reason;
 }
 
 /// Brings the breast to rest under gravity and pull, the plates away; false where it does not come
@@ -244,12 +281,13 @@ LoadSteppingReport Compression::close_plates(State& state) {
         record(so_far, s, n);
       },
       good_.load);
+  if (stop_ > 0) return load;
   report_.steps = load.steps;
   report_.cutbacks = load.cutbacks;
   report_.newton_iterations += load.iterations;
   report_.indefinite_matrices += load.indefinite;
   if (load.complete() && !lost_)
-    count(finish_compression(press_, good_.penalty, state));
+    count(finish_compression(press_, report_.target_thickness_mm, good_.penalty, state));
   else
     place(load.reached);
   return load;
@@ -265,7 +303,11 @@ CompressionResult Compression::run() {
   const auto start = std::chrono::steady_clock::now();
   State state;
   if (!begin(state)) return {state.x, state.x, state.pressure, press_.placed(), 0, {}, {}, report_};
-  const LoadSteppingReport load = close_plates(state);
+  LoadSteppingReport load = close_plates(state);
+  if (stop_ > 0) {
+    stop_by_force(load, state);
+    load = close_plates(state);
+  }
   measure_compression(press_, state, report_);
   judge(load, state);
   if (report_.usable()) report_.energy_force_N = force_from_energy(press_, state);
@@ -296,7 +338,8 @@ CompressionResult Compression::run_from(const CompressionResult& near) {
   LoadSteppingReport load;
   load.reached = newton.usable() ? 1 : 0;
   load.reason = newton.reason;
-  if (load.complete()) count(finish_compression(press_, press_.penalty(), state));
+  if (load.complete())
+    count(finish_compression(press_, report_.target_thickness_mm, press_.penalty(), state));
   measure_compression(press_, state, report_);
   judge(load, state);
   return result_at(state);

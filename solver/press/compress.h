@@ -17,7 +17,8 @@ struct CompressionRestart {
       keep;  ///< called after each load step, but for those of a second press; or empty
 };
 
-/// Squeezes the breast between support and paddle to the thickness asked.
+/// Squeezes the breast between support and paddle to the thickness asked, or until the paddle
+/// presses with the most force.
 ///
 /// Throws std::invalid_argument that names the cause where the problem cannot be posed: folded
 /// mesh, stiffness not positive, a number that is not finite, a thickness that is not between 0 and

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <limits>
+
 #include "solver/breast/breast_problem.h"
 #include "solver/contact/plate_placement.h"
 #include "solver/element/solid_element.h"
@@ -20,6 +22,8 @@ struct CompressionProblem : BreastProblem {
   /// What holds the breast drawn onto the support, on the tissue's volume [mN/mm³]. Plates are
   /// placed about the imaged breast, which hangs as far.
   Eigen::Vector3d pull = Eigen::Vector3d::Zero();
+  /// Of the paddle [N] > 0: it stops there, before the thickness that the plates say.
+  double most_force = std::numeric_limits<double>::infinity();
 
   Eigen::Vector3d body_force() const { return density * gravity + pull; }  ///< [mN/mm³]
 };

@@ -28,15 +28,16 @@ struct CompressionReport {
   int other_press_iterations = 0;  ///< of the press that is not this result's
   int steps = 0, cutbacks = 0;
   int newton_iterations = 0, indefinite_matrices = 0;  ///< of all presses
-  double target_thickness_mm = 0;
-  double thickness_mm = 0;       ///< extent along `up` of the deformed skin between the plates
-  double free_thickness_mm = 0;  ///< the same of the uncompressed breast
-  double force_N = 0;            ///< of the paddle, from contact
-  double energy_force_N = 0;     ///< the same from the change of stored energy, a check
-  double paddle_tilt_deg = 0;    ///< in the end
-  double contact_area_cm2 = 0;   ///< deformed, within 0.1 mm of the paddle
-  double gap_p95_mm = 0;         ///< of the skin to both plates where they press (pressed_gap.h)
-  double volume_change = 0;      ///< fraction
+  double target_thickness_mm = 0;  ///< asked, or where the most force was reached
+  bool stopped_by_force = false;   ///< CompressionProblem::most_force
+  double thickness_mm = 0;         ///< extent along `up` of the deformed skin between the plates
+  double free_thickness_mm = 0;    ///< the same of the uncompressed breast
+  double force_N = 0;              ///< of the paddle, from contact
+  double energy_force_N = 0;       ///< the same from the change of stored energy, a check
+  double paddle_tilt_deg = 0;      ///< in the end
+  double contact_area_cm2 = 0;     ///< deformed, within 0.1 mm of the paddle
+  double gap_p95_mm = 0;           ///< of the skin to both plates where they press (pressed_gap.h)
+  double volume_change = 0;        ///< fraction
   double min_J = 1, max_J = 1;
   double J_within_half = 0;  ///< fraction of quadrature points with J in [0.5, 1.5]
   double mean_gap_mm = 0;    ///< of what a plate presses (ContactFigures), the larger of both

@@ -48,7 +48,8 @@ constexpr double kFar = 1;        // [mm]: stiff contact does not follow a paddl
 /// Rounds that each close contact further, by a stiffer penalty, move the paddle, or do both.
 class Finish {
  public:
-  Finish(Press& press, double penalty) : press_(press), penalty_(penalty) {}
+  Finish(Press& press, double thickness, double penalty)
+      : press_(press), thickness_(thickness), penalty_(penalty) {}
   NewtonReport run(State& state);
 
  private:
@@ -75,7 +76,7 @@ class Finish {
   bool settle(State& state);
 
   Press& press_;
-  const double penalty_;
+  const double thickness_, penalty_;
   NewtonReport total_;
   ThicknessSecant secant_;
   bool closed_ = false;     ///< the last round closed contact further
@@ -87,7 +88,7 @@ class Finish {
 
 Finish::Errors Finish::errors(const State& state) const {
   const CompressionOptions& options = press_.options();
-  const double thickness = press_.thickness(state) - press_.problem().plates.thickness;
+  const double thickness = press_.thickness(state) - thickness_;
   const double tilt = press_.tilt_error(state);
   const ContactFigures support = press_.figures(state, Press::kSupport),
                        paddle = press_.figures(state, Press::kPaddle);
@@ -219,8 +220,8 @@ NewtonReport Finish::run(State& state) {
 
 }  // namespace
 
-NewtonReport finish_compression(Press& press, double penalty, State& state) {
-  return Finish(press, penalty).run(state);
+NewtonReport finish_compression(Press& press, double thickness, double penalty, State& state) {
+  return Finish(press, thickness, penalty).run(state);
 }
 
 }  // namespace mammotwin

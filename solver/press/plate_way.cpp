@@ -33,7 +33,7 @@ PlateWay::PlateWay(const PlateFrame& frame, const CompressionProblem& problem, M
   start_ = {std::min(low, end_.support), std::max(high, end_.paddle)};
 }
 
-PlacedPlates PlateWay::at(double fraction, double tilt) const {
+PlateWay::Heights PlateWay::at(double fraction) const {
   double support = fraction, paddle = fraction;
   if (moving_ == Moving::paddle) {
     const double lift = end_.support - start_.support;
@@ -42,9 +42,21 @@ PlacedPlates PlateWay::at(double fraction, double tilt) const {
     paddle = fraction < share ? 0 : (fraction - share) / (1 - share);
   }
   const auto between = [](double a, double b, double f) { return a + f * (b - a); };
-  return frame_.place(between(start_.support, end_.support, support),
-                      between(start_.paddle, end_.paddle, paddle), tilt);
+  return {between(start_.support, end_.support, support),
+          between(start_.paddle, end_.paddle, paddle)};
 }
+
+PlacedPlates PlateWay::at(double fraction, double tilt) const {
+  const Heights heights = at(fraction);
+  return frame_.place(heights.support, heights.paddle, tilt);
+}
+
+double PlateWay::fraction_at(double apart) const {
+  const double start = start_.paddle - start_.support, end = end_.paddle - end_.support;
+  return (start - apart) / (start - end);
+}
+
+void PlateWay::end_at(double fraction) { end_ = at(fraction); }
 
 double PlateWay::longest() const {
   const double support = end_.support - start_.support, paddle = start_.paddle - end_.paddle;

@@ -19,6 +19,12 @@ class PlateWay {
   /// fraction: of the way, in [0, 1]. tilt: of the paddle [deg].
   PlacedPlates at(double fraction, double tilt) const;
 
+  /// The way ends where it is at this fraction now; fractions are counted anew.
+  void end_at(double fraction);
+
+  /// Where the plates are so far apart [mm].
+  double fraction_at(double apart) const;
+
   /// Of the plates, the longer one of two that move together [mm].
   double longest() const;
 
@@ -26,6 +32,8 @@ class PlateWay {
   struct Heights {
     double support, paddle;
   };
+  Heights at(double fraction) const;
+
   const PlateFrame& frame_;
   Moving moving_;
   double tilt_;  ///< of the paddle without load [deg]

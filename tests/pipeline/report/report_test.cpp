@@ -74,6 +74,21 @@ TEST(ReportPage, ListsTheSeriesAndWhyOneWasRead) {
   EXPECT_NE(page.find("read: the one that serves"), std::string::npos);
 }
 
+TEST(ReportPage, SaysWhatWasAssumedOfAThickness) {
+  EXPECT_EQ(whole_page().find("nobody says how thick"), std::string::npos);
+  PatientResults assumed = fake_results(Side::left);
+  for (StageRecord& record : assumed.stages)
+    if (record.product == "cc.vtu") {
+      record.sidecar["quality"]["thickness_assumed"] = true;
+      record.sidecar["quality"]["stopped_by_force"] = true;
+      record.sidecar["quality"]["thickness_mm"] = 55.7;
+      record.sidecar["quality"]["force_N"] = 143.7;
+    }
+  const std::string page = render_page(page_data(assumed, "0.1.0"));
+  EXPECT_EQ(count(page, "Pressed to 56 mm, where the paddle presses with 144 N: nobody says"), 2u)
+      << "once for each lesion";
+}
+
 // 11 to 16 iterations in six steps, 81 in all, and 20 at the end of each view.
 TEST(ReportPage, DrawsConvergence) {
   EXPECT_NE(whole_page().find("CC: 101 in all. MLO: 101 in all."), std::string::npos);

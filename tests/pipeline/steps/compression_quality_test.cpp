@@ -39,6 +39,10 @@ TEST(CompressionQuality, WhatIsNotQuiteReachedIsToBeLookedAtAndSaysByHowMuch) {
   EXPECT_EQ(outcome(&CompressionReport::mean_gap_mm, 0.2).status, Status::ok);
   EXPECT_EQ(outcome(&CompressionReport::mean_gap_mm, 0.3).status, Status::look);
   EXPECT_EQ(outcome(&CompressionReport::max_penetration_mm, 0.6).status, Status::look);
+  EXPECT_EQ(outcome(&CompressionReport::force_N, 190).status, Status::ok);
+  const Outcome hard = outcome(&CompressionReport::force_N, 279);
+  EXPECT_EQ(hard.status, Status::look);
+  EXPECT_NE(hard.reasons.at(0).find("279 N"), std::string::npos);
   EXPECT_EQ(outcome(&CompressionReport::retained_fraction, 0.65).status, Status::ok);
   const Outcome slid = outcome(&CompressionReport::retained_fraction, 0.31);
   EXPECT_EQ(slid.status, Status::look);

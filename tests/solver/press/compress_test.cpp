@@ -47,6 +47,30 @@ TEST(Compress, ForceFromContactIsForceFromEnergy) {
   EXPECT_NEAR(report.energy_force_N / report.force_N, 1, 1e-3);
 }
 
+TEST(Compress, StopsWhereThePaddlePressesWithTheMostForce) {
+  ASSERT_TRUE(squeezed().report.usable());
+  for (const double share : {0.3, 0.6, 1.5}) {
+    CompressionProblem gentle = squeezed_problem();
+    gentle.most_force = share * squeezed().report.force_N;
+    const CompressionResult result = compress(gentle, {});
+    const CompressionReport& report = result.report;
+    ASSERT_TRUE(report.usable()) << report.reason;
+    EXPECT_EQ(report.stopped_by_force, share < 1);
+    EXPECT_NEAR(report.thickness_mm, report.target_thickness_mm, 0.1);
+    if (share > 1) {
+      EXPECT_EQ(report.target_thickness_mm, 60);
+      continue;
+    }
+    EXPECT_NEAR(report.force_N, gentle.most_force, 0.1 * gentle.most_force);
+    CompressionProblem known = squeezed_problem();
+    known.plates.thickness = report.target_thickness_mm;
+    const CompressionResult there = compress(known, {});
+    ASSERT_TRUE(there.report.usable());
+    EXPECT_NEAR(there.report.force_N, report.force_N, 0.01 * report.force_N);
+    EXPECT_LE(report.newton_iterations, 2 * there.report.newton_iterations);
+  }
+}
+
 TEST(Compress, IsTheSameInARotatedWorld) {
   const Eigen::Matrix3d R(Eigen::AngleAxisd(0.8, Eigen::Vector3d(0.2, 1, -0.5).normalized()));
   CompressionProblem turned = squeezed_problem();
