@@ -64,8 +64,12 @@ double find_stiffness(const Patient& patient, StageRun& stage, const BreastProbl
   return factor * record.stiffness_fit->factor;
 }
 
-void hang_in_other_poses(const BreastProblem& unloaded, UnloadingRecord& record) {
+void hang_in_other_poses(const BreastProblem& unloaded, const StageRun& stage,
+                         UnloadingRecord& record) {
+  double done = 0.6;
   for (const Pose pose : {Pose::standing, Pose::supine}) {
+    stage.progress(done, "coming to rest " + std::string(name_of(pose)));
+    done += 0.2;
     BreastProblem problem = unloaded;
     problem.gravity = gravity_in_lps(pose);
     PoseState state{hang(problem, to_another_pose())};
@@ -105,13 +109,15 @@ Outcome run(const Arguments& args, const Patient& patient, StageRun& stage) {
   record.stiffness_factor =
       find_stiffness(patient, stage, problem_with(patient.compression.stiffness_factor), record);
   if (record.stiffness_fit && !record.stiffness_fit->usable()) return judge_unloading(record);
-  const UnloadResult result = unload(problem_with(record.stiffness_factor), {}, stage.progress);
+  const UnloadResult result =
+      unload(problem_with(record.stiffness_factor), {},
+             [&](double done, const std::string& what) { stage.progress(0.6 * done, what); });
   record.report = result.report;
   stiffen_as_needed(record);
   if (record.report.usable()) {
     if (record.imaged != Pose::none)
       hang_in_other_poses(from_unloaded(problem_with(record.stiffness_factor), result.unloaded),
-                          record);
+                          stage, record);
     write_mesh_file(stage.products.write_main(), unloaded_file(prone, result, record));
   }
   return judge_unloading(record);

@@ -19,6 +19,7 @@ LoadSteppingReport raise_body_force(BreastModel& breast, Newton& newton,
   NewtonOptions balance;
   balance.tolerance = options.tolerance;
   balance.constraint_tolerance = options.tolerance;
+  balance.max_iterations = options.step_iterations;
   return step_load(
       state, options.load,
       [&](double fraction, State& trial) {

@@ -13,6 +13,7 @@ struct HangOptions {
   SolidOptions solid;
   double tolerance = 1e-9;  ///< of the balance, relative (NewtonOptions)
   LoadSteppingOptions load;
+  int step_iterations = 120;  ///< Newton iterations of one load step, at most
 };
 
 /// Of a soft breast into another pose: those that were not at rest after 120 iterations were not

@@ -65,7 +65,7 @@ class Unloading {
     std::string reason;
     bool back_within(double tolerance) const { return error_mm && *error_mm < tolerance; }
   };
-  Reload reload(const Nodes& unloaded, double share) const;
+  Reload reload(const Nodes& unloaded, double share, const HangOptions& options) const;
   std::optional<double> naive_error() const;
   void find_largest_share(UnloadResult& result, bool reloaded);
   void check(UnloadResult& result);
@@ -106,10 +106,11 @@ HangOptions Unloading::reload_options() const {
 }
 
 /// Where an unloaded shape hangs to, beside the prone one.
-Unloading::Reload Unloading::reload(const Nodes& unloaded, double share) const {
+Unloading::Reload Unloading::reload(const Nodes& unloaded, double share,
+                                    const HangOptions& options) const {
   BreastProblem hanging = from_unloaded(problem_, unloaded);
   hanging.gravity *= share;
-  const HangResult again = hang(hanging, reload_options());
+  const HangResult again = hang(hanging, options);
   if (!again.report.usable())
     return {std::nullopt, "it stops at " + percent(again.report.gravity_fraction) +
                               " of the gravity: " + again.report.reason};
@@ -122,10 +123,12 @@ std::optional<double> Unloading::naive_error() const {
   reversed.prone.clear();
   reversed.gravity = -problem_.gravity;
   HangOptions options = reload_options();
-  options.load.max_iterations = 30;  // soft tissue stood on its head buckles, and for long
+  // Soft tissue stood on its head buckles, and for long: only a comparison, it is not waited for.
+  options.load.smallest_step = 1;
+  options.step_iterations = 12;
   const HangResult naive = hang(reversed, options);
   if (!naive.report.usable()) return std::nullopt;
-  return reload(naive.deformed, 1).error_mm;
+  return reload(naive.deformed, 1, options).error_mm;
 }
 
 /// Bisection for the share of the gravity up to which the imaged shape is stable and, if
@@ -141,8 +144,8 @@ void Unloading::find_largest_share(UnloadResult& result, bool reloaded) {
     TakenOff tried = take_off(share);
     report.newton_iterations += tried.load.iterations;
     const bool works =
-        tried.margin > 0 &&
-        (!reloaded || reload(tried.reference.x, share).back_within(options_.round_trip_tolerance));
+        tried.margin > 0 && (!reloaded || reload(tried.reference.x, share, reload_options())
+                                              .back_within(options_.round_trip_tolerance));
     (works ? low : high) = share;
     if (works) best = std::move(tried);
   }
@@ -155,7 +158,7 @@ void Unloading::find_largest_share(UnloadResult& result, bool reloaded) {
 void Unloading::check(UnloadResult& result) {
   UnloadReport& report = result.report;
   say(0.9, "loading again");
-  const Reload again = reload(result.unloaded, report.gravity_fraction);
+  const Reload again = reload(result.unloaded, report.gravity_fraction, reload_options());
   if (again.back_within(options_.round_trip_tolerance)) {
     report.round_trip_max_mm = *again.error_mm;
     if (report.usable()) report.naive_reversal_error_mm = naive_error();

@@ -30,8 +30,8 @@ struct UnloadReport {
   double stretch_p95 = 1, stretch_max = 1;  ///< largest principal stretch at quadrature points
   double min_J = 1, max_J = 1;
   double round_trip_max_mm = 0;  ///< nodes: unloaded, loaded again, against prone
-  /// The same for the prone shape solved with gravity reversed; empty where that does not converge
-  /// in 30 iterations.
+  /// The same for the prone shape solved with gravity reversed; empty where that or its reload does
+  /// not converge in 12 iterations.
   std::optional<double> naive_reversal_error_mm;
   double seconds = 0;  ///< without the checks
   int dof = 0;

@@ -17,6 +17,7 @@ struct Arguments {
   fs::path cases, table;
   std::vector<std::string> only, changes, views;
   int jobs = 2;
+  bool unload = false;
 };
 
 void declare(CommandLine& command, Arguments& args) {
@@ -26,6 +27,7 @@ void declare(CommandLine& command, Arguments& args) {
   command.option("--changes", args.changes,
                  "turn_1, turn_3, turn_5, mirror, half_voxel, elements, thickness (default: all)");
   command.option("--views", args.views, "cc, mlo (default: both)");
+  command.flag("--unloaded", args.unload, "press the shape free of gravity, not the imaged one");
   declare_jobs(command, args.jobs);
 }
 
@@ -48,6 +50,7 @@ int run(const Arguments& args) {
     asked.push_back(
         {breast, table.folder() / "stability" / name_and_side(breast), changes_asked(args)});
     if (!args.views.empty()) asked.back().views = args.views;
+    asked.back().unload = args.unload;
   }
   work_through(asked.size(), args.jobs, [&](std::size_t n) {
     add_stability_rows(asked[n], [&](const nlohmann::json& row) { table.add(n, row); });

@@ -32,6 +32,7 @@ struct StabilityInputs {
   fs::path folder;
   RealBreast breast;
   fs::path segmentation, prone;
+  fs::path unloaded = {};  ///< empty: the prone shape is pressed
 };
 
 /// A label map or an MRI, whichever the breast has.
@@ -88,10 +89,15 @@ void write_patient(const StabilityInputs& inputs, double thickness_mm,
   write_text_atomically(inputs.folder / "patient.toml", toml.str());
 }
 
-void segment_and_fit(const StabilityInputs& inputs, bool segments) {
-  if (segments) run_stage("segment", {}, inputs, inputs.segmentation, kMostStageCpuSeconds);
-  run_stage("fit", {inputs.segmentation.string(), fractions_beside(inputs.segmentation).string()},
-            inputs, inputs.prone, kMostStageCpuSeconds);
+/// Fits, and unloads where that is asked.
+void make_mesh(const StabilityInputs& inputs) {
+  const std::vector<std::string> tissue = {inputs.segmentation.string(),
+                                           fractions_beside(inputs.segmentation).string()};
+  run_stage("fit", tissue, inputs, inputs.prone, kMostStageCpuSeconds);
+  if (inputs.unloaded.empty()) return;
+  std::vector<std::string> of_mesh = tissue;
+  of_mesh.push_back(inputs.prone.string());
+  run_stage("unload", of_mesh, inputs, inputs.unloaded, kMostStageCpuSeconds);
 }
 
 RealBreast mirrored(RealBreast breast, double plane) {
@@ -108,8 +114,10 @@ StabilityInputs base_inputs(const StabilityCase& asked, const BreastImage& image
                          folder / "prone.vtu"};
   fs::create_directories(folder);
   if (!asked.breast.is_label_map) image.write(inputs.breast.image = folder / "image.nrrd", {});
+  if (asked.unload) inputs.unloaded = folder / "unloaded.vtu";
   write_patient(inputs, kPressedTo_mm, {});
-  segment_and_fit(inputs, true);
+  run_stage("segment", {}, inputs, inputs.segmentation, kMostStageCpuSeconds);
+  make_mesh(inputs);
   return inputs;
 }
 
@@ -132,15 +140,19 @@ StabilityInputs changed_inputs(const StabilityInputs& base, const InputChange& c
   write_patient(inputs, kPressedTo_mm + change.thicker_mm, elements);
   if (!change.of_image() && !elements) return inputs;
   inputs.prone = inputs.folder / "prone.vtu";
-  segment_and_fit(inputs, change.of_image());
+  if (!inputs.unloaded.empty()) inputs.unloaded = inputs.folder / "unloaded.vtu";
+  if (change.of_image())
+    run_stage("segment", {}, inputs, inputs.segmentation, kMostStageCpuSeconds);
+  make_mesh(inputs);
   return inputs;
 }
 
 json press_view(const StabilityInputs& inputs, const std::string& view, double& cpu_seconds) {
   const fs::path product = inputs.folder / (view + ".vtu");
+  const fs::path& mesh = inputs.unloaded.empty() ? inputs.prone : inputs.unloaded;
   cpu_seconds = run_stage("compress",
                           {view, inputs.segmentation.string(),
-                           fractions_beside(inputs.segmentation).string(), inputs.prone.string()},
+                           fractions_beside(inputs.segmentation).string(), mesh.string()},
                           inputs, product, kMostPressCpuSeconds);
   return stage_sidecar(product).at("quality");
 }
