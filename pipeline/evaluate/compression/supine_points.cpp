@@ -55,7 +55,10 @@ SupinePoints::SupinePoints(const MeshFile& prone, Side side, const Eigen::Vector
   std::array<int, kWomensInBand.size()> left;
   for (std::size_t band = 0; band < left.size(); ++band)
     left[band] = kLandmarks * kWomensInBand[band] / kWomens;
-  for (int n = 0; n<kMostDraws&& * std::max_element(left.begin(), left.end())> 0; ++n) {
+  const auto any_left = [&] {
+    return std::any_of(left.begin(), left.end(), [](int wanted) { return wanted > 0; });
+  };
+  for (int n = 0; n < kMostDraws && any_left(); ++n) {
     const Eigen::Vector3d shares(share(), share(), share());
     const Eigen::Vector3d x = box.min() + shares.cwiseProduct(box.sizes());
     const double outward = (side == Side::left ? 1 : -1) * (x - nipple_in_lps).x();
