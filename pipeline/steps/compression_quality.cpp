@@ -94,10 +94,11 @@ Outcome judge_compression(const CompressionReport& r, const PlateEscape& escape,
   doubt(100 * r.imbalance > limits::imbalance_percent,
         sentence("forces between the plates are out of balance by %.2f %%; expected under %.1f %%",
                  100 * r.imbalance, limits::imbalance_percent));
-  doubt(r.force_N > limits::force_N,
-        sentence("the paddle presses with %.0f N; machines stop at %.0f N, so the breast is softer "
-                 "than its tissue here, or was not pressed so thin",
-                 r.force_N, limits::force_N));
+  doubt(
+      r.force_N > limits::force_N,
+      sentence("the paddle presses with %.0f N; mammograms take less than %.0f N, so the breast is "
+               "softer than its tissue here, or was not pressed so thin",
+               r.force_N, limits::force_N));
   doubt(std::abs(escape.swing_mm) > limits::swing_mm,
         sentence("the nipple swung %.0f mm to the side between the plates; mammograms show less "
                  "than %.0f mm",

@@ -3,16 +3,18 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 #include <vector>
 
-#include "fitting/mesh/jacobian_bound.h"
 #include "solver/gravity/hang.h"
 #include "solver/load/load_stepping.h"
+#include "solver/press/check_shape.h"
 #include "solver/press/checkpoint.h"
 #include "solver/press/compression_figures.h"
 #include "solver/press/finish.h"
+#include "solver/press/judge_compressed.h"
 #include "solver/press/plate_way.h"
 #include "solver/press/press.h"
 #include "solver/press/solution_fields.h"
@@ -34,25 +36,6 @@ State extrapolated(const State& now, const State& before, double ahead) {
   return then;
 }
 
-void check_finite(const HermiteMesh& mesh) {
-  for (int node = 0; node < mesh.num_nodes(); ++node)
-    if (!mesh.node(node).allFinite())
-      throw std::invalid_argument("node " + std::to_string(node) +
-                                  " of the mesh has a parameter that is not a finite number");
-}
-
-/// The imaged shape, in which points are sought, must be valid everywhere. A shape that was
-/// computed from it need only be so at the quadrature points, which the elements check.
-void check_shape(const CompressionProblem& problem) {
-  check_finite(problem.mesh.mesh);
-  const HermiteMesh imaged = problem.prone.empty()
-                                 ? problem.mesh.mesh
-                                 : HermiteMesh(problem.prone, problem.mesh.mesh.elements());
-  check_finite(imaged);
-  if (!proved_valid(imaged))
-    throw std::invalid_argument("the mesh is folded: det dX/dxi is not positive everywhere");
-}
-
 /// One compression under way: the load steps along the plates' way.
 class Compression {
  public:
@@ -69,7 +52,6 @@ class Compression {
   NewtonReport equilibrate(double fraction, State& state);
   void record(const LoadSteppingReport& load, const State& state, const NewtonReport& newton);
   LoadSteppingReport close_plates(State& state);
-  void judge(const LoadSteppingReport& load, const State& state);
   CompressionResult result_at(const State& state) const;
   void count(const NewtonReport& newton);
   bool too_hard(const State& state);
@@ -82,7 +64,7 @@ class Compression {
   Press press_;
   PlateWay way_;
   CompressionCheckpoint good_;  ///< the last good step
-  double stop_ = 0;             ///< thickness at which the most force is reached [mm]; 0: not known
+  std::optional<double> stop_;  ///< thickness at which the most force was reached [mm]
   bool lost_ = false;           ///< the breast has slipped out
   CompressionReport report_;
 };
@@ -125,7 +107,7 @@ NewtonReport Compression::balance_tilt(NewtonReport report, State& state) {
 
 /// From the last two steps extrapolated; where a short step fails so, from the last.
 NewtonReport Compression::equilibrate(double fraction, State& state) {
-  if (lost_ || stop_ > 0) return {};  // pressing on what is left would tell nothing
+  if (lost_ || stop_) return {};  // pressing on what is left would tell nothing
   const auto attempt = [&](State& trial, bool near) {
     place(fraction);
     press_.restore_friction(good_.sticking);
@@ -186,10 +168,10 @@ bool Compression::too_hard(const State& state) {
 
 /// Back to the last good step, from which the way ends where the force is reached.
 void Compression::stop_by_force(const LoadSteppingReport& pressed, State& state) {
-  report_.target_thickness_mm = stop_;
+  report_.target_thickness_mm = *stop_;
   report_.stopped_by_force = true;
   constexpr double least = 1e-3;  // of the way
-  const double end = std::max({least, way_.fraction_at(stop_), good_.reached.fraction});
+  const double end = std::max({least, way_.fraction_at(*stop_), good_.reached.fraction});
   way_.end_at(end);
   for (double* fraction : {&good_.before.fraction, &good_.reached.fraction, &good_.load.reached})
     *fraction /= end;
@@ -200,33 +182,7 @@ void Compression::stop_by_force(const LoadSteppingReport& pressed, State& state)
   place(good_.reached.fraction);
   press_.set_penalty(good_.penalty);
   press_.restore_friction(good_.sticking);
-  stop_ = 0;
-}
-
-void Compression::judge(const LoadSteppingReport& load, const State& state) {
-  // What "reached" means: nearer than anything that a breast is asked about. [mm] and of the flow.
-  constexpr double most_error = 0.5, most_penetration = 1, most_imbalance = 1e-2;
-  const double error = std::abs(report_.thickness_mm - report_.target_thickness_mm);
-  const double apart = press_.placed().paddle_height - press_.placed().support_height;
-  if (report_.slipped_out)
-    report_.reason = "the breast slipped out backwards: the plates stand " + in_mm(apart) +
-                     " apart (stiffer chest-wall springs or more friction would hold it)";
-  else if (!load.complete())
-    report_.reason = load.reason;
-  else if (error > std::max(most_error, options_.thickness_tolerance))
-    report_.reason = "the thickness stays " + in_mm(error) + " off";
-  else if (report_.max_penetration_mm > most_penetration)
-    report_.reason = "a point stays " + in_mm(report_.max_penetration_mm) + " inside a plate";
-  else if (report_.imbalance > most_imbalance)
-    report_.reason = "forces stay out of balance by " +
-                     std::to_string(std::lround(100 * report_.imbalance)) + " %";
-  else if (!press_.newton().is_stable(state))
-    report_.reason = "the equilibrium found is unstable: a breast would not stay in it";
-  else
-    report_.status = CompressionStatus::converged;
-  if (!report_.usable())
-    report_.reason = "stopped at " + in_mm(report_.thickness_mm) + " of " +
-                     in_mm(report_.target_thickness_mm) + ": " + report_.reason;
+  stop_.reset();
 }
 
 /// Brings the breast to rest under gravity and pull, the plates away; false where it does not come
@@ -281,7 +237,7 @@ LoadSteppingReport Compression::close_plates(State& state) {
         record(so_far, s, n);
       },
       good_.load);
-  if (stop_ > 0) return load;
+  if (stop_) return load;
   report_.steps = load.steps;
   report_.cutbacks = load.cutbacks;
   report_.newton_iterations += load.iterations;
@@ -304,12 +260,12 @@ CompressionResult Compression::run() {
   State state;
   if (!begin(state)) return {state.x, state.x, state.pressure, press_.placed(), 0, {}, {}, report_};
   LoadSteppingReport load = close_plates(state);
-  if (stop_ > 0) {
+  if (stop_) {
     stop_by_force(load, state);
     load = close_plates(state);
   }
   measure_compression(press_, state, report_);
-  judge(load, state);
+  judge_compressed(press_, load, state, report_);
   if (report_.usable()) report_.energy_force_N = force_from_energy(press_, state);
   report_.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (progress_) progress_(1, "compressed to " + in_mm(report_.thickness_mm));
@@ -341,7 +297,7 @@ CompressionResult Compression::run_from(const CompressionResult& near) {
   if (load.complete())
     count(finish_compression(press_, report_.target_thickness_mm, press_.penalty(), state));
   measure_compression(press_, state, report_);
-  judge(load, state);
+  judge_compressed(press_, load, state, report_);
   return result_at(state);
 }
 

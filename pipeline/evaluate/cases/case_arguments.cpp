@@ -26,6 +26,10 @@ void declare_only(CommandLine& command, std::vector<std::string>& only) {
   command.option("--only", only, "breasts whose name-side contains one of these (texts)");
 }
 
+void declare_unloaded(CommandLine& command, bool& unload) {
+  command.flag("--unloaded", unload, "press the shape free of gravity, not the imaged one");
+}
+
 void declare_jobs(CommandLine& command, int& jobs, const std::string& what) {
   command.option("--jobs", jobs, what + " [1 to 64]").between(1, 64).with_default();
 }

@@ -41,7 +41,7 @@ void declare(CommandLine& command, Arguments& args) {
       .between(1, 1000000)
       .with_default();
   command.option("--preset", args.preset, "the tissue's materials.preset").with_default();
-  command.flag("--unloaded", args.unload, "press the shape free of gravity, not the imaged one");
+  declare_unloaded(command, args.unload);
   command.flag("--refit", args.refit, "segment and fit again what lies there already");
 }
 

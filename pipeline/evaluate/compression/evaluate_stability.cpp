@@ -27,7 +27,7 @@ void declare(CommandLine& command, Arguments& args) {
   command.option("--changes", args.changes,
                  "turn_1, turn_3, turn_5, mirror, half_voxel, elements, thickness (default: all)");
   command.option("--views", args.views, "cc, mlo (default: both)");
-  command.flag("--unloaded", args.unload, "press the shape free of gravity, not the imaged one");
+  declare_unloaded(command, args.unload);
   declare_jobs(command, args.jobs);
 }
 
