@@ -17,9 +17,14 @@ struct FoundLesion {
   double background = 0;                          ///< median of the 2 to 6 mm around it
   double inscribed_mm = 0;                        ///< radius of the largest ball inside
   double agreement = 0;                           ///< Dice of half maximum and random walker
-  bool is_sphere = false;                         ///< nothing stood out: a ball of 5 mm was taken
-  bool is_cut = false;                            ///< it goes on where the search ends
+  Eigen::Vector3d extent_mm = Eigen::Vector3d::Zero();  ///< along x, y, z
+  /// Where it is over 0.3 of its contrast rather than over half; 0 for a ball.
+  Eigen::Vector3d soft_extent_mm = Eigen::Vector3d::Zero();
+  bool is_sphere = false;  ///< nothing stood out: a ball of 5 mm was taken
+  bool is_cut = false;     ///< it goes on where the search ends
 
+  /// Does its extent hang on where its edge is drawn: by over 3 mm and 20 %?
+  bool is_soft() const;
   double contrast() const { return background > 0 ? brightness / background : 0; }
 };
 

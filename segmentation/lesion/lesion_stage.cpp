@@ -84,6 +84,13 @@ SharpImage sharp_image(const HalfImages& images) {
   };
 }
 
+std::string extent_text(const Eigen::Vector3d& mm) {
+  std::ostringstream out;
+  out << std::lround(mm.x()) << " x " << std::lround(mm.y()) << " x " << std::lround(mm.z())
+      << " mm";
+  return out.str();
+}
+
 void judge(const FoundLesion& found, const PlacedSeed& seed, bool brighter,
            SegmentQuality& quality) {
   quality.lesion_agreement.push_back(found.agreement);
@@ -104,6 +111,11 @@ void judge(const FoundLesion& found, const PlacedSeed& seed, bool brighter,
         "extent rests on the fat around it; give radius_mm or a label map if it lies in gland");
   if (brighter && found.contrast() < least_contrast_if_brighter)
     doubt(" is less than 1.3 times as bright as its surroundings: its edge is uncertain");
+  if (brighter && found.is_soft())
+    quality.notes.push_back("lesion " + seed.id + " measures " + extent_text(found.extent_mm) +
+                            " along x, y and z at half of its contrast and " +
+                            extent_text(found.soft_extent_mm) +
+                            " at three tenths: a contour drawn by hand may lie anywhere between");
   if (found.is_cut)
     doubt(
         " goes on where the search for it ends: raise segment.lesion_reach_mm, or give a label "

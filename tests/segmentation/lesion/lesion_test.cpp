@@ -193,6 +193,25 @@ TEST(Lesion, LongerThanTheUsualSearchIsFollowed) {
   EXPECT_LT(volume_ratio(part, truth), 0.9);
 }
 
+TEST(Lesion, EdgeThatFadesIsSoft) {
+  Volume<std::uint8_t> truth;
+  const auto ball = [](const Eigen::Vector3d& x) { return x.norm() < 8; };
+  Volume<float> image = lesion_in_fat(ball, truth);
+  const auto allowed = image.like<std::uint8_t>(1);
+  const FoundLesion sharp = find_lesion(image, as_it_is(image), allowed, {1, 2, -1}, {});
+  EXPECT_FALSE(sharp.is_soft());
+  EXPECT_NEAR(sharp.extent_mm.maxCoeff(), 15, 0.1);
+  // A rim of 3 mm with two fifths of its contrast.
+  for (int k = 0; k < 80; ++k)
+    for (int j = 0; j < 80; ++j)
+      for (int i = 0; i < 110; ++i)
+        if (const double r = image.position(i, j, k).norm(); r >= 8 && r < 11)
+          image(i, j, k) = 1.88F;
+  const FoundLesion soft = find_lesion(image, as_it_is(image), allowed, {1, 2, -1}, {});
+  EXPECT_TRUE(soft.is_soft());
+  EXPECT_NEAR(soft.soft_extent_mm.maxCoeff(), 21, 0.1);
+}
+
 TEST(Lesion, WhereNothingStandsOutABallIsTaken) {
   BallAndVessel scene;
   for (float& value : scene.image.values) value = 1;
