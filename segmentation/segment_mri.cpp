@@ -9,6 +9,7 @@
 #include "segmentation/body/midline.h"
 #include "segmentation/chest_wall/half_breast.h"
 #include "segmentation/chest_wall/judge_wall.h"
+#include "segmentation/chest_wall/muscle_slips.h"
 #include "segmentation/contrast_agent/before_agent.h"
 #include "segmentation/contrast_agent/enhancement.h"
 #include "segmentation/files/markups.h"
@@ -169,6 +170,23 @@ void offer_candidates(const HalfBreast& half, const Volume<float>& enhancement,
   quality.candidates = find_candidates(enhancement, allowed);
 }
 
+/// What stands in front of the wall and is muscle is no part of the breast; lesions stay.
+void give_to_muscle(const Volume<std::uint8_t>& muscle, const Volume<std::uint8_t>& lesions,
+                    HalfBreast& half, SegmentQuality& quality) {
+  constexpr double worth_saying_ml = 1;
+  std::size_t given = 0;
+  for (std::size_t v = 0; v < muscle.values.size(); ++v) {
+    if (!muscle.values[v] || lesions.values[v]) continue;
+    half.inside.values[v] = 0;
+    ++given;
+  }
+  const double ml = static_cast<double>(given) * muscle.voxel_volume() / 1000;
+  if (ml >= worth_saying_ml)
+    quality.notes.push_back("the chest wall was moved forward round " +
+                            std::to_string(std::lround(ml)) +
+                            " ml in front of it that are as bright as muscle");
+}
+
 SegmentResult segment_image(const Mri& mri, const SegmentInput& input,
                             const SegmentOptions& options, const SegmentProgress& progress) {
   std::vector<PlacedSeed> seeds;
@@ -208,7 +226,7 @@ SegmentResult segment_image(const Mri& mri, const SegmentInput& input,
   const VoxelBox box = side_box(body.image, body.frame, side);
   const HalfImages coarse = cut_images(body, before, wall, box);
   const SkinStage skin = find_skin(coarse.noisy, cropped(body.body, box), body.frame);
-  const HalfBreast half = half_breast(skin.surface.body, wall.found.wall, side);
+  HalfBreast half = half_breast(skin.surface.body, wall.found.wall, side);
   check_seeds(half, seeds);
   offer_candidates(half, coarse.enhancement, result.quality);
   const HalfImages images = correct_shading(coarse, half, body.frame);
@@ -228,6 +246,8 @@ SegmentResult segment_image(const Mri& mri, const SegmentInput& input,
   const Volume<float> restored = restored_within(masks.interior, images.denoised, tissue);
   const TissueSplit split =
       split_tissue(restored, masks.interior, masks.statistics, fat_suppressed);
+  give_to_muscle(muscle_before_wall(half, wall.found.wall, split.gland_fraction, images.denoised),
+                 lesions, half, result.quality);
   result.segmentation = labelled(half, skin.surface.depth, skin_mm, lesions, split);
   result.image = corrected_like(split, restored, images.denoised);
   result.segmentation.lesions = named_lesions(result.segmentation.labels, seeds);
