@@ -29,8 +29,16 @@
 namespace mammotwin {
 namespace {
 
-Side choose_side(const SegmentInput& input, const std::vector<PlacedSeed>& seeds, double midline) {
+Side choose_side(const SegmentInput& input, const std::vector<PlacedSeed>& seeds,
+                 const BodyStage& body) {
+  if (body.lone) {
+    if (!input.side || *input.side == body.lone->side) return body.lone->side;
+    throw std::runtime_error(std::string("the image shows the ") + to_string(body.lone->side) +
+                             " breast alone; expected the " + to_string(*input.side) +
+                             " one, as side says (are left and right exchanged?)");
+  }
   if (input.side) return *input.side;
+  const double midline = body.frame.midline_x;
   std::size_t left = 0;
   for (const PlacedSeed& seed : seeds) left += seed.point_in_lps.x() > midline;
   if (!seeds.empty() && (left == 0 || left == seeds.size())) return left ? Side::left : Side::right;
@@ -155,7 +163,7 @@ BeforeAgent read_before_agent(const SegmentInput& input, const BodyStage& body,
   result.files.insert(result.files.end(), pre.files.begin(), pre.files.end());
   result.quality.notes.push_back(
       "lesions were outlined in the enhancement over the image before contrast agent");
-  return lay_before_agent(pre.image, body);
+  return lay_before_agent(body.lone ? with_mirror_image(pre.image, *body.lone) : pre.image, body);
 }
 
 /// Offers what takes up contrast agent in the breast, away from skin and wall.
@@ -204,7 +212,7 @@ SegmentResult segment_image(const Mri& mri, const SegmentInput& input,
     throw std::runtime_error(
         "its header does not say where its frames stand; expected positions "
         "and pixel spacing (export it as single slices)");
-  const Side side = choose_side(input, seeds, body.frame.midline_x);
+  const Side side = choose_side(input, seeds, body);
   progress(0.35, "finding the chest wall");
   std::vector<Eigen::Vector3d> drawn;
   if (input.wall_markups) drawn = read_markups_points(*input.wall_markups);
@@ -220,7 +228,7 @@ SegmentResult segment_image(const Mri& mri, const SegmentInput& input,
   };
   judge_end_slices(body, side, result.quality);
   judge_noise(result.quality);
-  judge_symmetry(body, wall.found.wall, result.quality);
+  if (!body.lone) judge_symmetry(body, wall.found.wall, result.quality);
 
   progress(0.60, "correcting the coil's shading");
   const VoxelBox box = side_box(body.image, body.frame, side);

@@ -14,7 +14,7 @@
 namespace mammotwin {
 namespace {
 
-constexpr double least_width_mm = 150, least_depth_mm = 80, least_height_mm = 60;
+constexpr double least_width_mm = 90, least_depth_mm = 80, least_height_mm = 60;  // of one breast
 constexpr double before_apex_mm = 15, behind_sternum_mm = 115;
 constexpr double cut_fat_suppressed = 0.45, cut_other = 0.30;
 constexpr double ghost_share = 0.3;
@@ -49,7 +49,8 @@ void check_extent(const Volume<float>& image) {
   throw std::runtime_error(
       (full ? "the breast is cut by the field of view on every side: the image covers "
             : "there is no breast in it: the image covers ") +
-      extent_text(extent) + "; expected a prone MRI of both breasts, at least 150 x 80 x 60 mm");
+      extent_text(extent) +
+      "; expected a prone MRI of both breasts or one, at least 90 x 80 x 60 mm");
 }
 
 /// Cuts away the air in front and what lies far behind, where the frame says so.
@@ -106,7 +107,14 @@ Contrast decided_contrast(const BodyStage& stage, std::optional<bool> given,
   // Thin skin reads near 1: skin of 1 mm in voxels of 1.2 mm 0.90 without suppression and 0.95
   // after contrast agent.
   constexpr double clearly_darker = 0.86, clearly_brighter = 1.05;
-  Contrast contrast = find_contrast(stage.image, stage.depth, stage.frame);
+  // A voxel of more holds skin with air or fat; where all are as large, none shows it better.
+  constexpr double usual_mm = 1.8, least_times = 1.5;
+  const Eigen::Vector3d& spacing = stage.image.spacing;
+  const double thick_mm = std::max(usual_mm, least_times * spacing.minCoeff());
+  Contrast contrast = find_contrast(
+      stage.image,
+      spacing.maxCoeff() > thick_mm ? depth_where_thin(stage.depth, thick_mm) : stage.depth,
+      stage.frame);
   if (given) {
     contrast.fat_suppressed = *given;
     return contrast;
@@ -145,13 +153,35 @@ void add_dark_skin(double noise_in_air, BodyStage& stage) {
       for (int i = 0; i < shown.size.x(); ++i) stage.body(i, j, k) |= shown(i, j, k);
 }
 
-}  // namespace
+bool shows_both_breasts(const Volume<std::uint8_t>& body) {
+  try {
+    find_breast_frame(body);
+    return true;
+  } catch (const std::runtime_error&) {
+    return false;
+  }
+}
 
-BodyStage find_body(const Volume<float>& image, std::optional<bool> fat_suppressed,
+/// What compares both breasts says nothing of an image and its mirror image.
+void say_lone(const LoneBreast& lone, const Volume<std::uint8_t>& body, SegmentQuality& quality) {
+  const std::string name = to_string(lone.side);
+  quality.notes.push_back("the image shows the " + name +
+                          " breast alone: its mirror image at the breastbone stands for the other "
+                          "one, with which nothing is compared");
+  if (!lone.is_cut) return;
+  constexpr double edge_radius_mm = 30;
+  const Eigen::Vector3d middle = body.position(0, body.size.y() / 2, body.size.z() / 2);
+  quality.doubt(SegmentStatus::look,
+                {"region",
+                 "the image ends beside the breastbone, where the skin of the " + name +
+                     " breast still falls towards it: its medial part may be missing",
+                 Eigen::Vector3d(lone.breastbone_x, middle.y(), middle.z()), edge_radius_mm});
+}
+
+/// `body`: the coarse one of the image, which shows both breasts.
+BodyStage find_both(const Volume<float>& image, const Volume<std::uint8_t>& body,
+                    double noise_in_air, std::optional<bool> fat_suppressed,
                     SegmentQuality& quality) {
-  check_extent(image);
-  const double noise_in_air = estimate_noise(image);
-  const Volume<std::uint8_t> body = coarse_body(image, noise_in_air);
   const BreastFrame frame = checked_frame(body);
   constexpr double largest_clip_cm2 = 4;  // a nipple's worth: the breast's tip is missing
   if (const double clip = clipped_in_front(body); clip > largest_clip_cm2)
@@ -174,6 +204,23 @@ BodyStage find_body(const Volume<float>& image, std::optional<bool> fat_suppress
   quality.signal_to_noise =
       subcutaneous_fat(stage.image, stage.depth, stage.frame, stage.contrast.fat_suppressed) /
       std::max(stage.noise, 1e-6);
+  return stage;
+}
+
+}  // namespace
+
+BodyStage find_body(const Volume<float>& image, std::optional<bool> fat_suppressed,
+                    SegmentQuality& quality) {
+  check_extent(image);
+  const double noise_in_air = estimate_noise(image);
+  const Volume<std::uint8_t> body = coarse_body(image, noise_in_air);
+  std::optional<LoneBreast> lone;
+  if (!shows_both_breasts(body)) lone = find_lone_breast(body);
+  if (!lone) return find_both(image, body, noise_in_air, fat_suppressed, quality);
+  say_lone(*lone, body, quality);
+  BodyStage stage = find_both(with_mirror_image(image, *lone), with_mirror_image(body, *lone),
+                              noise_in_air, fat_suppressed, quality);
+  stage.lone = lone;
   return stage;
 }
 

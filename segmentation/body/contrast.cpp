@@ -60,6 +60,24 @@ Contrast find_contrast(const Volume<float>& image, const Volume<float>& depth,
   return contrast;
 }
 
+Volume<float> depth_where_thin(const Volume<float>& depth, double thick_mm) {
+  constexpr double steepest = 0.6;  // of the skin's normal along a thick voxel
+  constexpr float least = 1e-6F;
+  Volume<float> seen = depth.like<float>(0);
+  for (int k = 1; k + 1 < depth.size.z(); ++k)
+    for (int j = 1; j + 1 < depth.size.y(); ++j)
+      for (int i = 1; i + 1 < depth.size.x(); ++i) {
+        const Eigen::Vector3d slope = Eigen::Vector3d(depth(i + 1, j, k) - depth(i - 1, j, k),
+                                                      depth(i, j + 1, k) - depth(i, j - 1, k),
+                                                      depth(i, j, k + 1) - depth(i, j, k - 1))
+                                          .cwiseQuotient(depth.spacing);
+        const Eigen::Array3d normal = slope.array().abs() / std::max<double>(slope.norm(), least);
+        if ((normal <= steepest || depth.spacing.array() <= thick_mm).all())
+          seen(i, j, k) = depth(i, j, k);
+      }
+  return seen;
+}
+
 bool is_fat_outshone(const Volume<float>& image, const Volume<std::uint8_t>& body,
                      const Volume<float>& depth, const BreastFrame& frame) {
   const BiasEstimate bias = estimate_bias(image, body, num_classes);

@@ -20,6 +20,10 @@ struct Contrast {
 Contrast find_contrast(const Volume<float>& image, const Volume<float>& depth,
                        const BreastFrame& frame);
 
+/// `depth` below skin that faces across voxels of at most `thick_mm`, 0 elsewhere: a thicker voxel
+/// holds skin with air or fat.
+Volume<float> depth_where_thin(const Volume<float>& depth, double thick_mm);
+
 /// Is what is not fat brighter than it? Asked where the skin does not tell, of the whole body after
 /// coarse bias correction: muscle, gland and heart are brighter than suppressed fat and darker than
 /// other fat. Compares the shares of the body in classes of 1.15 times the fat under the skin and

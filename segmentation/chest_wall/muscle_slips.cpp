@@ -18,6 +18,7 @@ constexpr double least_ml = 0.3;  // of the core
 constexpr double begins_mm = 6.5;  // from the wall: its blur and the core's distance, and 3 mm
 constexpr double ends_mm = 15;     // nine tenths of the core: no muscle stands further off
 constexpr double nearly_all = 0.9;
+constexpr double gap_mm = 3;                           // between pieces, as noise leaves them
 constexpr double as_bright = 1.25;                     // times muscle, or its inverse
 constexpr float muscle_from_mm = 2, muscle_to_mm = 8;  // behind the wall
 
@@ -85,7 +86,7 @@ Volume<std::uint8_t> muscle_before_wall(const HalfBreast& half, const PectoralWa
       are_slips(parts, half, image, muscle_brightness(half, image));
   for (std::size_t v = 0; v < slips.values.size(); ++v)
     slips.values[v] = is_slip[parts.ids.values[v]];
-  slips = dilated(slips, core_mm);
+  slips = closed(dilated(slips, core_mm), gap_mm);
   auto muscle = slips.like<std::uint8_t>(0);
   tbb::parallel_for(0, muscle.size.z(), [&](int k) {
     for (int j = 0; j < muscle.size.y(); ++j)

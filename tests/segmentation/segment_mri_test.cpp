@@ -2,6 +2,7 @@
 #include <cmath>
 #include <fstream>
 
+#include "segmentation/image/crop.h"
 #include "segmentation/segment.h"
 #include "segmentation/segmentation_file.h"
 #include "tests/segmentation/message.h"
@@ -76,6 +77,26 @@ TEST_P(SegmentMri, FindsThePartsOfThePhantom) {
 INSTANTIATE_TEST_SUITE_P(Contrasts, SegmentMri, testing::Bool(), [](const auto& info) {
   return info.param ? "FatSuppressed" : "NotFatSuppressed";
 });
+
+TEST(SegmentOfAnMri, TakesABreastImagedAlone) {
+  const EmptyFolder folder("alone");
+  const Phantom phantom;
+  const Volume<float> both = phantom.image();
+  const int first = both.size.x() / 2 - 6;
+  write_image(folder.path / "mri.nrrd",
+              cropped(both, {first, 0, 0}, both.size - Eigen::Vector3i::Ones()));
+  SegmentInput input = input_for(folder.path / "mri.nrrd", phantom);
+  const SegmentResult result = segment(input, {});
+  EXPECT_EQ(result.segmentation.region.side, Side::left);
+  EXPECT_LT((result.segmentation.nipple_in_lps - Eigen::Vector3d(75, -25, 0)).norm(), 4);
+  EXPECT_LT((result.segmentation.lesions.at(0).centroid_in_lps - phantom.lesion).norm(), 1);
+  EXPECT_GE(result.segmentation.labels.origin.x(), both.position(first, 0, 0).x());
+  EXPECT_FALSE(result.quality.volume_ratio) << "of a breast and its mirror image";
+
+  input.side = Side::right;
+  expect_mentions(message_of([&] { segment(input, {}); }),
+                  {"shows the left breast alone", "expected the right one"});
+}
 
 TEST(SegmentOfAnMri, RefusesALesionOutsideTheBreast) {
   const EmptyFolder folder("outside");

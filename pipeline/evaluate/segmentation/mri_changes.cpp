@@ -54,6 +54,42 @@ ChangedMri cut_mri(const Grey& image, double mm) {
                   {image.size.x() - 1, image.size.y() - 1, image.size.z() - 1 - slices})};
 }
 
+/// Slices of `mm` across an axis, each the mean of what it covers.
+ChangedMri thick_mri(const Grey& image, int axis, double mm) {
+  const double step = image.spacing[axis];
+  Eigen::Vector3i size = image.size;
+  size[axis] = static_cast<int>(image.size[axis] * step / mm);
+  Place spacing = image.spacing, origin = image.origin;
+  spacing[axis] = mm;
+  origin[axis] += (mm - step) / 2;
+  Grey out(size, spacing, origin, 0);
+  for (int k = 0; k < size.z(); ++k)
+    for (int j = 0; j < size.y(); ++j)
+      for (int i = 0; i < size.x(); ++i) {
+        Eigen::Vector3i v(i, j, k);
+        const double low = v[axis] * mm / step, high = (v[axis] + 1) * mm / step;
+        double sum = 0;
+        for (int n = static_cast<int>(low); n < std::min<double>(image.size[axis], high); ++n) {
+          v[axis] = n;
+          sum += image(v.x(), v.y(), v.z()) *
+                 (std::min<double>(high, n + 1) - std::max<double>(low, n));
+        }
+        out(i, j, k) = static_cast<float>(sum / (high - low));
+      }
+  return {std::move(out)};
+}
+
+ChangedMri alone_mri(const Grey& image, Side breast) {
+  constexpr double beyond_mm = 15;
+  const double middle = (image.size.x() - 1) / 2.0, beyond = beyond_mm / image.spacing.x();
+  Eigen::Vector3i low(0, 0, 0), high = image.size - Eigen::Vector3i::Ones();
+  if (breast == Side::left)
+    low.x() = std::max(0, static_cast<int>(middle - beyond));
+  else
+    high.x() = std::min(high.x(), static_cast<int>(middle + beyond));
+  return {cropped(image, low, high)};
+}
+
 /// `value(grey, share of the way along each axis, voxel)` for each voxel.
 template <class Value>
 ChangedMri revalued(Grey image, const Value& value) {
@@ -106,18 +142,22 @@ ChangedMri bent_mri(const Grey& image, double power) {
 std::vector<MriChange> mri_changes() {
   const Place s = Place::UnitZ(), l = Place::UnitX();
   return {
-      {"mirror", mirrored_mri},
-      {"turn_5", [s](const Grey& image) { return turned_mri(image, s, 5); }},
-      {"turn_-5", [s](const Grey& image) { return turned_mri(image, s, -5); }},
-      {"head_up_5", [l](const Grey& image) { return turned_mri(image, l, 5); }},
-      {"half_voxel", [](const Grey& image) { return on_other_grid(image, 1, 0.5); }},
-      {"voxel_0.8", [](const Grey& image) { return on_other_grid(image, 0.8, 0); }},
-      {"voxel_1.3", [](const Grey& image) { return on_other_grid(image, 1.3, 0); }},
-      {"cut_12", [](const Grey& image) { return cut_mri(image, 12); }},
-      {"noise_3", [](const Grey& image) { return noisy_mri(image, 0.03); }},
-      {"shaded_l", [](const Grey& image) { return shaded_mri(image, 0); }},
-      {"shaded_p", [](const Grey& image) { return shaded_mri(image, 1); }},
-      {"power_0.8", [](const Grey& image) { return bent_mri(image, 0.8); }},
+      {"mirror", [](const Grey& image, Side) { return mirrored_mri(image); }},
+      {"turn_5", [s](const Grey& image, Side) { return turned_mri(image, s, 5); }},
+      {"turn_-5", [s](const Grey& image, Side) { return turned_mri(image, s, -5); }},
+      {"head_up_5", [l](const Grey& image, Side) { return turned_mri(image, l, 5); }},
+      {"half_voxel", [](const Grey& image, Side) { return on_other_grid(image, 1, 0.5); }},
+      {"voxel_0.8", [](const Grey& image, Side) { return on_other_grid(image, 0.8, 0); }},
+      {"voxel_1.3", [](const Grey& image, Side) { return on_other_grid(image, 1.3, 0); }},
+      {"cut_12", [](const Grey& image, Side) { return cut_mri(image, 12); }},
+      {"noise_3", [](const Grey& image, Side) { return noisy_mri(image, 0.03); }},
+      {"shaded_l", [](const Grey& image, Side) { return shaded_mri(image, 0); }},
+      {"shaded_p", [](const Grey& image, Side) { return shaded_mri(image, 1); }},
+      {"power_0.8", [](const Grey& image, Side) { return bent_mri(image, 0.8); }},
+      {"slices_l", [](const Grey& image, Side) { return thick_mri(image, 0, 2.5); }},
+      {"slices_p", [](const Grey& image, Side) { return thick_mri(image, 1, 2.5); }},
+      {"slices_s", [](const Grey& image, Side) { return thick_mri(image, 2, 2.5); }},
+      {"alone", alone_mri},
   };
 }
 

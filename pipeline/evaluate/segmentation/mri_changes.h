@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "segmentation/image/volume.h"
+#include "segmentation/segmentation.h"
 
 namespace mammotwin {
 
@@ -20,13 +20,14 @@ struct ChangedMri {
 
 struct MriChange {
   std::string name;
-  std::function<ChangedMri(const Volume<float>&)> apply;
+  std::function<ChangedMri(const Volume<float>&, Side breast)> apply;
 };
 
 /// Mirrored; the body turned by 5 degrees either way about its long axis, and head up by 5 about
 /// the left-right one (what comes into the image is its border's tissue); half a voxel off; voxels
 /// of 0.8 and 1.3 times the edge; 12 mm fewer at head and feet; noise of 3 % of tissue; shading
-/// from 1.25 to 0.75 from side to side and from front to back; grey values to the power 0.8.
+/// from 1.25 to 0.75 from side to side and from front to back; grey values to the power 0.8; slices
+/// of 2.5 mm across each axis; the breast alone, to 15 mm beyond the image's middle.
 std::vector<MriChange> mri_changes();
 
 }  // namespace mammotwin

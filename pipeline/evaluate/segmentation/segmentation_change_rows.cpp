@@ -227,7 +227,7 @@ void add_segmentation_change_rows(const SegmentationChangeCase& asked,
     for (const MriChange& change : asked.changes) {
       json row = new_change_row(asked, change.name);
       try {
-        const ChangedMri changed = change.apply(image);
+        const ChangedMri changed = change.apply(image, breast.side);
         const Found after =
             segmented(changed_breast(breast, changed), changed.image, asked.folder / change.name);
         say_status(row, after);

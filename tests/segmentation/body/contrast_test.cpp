@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "tests/segmentation/message.h"
 
 namespace mammotwin {
@@ -34,6 +36,16 @@ TEST(Contrast, IsThatOfTheSkinOverTheFatUnderIt) {
   const Contrast b = find_contrast(other.image, other.depth, other.frame);
   EXPECT_NEAR(b.skin_over_fat, 0.6, 1e-5);
   EXPECT_FALSE(b.fat_suppressed);
+}
+
+TEST(Contrast, SkinAcrossThickVoxelsIsLeftOut) {
+  Layers layers(1.6F, 1);
+  const auto any = [](const Volume<float>& depth) {
+    return std::any_of(depth.values.begin(), depth.values.end(), [](float d) { return d > 0; });
+  };
+  EXPECT_TRUE(any(depth_where_thin(layers.depth, 1.8))) << "it faces along y, 0.5 mm";
+  layers.depth.spacing.y() = 2;
+  EXPECT_FALSE(any(depth_where_thin(layers.depth, 1.8)));
 }
 
 TEST(Contrast, FatIsOutshoneByMuscleOnlyWhereItIsSuppressed) {

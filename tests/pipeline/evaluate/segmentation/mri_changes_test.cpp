@@ -37,14 +37,14 @@ Eigen::Vector3d ball_in(const Grey& image, double tissue) {
 
 ChangedMri changed(const std::string& name, const Grey& image) {
   for (const MriChange& change : mri_changes())
-    if (change.name == name) return change.apply(image);
+    if (change.name == name) return change.apply(image, Side::left);
   throw std::logic_error(name);
 }
 
 TEST(MriChanges, WhatIsSeenLiesWhereTheChangePutsIt) {
   const Grey image = ball_in_tissue();
   for (const MriChange& change : mri_changes()) {
-    const ChangedMri after = change.apply(image);
+    const ChangedMri after = change.apply(image, Side::left);
     const Eigen::Vector3d expected = after.changed_from_first(kBall);
     EXPECT_NEAR((ball_in(after.image, 115) - expected).norm(), 0, 0.5) << change.name;
     EXPECT_EQ(after.mirrored, change.name == "mirror");
@@ -71,6 +71,25 @@ TEST(MriChanges, GridsCoverTheSameBody) {
     EXPECT_LT((extent(changed(name, image).image) - extent(image)).cwiseAbs().maxCoeff(), 3)
         << name;
   EXPECT_EQ(changed("cut_12", image).image.size.z(), image.size.z() - 12);
+}
+
+TEST(MriChanges, SlicesHoldTheMeanOfWhatTheyCover) {
+  const Grey image = ball_in_tissue(), thick = changed("slices_s", image).image;
+  EXPECT_EQ(thick.spacing, Eigen::Vector3d(1.5, 1.4, 2.5));
+  EXPECT_EQ(thick.size, Eigen::Vector3i(60, 50, 32));
+  EXPECT_NEAR(thick(20, 30, 0), (2 * image(20, 30, 0) + 0.5 * image(20, 30, 1)) / 2.5, 1e-3);
+}
+
+TEST(MriChanges, AloneLeavesTheBreastAndTheBreastbone) {
+  const Grey image = ball_in_tissue();
+  for (const MriChange& change : mri_changes()) {
+    if (change.name != "alone") continue;
+    const Grey left = change.apply(image, Side::left).image,
+               right = change.apply(image, Side::right).image;
+    EXPECT_EQ(left.size.x(), 41) << "of 60 columns of 1.5 mm all but 19";
+    EXPECT_NEAR(left.origin.x(), image.origin.x() + 19 * 1.5, 1e-9);
+    EXPECT_EQ(right.origin.x(), image.origin.x());
+  }
 }
 
 TEST(MriChanges, NoiseHasTheSizeThatIsSaid) {
