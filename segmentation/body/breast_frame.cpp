@@ -81,9 +81,11 @@ BreastFrame find_breast_frame(const Volume<std::uint8_t>& body) {
   const auto apices = find_apices(front, body.spacing.x());
   if (!apices)
     throw std::runtime_error(
-        "no breast found: the outline of the body has no two breasts with a valley between them; "
-        "expected a prone MRI of both breasts (is the patient supine, or the image a part of one "
-        "breast?)");
+        "no breast found: the outline of the body has neither two breasts with a valley between "
+        "them "
+        "nor one that stands out beside the breastbone; expected a prone MRI of one or both (is "
+        "the "
+        "patient supine, or the image a part of a breast?)");
   BreastFrame frame;
   frame.sternal_y = -*std::min_element(front.begin() + apices->right, front.begin() + apices->left);
   frame.right_apex = most_anterior(body, fronts, 0, static_cast<int>(apices->valley));

@@ -41,14 +41,28 @@ TEST(LoneBreast, ThatTheImageCutsIsSaid) {
   EXPECT_TRUE(cut->is_cut);
 }
 
-TEST(LoneBreast, IsNoneOfTwoAndNoneOfAFlatChest) {
-  EXPECT_FALSE(find_lone_breast(outline(-180, 180))) << "two breasts end in air on both sides";
+TEST(LoneBreast, IsNoneOnAFlatChest) {
   Volume<std::uint8_t> flat = outline(-10, 180);
   for (int k = 0; k < flat.size.z(); ++k)
     for (int j = 0; j < flat.size.y(); ++j)
       for (int i = 0; i < flat.size.x(); ++i)
         if (flat.position(i, j, k).y() < 0) flat(i, j, k) = 0;
   EXPECT_FALSE(find_lone_breast(flat));
+}
+
+TEST(LoneBreast, IsFoundWhereTheOtherIsGone) {
+  Volume<std::uint8_t> body = outline(-180, 180);
+  for (int k = 0; k < body.size.z(); ++k)
+    for (int j = 0; j < body.size.y(); ++j)
+      for (int i = 0; i < body.size.x(); ++i) {
+        const Eigen::Vector3d x = body.position(i, j, k);
+        if (x.x() < 0 && x.y() < 0) body(i, j, k) = 0;
+      }
+  const auto left = find_lone_breast(body);
+  ASSERT_TRUE(left);
+  EXPECT_EQ(left->side, Side::left);
+  EXPECT_NEAR(left->breastbone_x, 0, 1e-9);
+  EXPECT_FALSE(left->is_cut);
 }
 
 TEST(LoneBreast, MirrorImageStandsBesideIt) {
