@@ -178,21 +178,9 @@ void offer_candidates(const HalfBreast& half, const Volume<float>& enhancement,
   quality.candidates = find_candidates(enhancement, allowed);
 }
 
-/// What stands in front of the wall and is muscle is no part of the breast; lesions stay.
-void give_to_muscle(const Volume<std::uint8_t>& muscle, const Volume<std::uint8_t>& lesions,
-                    HalfBreast& half, SegmentQuality& quality) {
-  constexpr double worth_saying_ml = 1;
-  std::size_t given = 0;
-  for (std::size_t v = 0; v < muscle.values.size(); ++v) {
-    if (!muscle.values[v] || lesions.values[v]) continue;
-    half.inside.values[v] = 0;
-    ++given;
-  }
-  const double ml = static_cast<double>(given) * muscle.voxel_volume() / 1000;
-  if (ml >= worth_saying_ml)
-    quality.notes.push_back("the chest wall was moved forward round " +
-                            std::to_string(std::lround(ml)) +
-                            " ml in front of it that are as bright as muscle");
+void take_as_fat(const Volume<std::uint8_t>& where, TissueSplit& split) {
+  for (std::size_t v = 0; v < where.values.size(); ++v)
+    if (where.values[v]) split.gland_fraction.values[v] = 0;
 }
 
 SegmentResult segment_image(const Mri& mri, const SegmentInput& input,
@@ -222,10 +210,6 @@ SegmentResult segment_image(const Mri& mri, const SegmentInput& input,
                                    std::to_string(drawn.size()) +
                                    " points; between them it is not doubted");
   judge_movement(wall.pre_match, result.quality);
-  result.judge_in_region = [found = wall.found, frame = body.frame](const BreastRegion& region,
-                                                                    SegmentQuality& quality) {
-    judge_wall(found, frame, region, quality);
-  };
   judge_end_slices(body, side, result.quality);
   judge_noise(result.quality);
   if (!body.lone) judge_symmetry(body, wall.found.wall, result.quality);
@@ -234,7 +218,7 @@ SegmentResult segment_image(const Mri& mri, const SegmentInput& input,
   const VoxelBox box = side_box(body.image, body.frame, side);
   const HalfImages coarse = cut_images(body, before, wall, box);
   const SkinStage skin = find_skin(coarse.noisy, cropped(body.body, box), body.frame);
-  HalfBreast half = half_breast(skin.surface.body, wall.found.wall, side);
+  const HalfBreast half = half_breast(skin.surface.body, wall.found.wall, side);
   check_seeds(half, seeds);
   offer_candidates(half, coarse.enhancement, result.quality);
   const HalfImages images = correct_shading(coarse, half, body.frame);
@@ -246,16 +230,22 @@ SegmentResult segment_image(const Mri& mri, const SegmentInput& input,
   progress(0.88, "telling skin, fat and fibroglandular tissue apart");
   const double skin_mm = judge_skin(skin.slab, options, result.quality);
   const TissueMasks masks = tissue_masks(half, images.enhancement, lesions, skin_mm);
-  if (fat_suppressed)
-    judge_suppression(
-        widely_corrected(cropped(body.image, box), wall.wide_log_bias, pure_interior(half)),
-        masks.statistics, half.depth, body.frame.sternal_y, result.quality);
   const TissueImage tissue = tissue_image(images, wall.pre_match, body.noise_spread());
   const Volume<float> restored = restored_within(masks.interior, images.denoised, tissue);
-  const TissueSplit split =
-      split_tissue(restored, masks.interior, masks.statistics, fat_suppressed);
-  give_to_muscle(muscle_before_wall(half, wall.found.wall, split.gland_fraction, images.denoised),
-                 lesions, half, result.quality);
+  TissueSplit split = split_tissue(restored, masks.interior, masks.statistics, fat_suppressed);
+  result.judge_in_region = [found = wall.found, frame = body.frame,
+                            slips = find_muscle_slips(half, split.gland_fraction, images.denoised)](
+                               const BreastRegion& region, SegmentQuality& quality) {
+    judge_wall(found, frame, region, quality);
+    judge_muscle_slips(slips, region, quality);
+  };
+  if (fat_suppressed) {
+    const Volume<std::uint8_t> failed = failed_suppression(
+        widely_corrected(cropped(body.image, box), wall.wide_log_bias, pure_interior(half)),
+        masks.statistics, masks.interior, half.depth);
+    judge_suppression(failed, body.frame.sternal_y, result.quality);
+    take_as_fat(failed, split);
+  }
   result.segmentation = labelled(half, skin.surface.depth, skin_mm, lesions, split);
   result.image = corrected_like(split, restored, images.denoised);
   result.segmentation.lesions = named_lesions(result.segmentation.labels, seeds);

@@ -1,21 +1,30 @@
 #pragma once
 
-#include <cstdint>
+#include <vector>
 
 #include "segmentation/chest_wall/half_breast.h"
+#include "segmentation/segment_quality.h"
 
 namespace mammotwin {
 
-/// Muscle that stands in front of a wall found: the free edge of the pectoral muscle in the axilla,
-/// slips of serratus on the flank, the abdomen's straight muscle where the wall went behind it. One
-/// radius for each ray finds the deeper of two muscles with fat between them, and what stands in
-/// front passes for gland.
-///
-/// Of what passes for gland (`gland_fraction` over a half), cores thicker than vessels that lie
-/// wholly near the wall, begin at it and are as bright as what lies behind it; with what lies
-/// between them and the wall on its rays. `image`: bias corrected, fat at 1.
-Volume<std::uint8_t> muscle_before_wall(const HalfBreast& half, const PectoralWall& wall,
-                                        const Volume<float>& gland_fraction,
-                                        const Volume<float>& image);
+/// What passes for gland and may be muscle in front of the wall found: the free edge of the
+/// pectoral muscle in the axilla, a slip on the flank. One radius for each ray finds the deeper of
+/// two muscles with fat between them.
+struct MuscleSlip {
+  double ml = 0;
+  double forward_mm = 0;  ///< how far in front of the wall nine tenths of it end
+  Eigen::Vector3d middle_in_lps = Eigen::Vector3d::Zero();
+};
+
+/// Pieces of gland (`gland_fraction` over a half) with a core thicker than vessels that begins at
+/// the wall and is as bright as what lies behind it, which end within 15 mm of it. Gland that lies
+/// on the muscle can look so, too. `image`: bias corrected, fat at 1.
+std::vector<MuscleSlip> find_muscle_slips(const HalfBreast& half,
+                                          const Volume<float>& gland_fraction,
+                                          const Volume<float>& image);
+
+/// Doubts the wall behind those of 3 ml and more in the region.
+void judge_muscle_slips(const std::vector<MuscleSlip>& slips, const BreastRegion& region,
+                        SegmentQuality& quality);
 
 }  // namespace mammotwin

@@ -2,86 +2,79 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+
+#include "tests/segmentation/message.h"
 
 namespace mammotwin {
 namespace {
 
-constexpr double axis_y = 60, wall_radius = 60, skin_y = -40;
 constexpr float fat = 1, muscle = 1.6F;
 
-/// A block of fat in front of a round wall, muscle behind it; the patient's left half.
+/// A block of fat with muscle behind y = 0.
 struct Chest {
-  PectoralWall wall;
-  Volume<float> image{{80, 100, 40}, Eigen::Vector3d::Ones(), {0, skin_y, 0}, fat};
+  Volume<float> image{{80, 80, 40}, Eigen::Vector3d::Ones(), {0, -60, 0}, fat};
   Volume<float> gland = image.like<float>(0);
+  HalfBreast half{Side::left, image.like<std::uint8_t>(1), image.like<std::uint8_t>(0), {}, {}};
 
   Chest() {
-    constexpr double degree = 0.017453292519943295;
-    wall.axis_y = axis_y;
-    wall.angles = 61, wall.rows = 20;
-    wall.first_angle = -90 * degree, wall.angle_step = 3 * degree;
-    wall.z_step = 2;
-    wall.radius.assign(static_cast<std::size_t>(wall.angles) * wall.rows, wall_radius);
-    paint([&](const Eigen::Vector3d& x) { return wall.is_behind(x); }, muscle, 0);
-  }
-
-  template <class Holds>
-  void paint(const Holds& holds, float brightness, float fraction) {
+    half.above_wall = image.like<float>(0);
     for (int k = 0; k < image.size.z(); ++k)
       for (int j = 0; j < image.size.y(); ++j)
-        for (int i = 0; i < image.size.x(); ++i)
-          if (holds(image.position(i, j, k)))
-            image(i, j, k) = brightness, gland(i, j, k) = fraction;
+        for (int i = 0; i < image.size.x(); ++i) {
+          const double before_wall = -image.position(i, j, k).y();
+          half.inside(i, j, k) = before_wall > 0;
+          half.above_wall(i, j, k) = static_cast<float>(std::max(0.0, before_wall));
+          if (before_wall <= 0) image(i, j, k) = muscle;
+        }
   }
-  /// A cylinder along z, some way in front of the wall, straight before the axis plus `x_mm`.
-  void add_cylinder(double x_mm, double before_wall_mm, double radius_mm, float brightness) {
-    const double y = axis_y - wall_radius - before_wall_mm;
-    paint([&](const Eigen::Vector3d& x) { return std::hypot(x.x() - x_mm, x.y() - y) < radius_mm; },
-          brightness, 1);
+
+  /// A cylinder along z, as gland, its middle some way in front of the wall.
+  void add_cylinder(double before_wall_mm, double radius_mm, float brightness) {
+    for (int k = 0; k < image.size.z(); ++k)
+      for (int j = 0; j < image.size.y(); ++j)
+        for (int i = 0; i < image.size.x(); ++i) {
+          const Eigen::Vector3d x = image.position(i, j, k);
+          if (std::hypot(x.x() - 40, x.y() + before_wall_mm) >= radius_mm) continue;
+          image(i, j, k) = brightness, gland(i, j, k) = 1;
+        }
   }
-  Volume<std::uint8_t> found() const {
-    auto body = image.like<std::uint8_t>(1);
-    return muscle_before_wall(half_breast(body, wall, Side::left), wall, gland, image);
-  }
+  std::vector<MuscleSlip> found() const { return find_muscle_slips(half, gland, image); }
 };
 
-double ml(const Volume<std::uint8_t>& mask) {
-  double sum = 0;
-  for (const std::uint8_t value : mask.values) sum += value;
-  return sum / 1000;
-}
-
-TEST(MuscleSlips, AreTakenWithTheFatBehindThem) {
+TEST(MuscleSlips, AreWhatLiesOnTheWallAsBrightAsMuscle) {
   Chest chest;
-  chest.add_cylinder(6, 7, 4, muscle);
-  const Volume<std::uint8_t> found = chest.found();
-  const auto at = [&](double y) {
-    const Eigen::Vector3i v = found.index({6, y, 20}).array().round().cast<int>();
-    return static_cast<int>(found(v.x(), v.y(), v.z()));
-  };
-  const double wall_y = axis_y - wall_radius;
-  EXPECT_EQ(at(wall_y - 7), 1) << "the slip";
-  EXPECT_EQ(at(wall_y - 1), 1) << "fat between it and the wall";
-  EXPECT_EQ(at(wall_y - 13), 0) << "fat in front of it";
-  EXPECT_LT(ml(found), 6) << "an 8 mm wide, 11 mm deep and 40 mm high piece has 3 to 4 ml";
+  chest.add_cylinder(7, 5, muscle);
+  const std::vector<MuscleSlip> slips = chest.found();
+  ASSERT_EQ(slips.size(), 1U);
+  EXPECT_NEAR(slips[0].ml, 2.76, 1e-9) << "69 voxels in each of 40 slices";
+  EXPECT_NEAR(slips[0].forward_mm, 10, 1.1);
+  EXPECT_LT((slips[0].middle_in_lps - Eigen::Vector3d(40, -7, 19.5)).norm(), 0.5);
 }
 
 TEST(MuscleSlips, AreNotGland) {
-  Chest far, vessel, brighter;
-  far.add_cylinder(6, 30, 10, muscle);
-  EXPECT_EQ(ml(far.found()), 0) << "gland that stands off the wall";
-  vessel.add_cylinder(6, 5, 1.5, muscle);
-  EXPECT_EQ(ml(vessel.found()), 0) << "too thin";
-  brighter.add_cylinder(6, 7, 4, 1.5F * muscle);
-  EXPECT_EQ(ml(brighter.found()), 0) << "half as bright again as muscle";
+  Chest far, thin, brighter, deep;
+  far.add_cylinder(30, 10, muscle);
+  EXPECT_TRUE(far.found().empty()) << "stands off the wall";
+  thin.add_cylinder(5, 1.5, muscle);
+  EXPECT_TRUE(thin.found().empty()) << "a vessel";
+  brighter.add_cylinder(7, 5, 1.5F * muscle);
+  EXPECT_TRUE(brighter.found().empty()) << "half as bright again as muscle";
+  deep.add_cylinder(20, 19, muscle);
+  EXPECT_TRUE(deep.found().empty()) << "most of it stands off the wall";
 }
 
-TEST(MuscleSlips, LeaveGlandThatBeginsAtTheWall) {
-  Chest chest;
-  chest.paint([](const Eigen::Vector3d& x) { return x.x() > 2 && x.x() < 30 && x.y() < -3; },
-              muscle, 1);
-  EXPECT_EQ(ml(chest.found()), 0) << "most of it stands far off the wall";
+TEST(MuscleSlips, OfTheRegionAreDoubted) {
+  const BreastRegion region{Side::left, 0, 80, 0, 40};
+  SegmentQuality small, doubted, outside;
+  judge_muscle_slips({{2, 9, {40, -7, 20}}}, region, small);
+  judge_muscle_slips({{6, 9, {40, -7, 20}}}, region, doubted);
+  judge_muscle_slips({{6, 9, {90, -7, 20}}}, region, outside);
+  EXPECT_EQ(small.status, SegmentStatus::ok);
+  EXPECT_EQ(outside.status, SegmentStatus::ok);
+  EXPECT_EQ(doubted.status, SegmentStatus::look);
+  expect_mentions(doubted.reasons.at(0), {"6 ml", "9 mm further forward"});
 }
 
 }  // namespace
