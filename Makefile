@@ -60,7 +60,7 @@ help:
 	@echo 'make evaluate-segmentation  segments SYNTHETIC=20 synthetic patients, and MRI simulated from the'
 	@echo '                       label maps of CASES=folder: RESULTS/evaluation/segmentation.json; JOBS=2 at a time'
 	@echo 'make evaluate-segmentation-changes CASES=folder   segments the MRI of its patients (folders with patient.toml)'
-	@echo '                       again, mirrored, turned, resampled, noisier ...: RESULTS/evaluation/segmentation_changes.json'
+	@echo '                       again, mirrored, turned, in thick slices ...: RESULTS/evaluation/segmentation_changes.json'
 	@echo 'make evaluate-fitting  fits every breast of CASES=folder, and SYNTHETIC=20 drawn ones:'
 	@echo '                       RESULTS/evaluation/fitting.json; ONLY="Exam_02-left Exam_04"'
 	@echo 'make evaluate-other-meshes OTHERS=folder   presses breasts with our meshes and with those of another'

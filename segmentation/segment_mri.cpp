@@ -233,8 +233,9 @@ SegmentResult segment_image(const Mri& mri, const SegmentInput& input,
   const TissueImage tissue = tissue_image(images, wall.pre_match, body.noise_spread());
   const Volume<float> restored = restored_within(masks.interior, images.denoised, tissue);
   TissueSplit split = split_tissue(restored, masks.interior, masks.statistics, fat_suppressed);
-  result.judge_in_region = [found = wall.found, frame = body.frame,
-                            slips = find_muscle_slips(half, split.gland_fraction, images.denoised)](
+  std::vector<MuscleSlip> slips;  // a wall that a person drew is not in question
+  if (drawn.empty()) slips = find_muscle_slips(half, split.gland_fraction, images.denoised);
+  result.judge_in_region = [found = wall.found, frame = body.frame, slips](
                                const BreastRegion& region, SegmentQuality& quality) {
     judge_wall(found, frame, region, quality);
     judge_muscle_slips(slips, region, quality);
