@@ -18,7 +18,7 @@ constexpr double ends_mm = 15;     // no muscle stands further off
 constexpr double nearly_all = 0.9;
 constexpr double as_bright = 1.25;                     // times muscle, or its inverse
 constexpr float muscle_from_mm = 2, muscle_to_mm = 8;  // behind the wall
-constexpr double least_ml = 3;
+constexpr double least_ml = 3, most_ml = 12;           // more is a layer of gland
 
 /// Median brightness of what lies just behind the wall.
 double muscle_brightness(const HalfBreast& half, const Volume<float>& image) {
@@ -95,7 +95,7 @@ std::vector<MuscleSlip> find_muscle_slips(const HalfBreast& half,
 void judge_muscle_slips(const std::vector<MuscleSlip>& slips, const BreastRegion& region,
                         SegmentQuality& quality) {
   for (const MuscleSlip& slip : slips) {
-    if (slip.ml < least_ml || !region.contains(slip.middle_in_lps)) continue;
+    if (slip.ml < least_ml || slip.ml > most_ml || !region.contains(slip.middle_in_lps)) continue;
     quality.doubt(SegmentStatus::look,
                   {"chest wall",
                    std::to_string(std::lround(slip.ml)) +

@@ -23,7 +23,7 @@ std::vector<MuscleSlip> find_muscle_slips(const HalfBreast& half,
                                           const Volume<float>& gland_fraction,
                                           const Volume<float>& image);
 
-/// Doubts the wall behind those of 3 ml and more in the region.
+/// Doubts the wall behind those of 3 to 12 ml in the region; more is a layer of gland.
 void judge_muscle_slips(const std::vector<MuscleSlip>& slips, const BreastRegion& region,
                         SegmentQuality& quality);
 

@@ -67,11 +67,13 @@ TEST(MuscleSlips, AreNotGland) {
 
 TEST(MuscleSlips, OfTheRegionAreDoubted) {
   const BreastRegion region{Side::left, 0, 80, 0, 40};
-  SegmentQuality small, doubted, outside;
+  SegmentQuality small, large, doubted, outside;
   judge_muscle_slips({{2, 9, {40, -7, 20}}}, region, small);
+  judge_muscle_slips({{30, 9, {40, -7, 20}}}, region, large);
   judge_muscle_slips({{6, 9, {40, -7, 20}}}, region, doubted);
   judge_muscle_slips({{6, 9, {90, -7, 20}}}, region, outside);
   EXPECT_EQ(small.status, SegmentStatus::ok);
+  EXPECT_EQ(large.status, SegmentStatus::ok) << "a layer of gland";
   EXPECT_EQ(outside.status, SegmentStatus::ok);
   EXPECT_EQ(doubted.status, SegmentStatus::look);
   expect_mentions(doubted.reasons.at(0), {"6 ml", "9 mm further forward"});
