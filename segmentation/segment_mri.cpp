@@ -23,7 +23,7 @@
 #include "segmentation/shading/half_images.h"
 #include "segmentation/skin/judge_skin.h"
 #include "segmentation/skin/skin_stage.h"
-#include "segmentation/tissue/judge_suppression.h"
+#include "segmentation/tissue/failed_suppression.h"
 #include "segmentation/tissue/tissue_stage.h"
 
 namespace mammotwin {

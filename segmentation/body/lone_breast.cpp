@@ -12,7 +12,7 @@ namespace mammotwin {
 namespace {
 
 constexpr double least_standing_mm = 20, flank_deeper_mm = 10, least_half_mm = 30;
-constexpr double widest_half_mm = 240;  // of skin; halves of real chests 190 to 200, wholes 330
+constexpr double widest_half_mm = 240;  // of skin; of one patient 340, of half of her image 190
 constexpr double falls_within_mm = 6, falls_by_mm = 3;
 
 /// Deepest skin of some columns; minus infinity where the skin ends.

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "segmentation/image/components.h"
 #include "segmentation/image/distance.h"
@@ -102,7 +101,7 @@ void judge_muscle_slips(const std::vector<MuscleSlip>& slips, const BreastRegion
                        " ml that lie on the chest wall found are as bright as muscle: taken as "
                        "fibroglandular tissue; if they are muscle, the wall lies up to " +
                        std::to_string(std::lround(slip.forward_mm)) + " mm further forward there",
-                   slip.middle_in_lps, std::cbrt(750 * slip.ml / std::numbers::pi)});
+                   slip.middle_in_lps, ball_radius_mm(slip.ml)});
   }
 }
 

@@ -1,4 +1,4 @@
-#include "segmentation/tissue/judge_suppression.h"
+#include "segmentation/tissue/failed_suppression.h"
 
 #include "tests/segmentation/message.h"
 
