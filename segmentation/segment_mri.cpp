@@ -25,6 +25,7 @@
 #include "segmentation/skin/skin_stage.h"
 #include "segmentation/tissue/failed_suppression.h"
 #include "segmentation/tissue/tissue_stage.h"
+#include "segmentation/tissue/vessels.h"
 
 namespace mammotwin {
 namespace {
@@ -246,6 +247,8 @@ SegmentResult segment_image(const Mri& mri, const SegmentInput& input,
         masks.statistics, masks.interior, half.depth);
     judge_suppression(failed, body.frame.sternal_y, result.quality);
     take_as_fat(failed, split);
+    const Volume<std::uint8_t> vessels = find_vessels(split, masks.interior);
+    take_as_surroundings(vessels, masks.interior, split);
   }
   result.segmentation = labelled(half, skin.surface.depth, skin_mm, lesions, split);
   result.image = corrected_like(split, restored, images.denoised);

@@ -34,6 +34,7 @@ void visit_numbers(Options& o, const Visit& visit) {
         "intensity of lesion over gland, suppressed");
   visit("muscle_to_fat", s.muscle_to_fat, 0, 4, "-", "intensity of muscle over fat; 0: usual");
   visit("organs_to_fat", s.organs_to_fat, 0, 4, "-", "of heart and liver over fat; 0: usual");
+  visit("vessels_to_fat", s.vessels_to_fat, 0, 10, "-", "of vessels over fat; 0: none");
   visit("ghosts", s.ghosts, 0, 0.3, "-", "copies of the body beside it, over its intensity");
   auto& v = o.views;
   visit("compressed_fraction", v.compressed_fraction, 0.2, 0.8, "-",

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "pipeline/synthesize/counter_random.h"
+#include "pipeline/synthesize/drawn_vessels.h"
 #include "pipeline/synthesize/implicit.h"
 #include "pipeline/synthesize/lattice_noise.h"
 #include "segmentation/image/order_statistics.h"
@@ -166,6 +167,7 @@ double coil_radius_mm(ScanContrast contrast) {
 Scan scan(const TissueMap& tissue, const Coil& coil, const ScanOptions& o, std::uint64_t seed,
           const Vector3d& failed_patch) {
   Volume<float> signal = signal_of(tissue, o, seed, failed_patch);
+  if (o.vessels_to_fat > 0) draw_vessels(o.vessels_to_fat, seed, tissue, signal);
   if (o.blur_voxels > 0) {
     const auto weights = gaussian(o.blur_voxels);
     for (int axis = 0; axis < 3; ++axis) signal = blur_along(signal, weights, axis);

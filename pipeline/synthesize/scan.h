@@ -25,8 +25,8 @@ struct Scan {
 /// grey value, so that no digit is spent on noise and the file packs well.
 inline constexpr double fat_grey = 40;
 
-/// The image of a body: texture, mixing, blur, shading, Rician noise, rounding, in this order.
-/// `failed_patch`: middle of the patch where fat is not suppressed [mm].
+/// The image of a body: texture, mixing, vessels, blur, shading, Rician noise, rounding, in this
+/// order. `failed_patch`: middle of the patch where fat is not suppressed [mm].
 Scan scan(const TissueMap& tissue, const Coil& coil, const ScanOptions& options, std::uint64_t seed,
           const Eigen::Vector3d& failed_patch);
 

@@ -110,6 +110,9 @@ std::vector<SegmentationCase> varied_cases(const std::filesystem::path& folder) 
   Variation& other = add("Exam_21", left, "muscle_0.6");
   other.scan = map_scan(static_cast<int>(all.size()), ScanContrast::not_suppressed);
   other.scan.muscle_to_fat = 0.6;
+  add("Exam_15", right, "vessels").scan.vessels_to_fat = 4;
+  add("Exam_08", right, "vessels").scan.vessels_to_fat = 3;
+  add("Exam_14", left, "vessels").scan.vessels_to_fat = 2.5;
 
   std::vector<SegmentationCase> cases;
   for (const LabelMapBreast& breast : label_map_breasts(folder))

@@ -36,6 +36,35 @@ TEST(Scan, MuscleAndOrgansAreAsBrightAsAsked) {
   EXPECT_EQ(level(options, Substance::liver), 2.2);
 }
 
+TEST(Scan, VesselsRunThroughFatAndAreBright) {
+  TissueMap tissue{Volume<VoxelMixture>({60, 60, 60}, Eigen::Vector3d::Ones(), {0, 0, 0}), 1};
+  for (int k = 0; k < 60; ++k)
+    for (int j = 0; j < 60; ++j)
+      for (int i = 0; i < 60; ++i)
+        ++tissue.mixtures(i, j, k)[i < 45 ? Substance::fat : Substance::muscle];
+  const Coil coil({{0, 0, 0}}, 1e6, {0, 0, 0});
+  ScanOptions options;
+  options.noise = options.texture = options.blur_voxels = 0;
+  options.muscle_to_fat = 1.5;
+  options.vessels_to_fat = 4;
+  const Scan image = scan(tissue, coil, options, 1, {0, 0, 0});
+  int bright = 0, brightest = 0;
+  for (int k = 0; k < 60; ++k)
+    for (int j = 0; j < 60; ++j)
+      for (int i = 0; i < 60; ++i) {
+        const int value = image.image(i, j, k);
+        if (i >= 45)
+          EXPECT_EQ(value, 1.5 * fat_grey) << "muscle";
+        else
+          bright += value > 2 * fat_grey, brightest = std::max(brightest, value);
+      }
+  EXPECT_EQ(brightest, 4 * fat_grey);
+  // Two vessels for 162 ml of fat, of 3.14 x 0.9^2 x 40 mm^3 or more unless they end at muscle, and
+  // of 3.14 x 2.5^2 x 140 at most.
+  EXPECT_GT(bright, 50);
+  EXPECT_LT(bright, 2 * 3.14 * 2.5 * 2.5 * 140);
+}
+
 /// A block of fat in the left half of the image; nothing else that could be seen.
 TEST(Scan, GhostsLieBesideTheBody) {
   TissueMap tissue{Volume<VoxelMixture>({40, 10, 60}, Eigen::Vector3d::Constant(2), {0, 0, 0}), 1};
