@@ -247,9 +247,12 @@ SegmentResult segment_image(const Mri& mri, const SegmentInput& input,
         masks.statistics, masks.interior, half.depth);
     judge_suppression(failed, body.frame.sternal_y, result.quality);
     take_as_fat(failed, split);
-    const Volume<std::uint8_t> vessels = find_vessels(split, masks.interior);
-    take_as_surroundings(vessels, masks.interior, split);
   }
+  const bool has_uptake = !images.enhancement.values.empty() && !wall.pre_match->moved();
+  if (fat_suppressed || has_uptake)
+    take_as_surroundings(
+        find_vessels(split, masks.interior, has_uptake ? images.enhancement : Volume<float>()),
+        masks.interior, split);
   result.segmentation = labelled(half, skin.surface.depth, skin_mm, lesions, split);
   result.image = corrected_like(split, restored, images.denoised);
   result.segmentation.lesions = named_lesions(result.segmentation.labels, seeds);

@@ -45,7 +45,7 @@ struct ScanOptions {
   double lesion_to_gland = 1.78;
   double muscle_to_fat = 0;   ///< 0: what is usual for the contrast
   double organs_to_fat = 0;   ///< heart and liver; 0: what is usual for the contrast
-  double vessels_to_fat = 0;  ///< blood in vessels of the breast; 0: no vessels
+  double vessels_to_fat = 0;  ///< blood with agent in the breast; 0: no vessels
   double ghosts = 0;          ///< of movement: copies of the body beside it, over its intensity
   bool failed_suppression = false;
   bool contrast_agent = false;  ///< not suppressed: the image after it, of the same body

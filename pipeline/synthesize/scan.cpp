@@ -26,6 +26,8 @@ void for_voxels(const Vector3i& size, const Body& body) {
   });
 }
 
+constexpr double blood_before_agent = 0.4;  // of fat, not suppressed: as the heart
+
 /// Relative variation of intensity inside materials, 0 in the mean.
 class Texture {
  public:
@@ -167,7 +169,9 @@ double coil_radius_mm(ScanContrast contrast) {
 Scan scan(const TissueMap& tissue, const Coil& coil, const ScanOptions& o, std::uint64_t seed,
           const Vector3d& failed_patch) {
   Volume<float> signal = signal_of(tissue, o, seed, failed_patch);
-  if (o.vessels_to_fat > 0) draw_vessels(o.vessels_to_fat, seed, tissue, signal);
+  const bool with_agent = o.contrast == ScanContrast::fat_suppressed || o.contrast_agent;
+  if (o.vessels_to_fat > 0)
+    draw_vessels(with_agent ? o.vessels_to_fat : blood_before_agent, seed, tissue, signal);
   if (o.blur_voxels > 0) {
     const auto weights = gaussian(o.blur_voxels);
     for (int axis = 0; axis < 3; ++axis) signal = blur_along(signal, weights, axis);

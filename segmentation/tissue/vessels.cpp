@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "segmentation/image/components.h"
@@ -17,14 +18,22 @@ namespace {
 using Mask = Volume<std::uint8_t>;
 
 constexpr double scales_mm[] = {1, 2};
-constexpr double stands_out = 0.2;   // of bright gland's contrast to fat
+constexpr double stands_out = 0.2;   // of bright gland's contrast to fat, or of `takes_up`
 constexpr double brighter = 1.25;    // than pure gland, where it runs through fat ...
 constexpr double more_in_gland = 5;  // ... and of bright gland for each share of gland around
+constexpr double takes_up = 1;       // enhancement: gland takes up less
 constexpr double around_block_mm = 3, around_mm = 10;
 constexpr float brightest = 6;   // of fat: a very bright lesion has no halo
 constexpr double wall_mm = 1.5;  // from a tube's core to where it ends
 constexpr double least_length_mm = 15;
 constexpr double surroundings_mm = 3;
+
+/// An image in which vessels stand out, and where it is as bright as they are.
+struct VesselImage {
+  Volume<float> image;
+  Mask bright;
+  double least_response;
+};
 
 /// How much brighter than fat bright gland is: the upper quartile of what is mostly gland.
 double bright_contrast(const Volume<float>& image, const Volume<float>& fraction,
@@ -38,30 +47,41 @@ double bright_contrast(const Volume<float>& image, const Volume<float>& fraction
   return values.empty() ? 0 : quantile(values, upper_quartile) - 1;
 }
 
-/// Bright voxels on a tube of any scale.
-Mask tube_cores(Volume<float> image, const Volume<float>& fraction, const Mask& interior,
-                double gland) {
+VesselImage by_brightness(Volume<float> image, const Volume<float>& fraction, const Mask& interior,
+                          double gland) {
   auto bright = interior;
-  const double contrast = bright_contrast(image, fraction, interior);
-  if (contrast <= 0) return interior.like<std::uint8_t>(0);
+  const double bright_gland = bright_contrast(image, fraction, interior);
   const Volume<float> around = smooth_field(fraction, interior, around_block_mm, around_mm);
-  for (float& value : image.values) value = std::clamp(value, 0.0F, brightest);
   for (int k = 0; k < image.size.z(); ++k)
     for (int j = 0; j < image.size.y(); ++j)
       for (int i = 0; i < image.size.x(); ++i) {
+        image(i, j, k) = std::clamp(image(i, j, k), 0.0F, brightest);
         if (!bright(i, j, k)) continue;
         const double gland_around = interpolated(around, image.position(i, j, k));
-        const double in_fat = brighter * (gland - 1), in_gland = more_in_gland * contrast;
+        const double in_fat = brighter * (gland - 1), in_gland = more_in_gland * bright_gland;
         bright(i, j, k) = image(i, j, k) > 1 + in_fat + in_gland * gland_around;
       }
-  auto cores = bright.like<std::uint8_t>(0);
-  const Eigen::Vector3i& n = image.size;
-  const Eigen::Vector3d& h = image.spacing;
+  return {std::move(image), std::move(bright), stands_out * bright_gland};
+}
+
+VesselImage by_uptake(Volume<float> enhancement, const Mask& interior) {
+  auto bright = interior;
+  for (std::size_t v = 0; v < bright.values.size(); ++v)
+    bright.values[v] &= enhancement.values[v] > takes_up;
+  return {std::move(enhancement), std::move(bright), stands_out * takes_up};
+}
+
+/// Bright voxels on a tube of any scale.
+Mask tube_cores(const VesselImage& vessels) {
+  auto cores = vessels.bright.like<std::uint8_t>(0);
+  const Eigen::Vector3i& n = cores.size;
+  const Eigen::Vector3d& h = cores.spacing;
   for (const double sigma_mm : scales_mm) {
-    const std::vector<float> response = tube_response({n.x(), n.y(), n.z()}, {h.x(), h.y(), h.z()},
-                                                      image.values, bright.values, sigma_mm);
+    const std::vector<float> response =
+        tube_response({n.x(), n.y(), n.z()}, {h.x(), h.y(), h.z()}, vessels.image.values,
+                      vessels.bright.values, sigma_mm);
     for (std::size_t v = 0; v < response.size(); ++v)
-      cores.values[v] |= response[v] > stands_out * contrast;
+      cores.values[v] |= response[v] > vessels.least_response;
   }
   return cores;
 }
@@ -86,14 +106,18 @@ Mask long_parts(const Mask& mask, double least_mm) {
 
 }  // namespace
 
-Mask find_vessels(const TissueSplit& split, const Mask& interior) {
+Mask find_vessels(const TissueSplit& split, const Mask& interior,
+                  const Volume<float>& enhancement) {
   auto vessels = interior.like<std::uint8_t>(0);
   const int margin = 8;  // voxels: beyond the reach of the widest scale
   const VoxelBox box = box_around(interior, margin);
   if (box.is_empty()) return vessels;
   const Mask within = cropped(interior, box);
-  const Mask cores = tube_cores(cropped(split.corrected, box), cropped(split.gland_fraction, box),
-                                within, split.gland);
+  const Mask cores =
+      tube_cores(enhancement.values.empty()
+                     ? by_brightness(cropped(split.corrected, box),
+                                     cropped(split.gland_fraction, box), within, split.gland)
+                     : by_uptake(cropped(enhancement, box), within));
   if (std::none_of(cores.values.begin(), cores.values.end(), [](auto v) { return v != 0; }))
     return vessels;
   const Volume<float> to_core = distance_to(cores);

@@ -107,12 +107,18 @@ std::vector<SegmentationCase> varied_cases(const std::filesystem::path& folder) 
   add("Exam_04", right, "plates").plates = 0.85;
   add("Exam_18", right, "voxel_0.75").scan.voxel_mm = 0.75;
   add("Exam_07", left, "voxel_1.3").scan.voxel_mm = 1.3;
-  Variation& other = add("Exam_21", left, "muscle_0.6");
-  other.scan = map_scan(static_cast<int>(all.size()), ScanContrast::not_suppressed);
-  other.scan.muscle_to_fat = 0.6;
+  const auto add_not_suppressed = [&](const char* exam, Side side, const char* name) -> auto& {
+    Variation& v = add(exam, side, name);
+    v.scan = map_scan(static_cast<int>(all.size()), ScanContrast::not_suppressed);
+    return v;
+  };
+  add_not_suppressed("Exam_21", left, "muscle_0.6").scan.muscle_to_fat = 0.6;
   add("Exam_15", right, "vessels").scan.vessels_to_fat = 4;
   add("Exam_08", right, "vessels").scan.vessels_to_fat = 3;
   add("Exam_14", left, "vessels").scan.vessels_to_fat = 2.5;
+  Variation& two_images = add_not_suppressed("Exam_08", left, "vessels-pre_post");
+  two_images.scan.vessels_to_fat = 1.6;
+  two_images.scan.contrast_agent = true;
 
   std::vector<SegmentationCase> cases;
   for (const LabelMapBreast& breast : label_map_breasts(folder))
@@ -123,11 +129,17 @@ std::vector<SegmentationCase> varied_cases(const std::filesystem::path& folder) 
       SegmentationCase c = case_of(breast, static_cast<int>(n), v.scan.contrast);
       c.name += std::string("-") + v.name;
       c.varied = true;
-      c.make = [breast, v, seed] {
+      const auto image = [breast, plates = v.plates, seed](const ScanOptions& scan) {
         MapBody body = body_of_map(read_labels(breast.file), label_map_values(), seed);
-        if (v.plates > 0) press_between_plates(body, v.plates);
-        return make_map_patient(body, breast.side, v.scan, seed);
+        if (plates > 0) press_between_plates(body, plates);
+        return make_map_patient(body, breast.side, scan, seed);
       };
+      c.make = [image, scan = v.scan] { return image(scan); };
+      if (v.scan.contrast_agent)
+        c.make_pre = [image, scan = v.scan]() mutable {
+          scan.contrast_agent = false;
+          return image(scan);
+        };
       cases.push_back(std::move(c));
     }
   return cases;

@@ -91,9 +91,9 @@ constexpr const char* varied = ", varied";
 
 json empty_row(const SegmentationCase& c) {
   json row = {{"name", c.name},
-              {"contrast", name_of(c.contrast) + (c.make_pre ? pre_post
-                                                  : c.varied ? varied
-                                                             : "")},
+              {"contrast", name_of(c.contrast) + (c.varied     ? varied
+                                                  : c.make_pre ? pre_post
+                                                               : "")},
               {"reason", nullptr}};
   for (const char* key :
        {"breast_dice", "fibroglandular_dice", "clear_fibroglandular_dice",

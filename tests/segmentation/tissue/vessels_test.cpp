@@ -30,12 +30,12 @@ struct TubeInBreast {
     split.corrected = image;
   }
 
-  double found_ml() const {
-    const Volume<std::uint8_t> vessels = find_vessels(split, interior);
+  double found_ml(const Volume<float>& enhancement = {}) const {
+    const Volume<std::uint8_t> vessels = find_vessels(split, interior, enhancement);
     return std::count(vessels.values.begin(), vessels.values.end(), 1) * 1e-3;
   }
   float gland_after(int i, int j, int k) {
-    take_as_surroundings(find_vessels(split, interior), interior, split);
+    take_as_surroundings(find_vessels(split, interior, {}), interior, split);
     return split.gland_fraction(i, j, k);
   }
 };
@@ -52,6 +52,16 @@ TEST(Vessels, AreLongBrightTubesInFat) {
 TEST(Vessels, AreNeitherShortNorAsBrightAsGland) {
   EXPECT_EQ(TubeInBreast(4, 18).found_ml(), 0) << "a node, or a duct full of fluid";
   EXPECT_EQ(TubeInBreast(1.8F, 50).found_ml(), 0) << "a strand of gland";
+}
+
+TEST(Vessels, AreWhatTakesUpAgentWhereThatIsKnown) {
+  const TubeInBreast strand(4, 50), vessel(1.8F, 50);
+  auto uptake = vessel.split.corrected.like<float>(0.2F);
+  EXPECT_EQ(strand.found_ml(uptake), 0);
+  for (int i = 10; i <= 50; ++i)
+    for (int j = 28; j <= 32; ++j)
+      for (int k = 18; k <= 22; ++k) uptake(i, j, k) = 2;
+  EXPECT_GT(vessel.found_ml(uptake), 41 * 5 * 5 * 1e-3 * 0.9);
 }
 
 TEST(Vessels, InGlandStayGland) {
