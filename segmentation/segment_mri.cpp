@@ -184,6 +184,20 @@ void take_as_fat(const Volume<std::uint8_t>& where, TissueSplit& split) {
     if (where.values[v]) split.gland_fraction.values[v] = 0;
 }
 
+/// The vessels, where image or enhancement tell them from gland.
+std::optional<Volume<std::uint8_t>> take_out_vessels(bool fat_suppressed,
+                                                     const Volume<float>& enhancement,
+                                                     const std::optional<PreMatch>& match,
+                                                     const Volume<std::uint8_t>& interior,
+                                                     TissueSplit& split) {
+  const bool uptake_known = !enhancement.values.empty() && !(match && match->moved());
+  if (!fat_suppressed && !uptake_known) return std::nullopt;
+  Volume<std::uint8_t> vessels =
+      find_vessels(split, interior, uptake_known ? enhancement : Volume<float>());
+  take_as_surroundings(vessels, interior, split);
+  return vessels;
+}
+
 SegmentResult segment_image(const Mri& mri, const SegmentInput& input,
                             const SegmentOptions& options, const SegmentProgress& progress) {
   std::vector<PlacedSeed> seeds;
@@ -236,11 +250,6 @@ SegmentResult segment_image(const Mri& mri, const SegmentInput& input,
   TissueSplit split = split_tissue(restored, masks.interior, masks.statistics, fat_suppressed);
   std::vector<MuscleSlip> slips;  // a wall that a person drew is not in question
   if (drawn.empty()) slips = find_muscle_slips(half, split.gland_fraction, images.denoised);
-  result.judge_in_region = [found = wall.found, frame = body.frame, slips](
-                               const BreastRegion& region, SegmentQuality& quality) {
-    judge_wall(found, frame, region, quality);
-    judge_muscle_slips(slips, region, quality);
-  };
   if (fat_suppressed) {
     const Volume<std::uint8_t> failed = failed_suppression(
         widely_corrected(cropped(body.image, box), wall.wide_log_bias, pure_interior(half)),
@@ -248,11 +257,14 @@ SegmentResult segment_image(const Mri& mri, const SegmentInput& input,
     judge_suppression(failed, body.frame.sternal_y, result.quality);
     take_as_fat(failed, split);
   }
-  const bool has_uptake = !images.enhancement.values.empty() && !wall.pre_match->moved();
-  if (fat_suppressed || has_uptake)
-    take_as_surroundings(
-        find_vessels(split, masks.interior, has_uptake ? images.enhancement : Volume<float>()),
-        masks.interior, split);
+  const std::optional<Volume<std::uint8_t>> vessels =
+      take_out_vessels(fat_suppressed, images.enhancement, wall.pre_match, masks.interior, split);
+  result.judge_in_region = [found = wall.found, frame = body.frame, slips, vessels](
+                               const BreastRegion& region, SegmentQuality& quality) {
+    judge_wall(found, frame, region, quality);
+    judge_muscle_slips(slips, region, quality);
+    if (vessels) quality.vessels_ml = volume_in(region, *vessels);
+  };
   result.segmentation = labelled(half, skin.surface.depth, skin_mm, lesions, split);
   result.image = corrected_like(split, restored, images.denoised);
   result.segmentation.lesions = named_lesions(result.segmentation.labels, seeds);

@@ -99,6 +99,7 @@ json to_json(const SegmentQuality& q) {
       {"chest_wall_disputed", optional_number(q.chest_wall_disputed)},
       {"chest_wall_unsteady", optional_number(q.chest_wall_unsteady)},
       {"failed_suppression_ml", optional_number(q.failed_suppression_ml)},
+      {"vessels_ml", optional_number(q.vessels_ml)},
       {"pre_shift_mm", optional_number(q.pre_shift_mm)},
       {"signal_to_noise", optional_number(q.signal_to_noise)},
       {"clipped_share", optional_number(q.clipped_share)},

@@ -38,6 +38,7 @@ struct SegmentQuality {
   std::optional<double> chest_wall_disputed;    ///< share where it may as well lie elsewhere
   std::optional<double> chest_wall_unsteady;    ///< share that moves when looked for otherwise
   std::optional<double> failed_suppression_ml;  ///< breast brighter than twice fat
+  std::optional<double> vessels_ml;             ///< in the region; empty where none can be told
   std::optional<double> pre_shift_mm;           ///< PreMatch, of an image before contrast agent
   std::optional<double> signal_to_noise;        ///< fat over the noise between neighbours
   std::optional<double> clipped_share;          ///< of the skin's outline at the image's border

@@ -141,4 +141,13 @@ void take_as_surroundings(const Mask& vessels, const Mask& interior, TissueSplit
     if (vessels.values[v]) split.gland_fraction.values[v] = around.values[v];
 }
 
+double volume_in(const BreastRegion& region, const Mask& mask) {
+  double voxels = 0;
+  for (int k = 0; k < mask.size.z(); ++k)
+    for (int j = 0; j < mask.size.y(); ++j)
+      for (int i = 0; i < mask.size.x(); ++i)
+        voxels += mask(i, j, k) && region.contains(mask.position(i, j, k));
+  return voxels * mask.voxel_volume() / 1000;
+}
+
 }  // namespace mammotwin

@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "segmentation/image/volume.h"
+#include "segmentation/segmentation.h"
 #include "segmentation/tissue/fibroglandular.h"
 
 namespace mammotwin {
@@ -20,5 +21,8 @@ Volume<std::uint8_t> find_vessels(const TissueSplit& split, const Volume<std::ui
 /// they run through fat, gland where they run through gland.
 void take_as_surroundings(const Volume<std::uint8_t>& vessels, const Volume<std::uint8_t>& interior,
                           TissueSplit& split);
+
+/// Volume of a mask in the region [ml].
+double volume_in(const BreastRegion& region, const Volume<std::uint8_t>& mask);
 
 }  // namespace mammotwin

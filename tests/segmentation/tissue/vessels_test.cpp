@@ -64,6 +64,14 @@ TEST(Vessels, AreWhatTakesUpAgentWhereThatIsKnown) {
   EXPECT_GT(vessel.found_ml(uptake), 41 * 5 * 5 * 1e-3 * 0.9);
 }
 
+TEST(Vessels, CountInTheRegionOnly) {
+  const Volume<std::uint8_t> all({10, 10, 10}, Eigen::Vector3d::Constant(2), {0, 0, 0}, 1);
+  BreastRegion region;
+  region.x_min = -1, region.x_max = 9;   // five of ten columns
+  region.z_min = -1, region.z_max = 19;  // all slices
+  EXPECT_DOUBLE_EQ(volume_in(region, all), 4);
+}
+
 TEST(Vessels, InGlandStayGland) {
   TubeInBreast breast(7, 50, 52);
   EXPECT_GT(breast.gland_after(35, 30, 52), 0.9F);
