@@ -72,6 +72,7 @@ void hang_in_other_poses(const BreastProblem& unloaded, const StageRun& stage,
     done += 0.2;
     BreastProblem problem = unloaded;
     problem.gravity = gravity_in_lps(pose);
+    problem.skin_forces.clear();
     PoseState state{hang(problem, to_another_pose())};
     state.wall_slide_mm =
         wall_slide(problem.mesh, problem.mesh.mesh.nodes(), state.result.deformed);
@@ -97,15 +98,20 @@ Outcome run(const Arguments& args, const Patient& patient, StageRun& stage) {
   const MeshFile prone = read_mesh_file(args.mesh);
   const TissueSampler tissue = tissue_of(prone, segmentation.fractions);
   const Pose imaged = patient.imaged_pose(patient_position(args.segmentation));
+  UnloadingRecord record;
+  record.imaged = imaged;
+  if (imaged != Pose::none) record.coil = find_coil_plates(prone);
+  record.coil_pressure_kpa = record.coil ? patient.gravity.coil_pressure_kpa : 0;
+  DeadForces coil_forces;
+  if (record.coil_pressure_kpa > 0)
+    coil_forces = forces_of_pressure(prone, pressure_of(*record.coil, record.coil_pressure_kpa));
   const auto problem_with = [&](double factor) {
     BreastProblem problem = breast_problem(prone, tissue, patient.compression, factor);
     problem.gravity = gravity_in_lps(imaged);
     problem.density = patient.gravity.density();
+    problem.skin_forces = coil_forces;
     return problem;
   };
-  UnloadingRecord record;
-  record.imaged = imaged;
-  if (imaged != Pose::none) record.coil = find_coil_plates(prone);
   record.stiffness_factor =
       find_stiffness(patient, stage, problem_with(patient.compression.stiffness_factor), record);
   if (record.stiffness_fit && !record.stiffness_fit->usable()) return judge_unloading(record);

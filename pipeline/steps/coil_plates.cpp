@@ -88,8 +88,25 @@ std::optional<CoilPlates> find_coil_plates(const MeshFile& imaged) {
       -left.outward.dot(right.outward) < cosine(kParallel_deg))
     return std::nullopt;
   const Eigen::Vector3d across = (left.outward - right.outward).normalized();
-  return CoilPlates{left.area_cm2, right.area_cm2,
+  return CoilPlates{{left.middle_in_lps, left.outward},
+                    {right.middle_in_lps, right.outward},
+                    left.area_cm2,
+                    right.area_cm2,
                     across.dot(left.middle_in_lps - right.middle_in_lps)};
+}
+
+SkinPressure pressure_of(const CoilPlates& plates, double pressure_kpa) {
+  return [plates, pressure_kpa](const Eigen::Vector3d& x, const Eigen::Vector3d& outward) {
+    double share = 0;
+    for (const CoilPlates::Plate& plate : {plates.left, plates.right}) {
+      const double off_mm = std::abs(plate.outward.dot(x - plate.point_in_lps));
+      const double turn_deg =
+          std::acos(std::clamp(plate.outward.dot(outward), -1.0, 1.0)) * 180 / std::numbers::pi;
+      const double off = std::max(off_mm / kOffPlane_mm, turn_deg / kPlaneTurn_deg);
+      share = std::max(share, std::clamp(2 - off, 0.0, 1.0));
+    }
+    return pressure_kpa * share;
+  };
 }
 
 }  // namespace mammotwin

@@ -3,12 +3,17 @@
 #include <optional>
 
 #include "fitting/mesh/mesh_file.h"
+#include "solver/element/dead_forces.h"
 
 namespace mammotwin {
 
 /// What immobilising plates of a breast coil leave on a breast that does not hang free: skin that
 /// is plane on both sides.
 struct CoilPlates {
+  struct Plate {
+    Eigen::Vector3d point_in_lps, outward;  ///< of its plane [mm]; away from the breast, unit
+  };
+  Plate left, right;
   double left_cm2 = 0, right_cm2 = 0;  ///< of plane skin on the patient's left and right (LPS)
   double apart_mm = 0;
 };
@@ -17,5 +22,9 @@ struct CoilPlates {
 /// plane and 6 degrees of its normal, which runs within 45 degrees of left or right. Empty unless
 /// both are larger, and more parallel, than those of breasts that hang free.
 std::optional<CoilPlates> find_coil_plates(const MeshFile& imaged);
+
+/// The plates' pressure on that skin: `pressure` [kPa] within 1 mm of a plate and 6 degrees of its
+/// normal, nothing from twice as far on.
+SkinPressure pressure_of(const CoilPlates& plates, double pressure_kpa);
 
 }  // namespace mammotwin

@@ -46,6 +46,7 @@ json quality_of(const UnloadingRecord& record) {
                   {"min_J", r.min_J},
                   {"max_J", r.max_J},
                   {"coil_plates", record.coil ? coil_json(*record.coil) : json()},
+                  {"coil_pressure_kpa", record.coil_pressure_kpa},
                   {"steps", r.steps},
                   {"newton_iterations", r.newton_iterations},
                   {"dof", r.dof}};
@@ -116,9 +117,13 @@ Outcome judge_unloading(const UnloadingRecord& record) {
   if (record.coil)
     doubt(true,
           sentence("plates of the coil seem to press the breast flat from both sides, %.0f mm "
-                   "apart (%.0f and %.0f cm2 of its skin are plane and parallel); only "
-                   "gravity is taken off, so it stays as narrow as they made it",
-                   record.coil->apart_mm, record.coil->left_cm2, record.coil->right_cm2));
+                   "apart (%.0f and %.0f cm2 of its skin are plane and parallel); ",
+                   record.coil->apart_mm, record.coil->left_cm2, record.coil->right_cm2) +
+              (record.coil_pressure_kpa > 0
+                   ? sentence("%.2f kPa of them are taken off, a pressure that nobody measured",
+                              record.coil_pressure_kpa)
+                   : "only gravity is taken off, so it stays as narrow as they made it "
+                     "(unload.coil_pressure_kpa takes them off)"));
   for (const auto& [name, pose] : record.poses) {
     const HangReport& r = pose.result.report;
     doubt(!r.usable(), "the breast does not come to rest " + name + ": " + r.reason +

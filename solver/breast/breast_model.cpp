@@ -39,6 +39,10 @@ void check_problem(const BreastProblem& p) {
       "cut-face depth is " + std::to_string(b.cut_face_depth) + " mm; expected a positive length");
   check(std::isfinite(p.density) && p.density > 0 && p.gravity.allFinite(),
         "density must be positive and gravity finite");
+  check(
+      p.skin_forces.empty() || static_cast<int>(p.skin_forces.size()) == p.mesh.mesh.num_elements(),
+      "there are skin forces for " + std::to_string(p.skin_forces.size()) + " of the mesh's " +
+          std::to_string(p.mesh.mesh.num_elements()) + " elements; expected all");
 }
 
 HermiteMesh prone_mesh(const BreastProblem& problem) {
@@ -173,6 +177,7 @@ BreastModel make_breast_model(const BreastProblem& problem, const SolidOptions& 
   if (!problem.gravity.isZero())
     breast.model->set_body_force([weight = (problem.density * problem.gravity).eval()](
                                      const Eigen::Vector3d&) { return weight; });
+  breast.model->set_dead_forces(problem.skin_forces);
   for (int e = 0; e < mesh.num_elements(); ++e)
     for (int q = 0; q < kPoints; ++q)
       breast.largest_modulus =

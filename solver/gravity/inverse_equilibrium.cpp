@@ -106,6 +106,7 @@ InverseEquilibrium::Evaluation InverseEquilibrium::evaluate(
   now.breast = forward_model(reference);
   const Model& model = *now.breast.model;
   now.breast.model->set_body_force([&](const Eigen::Vector3d&) { return body_force; });
+  now.breast.model->set_dead_share(skin_share_);
   const State state{problem_.prone, reference.pressure};
   const int count = model.num_elements();
   std::vector<ElementSystem> systems(count);

@@ -26,6 +26,9 @@ class InverseEquilibrium {
   /// The deformed shape as its own reference, without pressure: the solution without a load.
   State start() const;
 
+  /// Of problem.skin_forces, how much acts beside the body force; 1 at first.
+  void set_skin_share(double share) { skin_share_ = share; }
+
   int num_equations() const { return pattern_.num_columns(); }
 
   /// Brings `reference` (its x is X) to equilibrium under a constant body force [mN/mm³]. On
@@ -75,6 +78,7 @@ class InverseEquilibrium {
 
   BreastProblem problem_;  ///< its tissue is remembered: every reference has the same
   SolidOptions solid_;
+  double skin_share_ = 1;
   BreastModel prone_;
   SparsePattern pattern_;
   std::unique_ptr<GeneralMatrix> matrix_;

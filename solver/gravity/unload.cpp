@@ -86,6 +86,7 @@ Unloading::TakenOff Unloading::take_off(double share) {
   result.load = step_load(
       result.reference, options_.load,
       [&](double fraction, State& trial) {
+        inverse_.set_skin_share(fraction * share);
         return inverse_.solve(trial, fraction * weight, options_.tolerance,
                               options_.max_iterations);
       },
@@ -109,7 +110,7 @@ HangOptions Unloading::reload_options() const {
 Unloading::Reload Unloading::reload(const Nodes& unloaded, double share,
                                     const HangOptions& options) const {
   BreastProblem hanging = from_unloaded(problem_, unloaded);
-  hanging.gravity *= share;
+  scale_load(share, hanging);
   const HangResult again = hang(hanging, options);
   if (!again.report.usable())
     return {std::nullopt, "it stops at " + percent(again.report.gravity_fraction) +
@@ -121,7 +122,7 @@ Unloading::Reload Unloading::reload(const Nodes& unloaded, double share,
 std::optional<double> Unloading::naive_error() const {
   BreastProblem reversed = problem_;
   reversed.prone.clear();
-  reversed.gravity = -problem_.gravity;
+  scale_load(-1, reversed);
   HangOptions options = reload_options();
   // Soft tissue stood on its head buckles, and for long: only a comparison, it is not waited for.
   options.load.smallest_step = 1;

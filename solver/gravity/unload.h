@@ -49,8 +49,9 @@ struct UnloadResult {
   UnloadReport report;
 };
 
-/// The shape free of stress that `problem.gravity` turns into `problem.mesh`, which is the breast
-/// as imaged (`problem.prone` is not looked at).
+/// The shape free of stress that `problem.gravity` and `problem.skin_forces` turn into
+/// `problem.mesh`, which is the breast as imaged (`problem.prone` is not looked at). Where a report
+/// says gravity, it means both.
 ///
 /// Springs are taken to be relaxed, and the skin unstressed, in the unloaded shape; the chest wall
 /// stands where the prone one does, and tissue slides on it.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace mammotwin {
 
@@ -67,6 +68,8 @@ void Model::set_body_force(const std::function<Eigen::Vector3d(const Eigen::Vect
   for (const SolidElement& element : elements_) loads_.push_back(element.integrate(force));
 }
 
+void Model::set_dead_forces(DeadForces forces) { dead_forces_ = std::move(forces); }
+
 State Model::rest() const {
   return {reference_.nodes(), std::vector<double>(8 * num_elements(), 0.0)};
 }
@@ -88,9 +91,12 @@ void Model::evaluate(int e, const State& state, TangentKind kind, ElementSystem&
   if (!std::isfinite(system.energy)) return;  // J <= 0: nothing else is defined
   for (const auto& [face, potential] : potentials_[e])
     faces_[e][face].add(*potential, x, kind, system);
-  if (loads_.empty()) return;
-  system.energy -= loads_[e].cwiseProduct(x).sum();
-  system.residual -= loads_[e].reshaped();
+  const auto add = [&](const SolidElement::Coefficients& forces, double share) {
+    system.energy -= share * forces.cwiseProduct(x).sum();
+    system.residual -= share * forces.reshaped();
+  };
+  if (!loads_.empty()) add(loads_[e], 1);
+  if (!dead_forces_.empty()) add(dead_forces_[e], dead_share_);
 }
 
 std::vector<Model::FaceCirculation> Model::circulations(int e, const State& state) const {

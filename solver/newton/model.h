@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "fitting/mesh/hermite_mesh.h"
+#include "solver/element/dead_forces.h"
 #include "solver/element/face.h"
 #include "solver/element/solid_element.h"
 #include "solver/element/surface_potential.h"
@@ -47,6 +48,9 @@ class Model {
   /// Force per reference volume [mN/mm³], such as density times gravity.
   void set_body_force(const std::function<Eigen::Vector3d(const Eigen::Vector3d& X)>& force);
 
+  void set_dead_forces(DeadForces forces);
+  void set_dead_share(double share) { dead_share_ = share; }  ///< of them that acts
+
   State rest() const;  ///< reference shape, no pressure
   double volume() const;
 
@@ -76,6 +80,8 @@ class Model {
   HermiteMesh reference_;
   std::vector<SolidElement> elements_;
   std::vector<SolidElement::Coefficients> loads_;  ///< of the body force; empty: none
+  DeadForces dead_forces_;
+  double dead_share_ = 1;
   std::vector<std::vector<Face>> faces_;
   std::vector<std::vector<FacePotential>> potentials_;
   int num_surface_points_ = 0;

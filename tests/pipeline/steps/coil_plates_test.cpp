@@ -40,6 +40,18 @@ TEST(CoilPlates, AreNotSeenInSidesThatAreNotParallel) {
   EXPECT_TRUE(find_coil_plates(pressed_breast(6, 0)));
 }
 
+TEST(CoilPlates, PressOnTheirSkinOnly) {
+  const auto plates = find_coil_plates(pressed_breast(0, 0));
+  ASSERT_TRUE(plates);
+  const SkinPressure pressure = pressure_of(*plates, 0.4);
+  const Eigen::Vector3d left = Eigen::Vector3d::UnitX();
+  EXPECT_NEAR(pressure({30, -20, 50}, left), 0.4, 1e-9);
+  EXPECT_NEAR(pressure({31.5, -20, 50}, left), 0.2, 1e-9) << "the plate's rim";
+  EXPECT_EQ(pressure({33, -20, 50}, left), 0);
+  EXPECT_EQ(pressure({30, -20, 50}, -Eigen::Vector3d::UnitY()), 0) << "the tip";
+  EXPECT_NEAR(pressure({-30, -20, 50}, -left), 0.4, 1e-9);
+}
+
 TEST(CoilPlates, AreNotSeenInADome) { EXPECT_FALSE(find_coil_plates(dome_breast({4, 4, 2}))); }
 
 }  // namespace

@@ -50,7 +50,8 @@ TEST(UnloadQuality, TissueSofterThanAnEighthOfThatIsNotUnloaded) {
 
 TEST(UnloadQuality, PlatesOfTheCoilAreSaid) {
   UnloadingRecord record = taken_off(1);
-  record.coil = CoilPlates{36, 39, 64};
+  record.coil = CoilPlates{};
+  record.coil->left_cm2 = 36, record.coil->right_cm2 = 39, record.coil->apart_mm = 64;
   const Outcome outcome = judge_unloading(record);
   EXPECT_EQ(outcome.status, Status::look);
   ASSERT_EQ(outcome.reasons.size(), 1u);

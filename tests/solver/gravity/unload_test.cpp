@@ -157,6 +157,31 @@ TEST(Unload, WithoutGravityTheShapeIsTheImagedOne) {
   EXPECT_EQ(result.report.newton_iterations, 0);
 }
 
+/// Pressed from both sides, as by a coil's plates: without them the skin there goes outward, so
+/// their forces would do negative work on the way.
+TEST(Unload, TakesPressureOnTheSkinOff) {
+  BreastProblem problem = hanging_dome(2);
+  const UnloadResult hung = unload(problem, {});
+  problem.skin_forces =
+      forces_of_pressure(problem.mesh, [](const Eigen::Vector3d&, const Eigen::Vector3d& outward) {
+        return 0.3 * std::abs(outward.x());
+      });
+  const UnloadResult pressed = unload(problem, {});
+  ASSERT_TRUE(hung.report.usable() && pressed.report.usable()) << pressed.report.reason;
+  EXPECT_LT(pressed.report.round_trip_max_mm, 1e-6) << "hung up and pressed again";
+  double work = 0, size = 0;  // [mN mm]
+  const HermiteMesh& mesh = problem.mesh.mesh;
+  for (int e = 0; e < mesh.num_elements(); ++e)
+    for (int a = 0; a < kFunctions; ++a) {
+      const int node = mesh.corners(e)[corner_of_function(a)];
+      const Eigen::Vector3d way =
+          (pressed.unloaded[node] - hung.unloaded[node]).col(parameter_of_function(a));
+      const Eigen::Vector3d force = problem.skin_forces[e].row(a);
+      work += force.dot(way), size += force.norm() * way.norm();
+    }
+  EXPECT_LT(work, -0.2 * size);
+}
+
 TEST(Unload, AClampedWallStaysWhereItIs) {
   BreastProblem problem = hanging_dome(5);
   problem.boundary.chest_wall = ChestWall::clamped;
