@@ -253,7 +253,7 @@ SegmentResult segment_image(const Mri& mri, const SegmentInput& input,
   if (fat_suppressed) {
     const Volume<std::uint8_t> failed = failed_suppression(
         widely_corrected(cropped(body.image, box), wall.wide_log_bias, pure_interior(half)),
-        masks.statistics, masks.interior, half.depth);
+        masks.statistics, masks.interior, half.depth, split.gland);
     judge_suppression(failed, body.frame.sternal_y, result.quality);
     take_as_fat(failed, split);
   }

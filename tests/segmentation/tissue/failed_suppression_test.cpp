@@ -1,13 +1,15 @@
 #include "segmentation/tissue/failed_suppression.h"
 
+#include <algorithm>
+
 #include "tests/segmentation/message.h"
 
 namespace mammotwin {
 namespace {
 
-/// A block of fat with its skin at y = 0, and a block of 42 x 30 x 42 mm that is 3 times as bright,
-/// its front `deep` mm below the skin.
-Volume<std::uint8_t> found(double deep) {
+/// A block of fat with its skin at y = 0, and a block of 42 x 30 x 42 mm that is `brightness` times
+/// as bright, its front `deep` mm below the skin. Gland has 1.8 of fat.
+Volume<std::uint8_t> found(double deep, float brightness = 3) {
   Volume<float> image({60, 60, 60}, Eigen::Vector3d::Constant(2), {0, 0, 0}, 1);
   auto depth = image;
   for (int k = 0; k < 60; ++k)
@@ -17,10 +19,10 @@ Volume<std::uint8_t> found(double deep) {
         depth(i, j, k) = static_cast<float>(x.y());
         const Eigen::Vector3d away = (x - Eigen::Vector3d(60, deep + 14, 60)).cwiseAbs();
         const bool in = away.x() <= 20 && away.y() <= 14 && away.z() <= 20;
-        if (in) image(i, j, k) = 3;
+        if (in) image(i, j, k) = brightness;
       }
   const auto all = image.like<std::uint8_t>(1);
-  return failed_suppression(image, all, all, depth);
+  return failed_suppression(image, all, all, depth, 1.8);
 }
 
 SegmentQuality judged(double deep, double sternal_y) {
@@ -53,6 +55,11 @@ TEST(FailedSuppression, HoldsTheBrightFatAndLittleElse) {
       }
   EXPECT_GT(inside / (21 * 15 * 21), 0.97);
   EXPECT_EQ(outside, 0) << "7 mm off it";
+}
+
+TEST(FailedSuppression, IsNotDenseGlandJustBelowTheSkin) {
+  const Volume<std::uint8_t> where = found(2, 2.3F);
+  EXPECT_EQ(std::count(where.values.begin(), where.values.end(), 1), 0);
 }
 
 TEST(JudgeSuppression, LeavesBrightGlandAndWhatLiesBehindTheBreastbonesSkin) {
