@@ -101,9 +101,9 @@ Outcome run(const Arguments& args, const Patient& patient, StageRun& stage) {
   UnloadingRecord record;
   record.imaged = imaged;
   if (imaged != Pose::none) record.coil = find_coil_plates(prone);
-  record.coil_pressure_kpa = record.coil ? patient.gravity.coil_pressure_kpa : 0;
+  record.coil_pressure_kpa = patient.gravity.coil_pressure_kpa;
   DeadForces coil_forces;
-  if (record.coil_pressure_kpa > 0)
+  if (record.coil && record.coil_pressure_kpa > 0)
     coil_forces = forces_of_pressure(prone, pressure_of(*record.coil, record.coil_pressure_kpa));
   const auto problem_with = [&](double factor) {
     BreastProblem problem = breast_problem(prone, tissue, patient.compression, factor);

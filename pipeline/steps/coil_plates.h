@@ -11,7 +11,8 @@ namespace mammotwin {
 /// is plane on both sides.
 struct CoilPlates {
   struct Plate {
-    Eigen::Vector3d point_in_lps, outward;  ///< of its plane [mm]; away from the breast, unit
+    Eigen::Vector3d point_in_lps = Eigen::Vector3d::Zero();  ///< of its plane [mm]
+    Eigen::Vector3d outward = Eigen::Vector3d::UnitX();      ///< away from the breast, unit
   };
   Plate left, right;
   double left_cm2 = 0, right_cm2 = 0;  ///< of plane skin on the patient's left and right (LPS)

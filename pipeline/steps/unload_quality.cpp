@@ -46,7 +46,7 @@ json quality_of(const UnloadingRecord& record) {
                   {"min_J", r.min_J},
                   {"max_J", r.max_J},
                   {"coil_plates", record.coil ? coil_json(*record.coil) : json()},
-                  {"coil_pressure_kpa", record.coil_pressure_kpa},
+                  {"coil_pressure_kpa", record.coil ? record.coil_pressure_kpa : 0},
                   {"steps", r.steps},
                   {"newton_iterations", r.newton_iterations},
                   {"dof", r.dof}};
@@ -124,6 +124,11 @@ Outcome judge_unloading(const UnloadingRecord& record) {
                               record.coil_pressure_kpa)
                    : "only gravity is taken off, so it stays as narrow as they made it "
                      "(unload.coil_pressure_kpa takes them off)"));
+  else
+    doubt(record.coil_pressure_kpa > 0,
+          sentence("unload.coil_pressure_kpa is %.2f, but no plates of a coil show in the skin: "
+                   "only gravity is taken off",
+                   record.coil_pressure_kpa));
   for (const auto& [name, pose] : record.poses) {
     const HangReport& r = pose.result.report;
     doubt(!r.usable(), "the breast does not come to rest " + name + ": " + r.reason +

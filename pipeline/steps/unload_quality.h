@@ -26,7 +26,7 @@ struct UnloadingRecord {
   std::optional<StiffnessFit> stiffness_fit;
   UnloadReport report;
   std::optional<CoilPlates> coil;
-  double coil_pressure_kpa = 0;            ///< taken off with gravity; 0 without plates
+  double coil_pressure_kpa = 0;            ///< as set; taken off where there are plates
   std::map<std::string, PoseState> poses;  ///< "standing", "supine"
 };
 

@@ -50,7 +50,7 @@ double bright_contrast(const Volume<float>& image, const Volume<float>& fraction
 VesselImage by_brightness(Volume<float> image, const Volume<float>& fraction, const Mask& interior,
                           double gland) {
   auto bright = interior;
-  const double bright_gland = bright_contrast(image, fraction, interior);
+  const double bright_gland = std::max(bright_contrast(image, fraction, interior), gland - 1);
   const Volume<float> around = smooth_field(fraction, interior, around_block_mm, around_mm);
   for (int k = 0; k < image.size.z(); ++k)
     for (int j = 0; j < image.size.y(); ++j)

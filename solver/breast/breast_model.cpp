@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "solver/element/element_coefficients.h"
 #include "solver/element/skin_membrane.h"
 #include "solver/load/smooth_wall.h"
 #include "solver/load/spring_bed.h"
@@ -50,14 +51,6 @@ HermiteMesh prone_mesh(const BreastProblem& problem) {
                                : HermiteMesh(problem.prone, problem.mesh.mesh.elements());
 }
 
-SolidElement prone_element(const HermiteMesh& mesh, int e) {
-  SolidElement::Coefficients x;
-  for (int a = 0; a < kFunctions; ++a)
-    x.row(a) =
-        mesh.node(mesh.corners(e)[corner_of_function(a)]).col(parameter_of_function(a)).transpose();
-  return SolidElement(x);
-}
-
 /// The breast as imaged: what is read at quadrature points must not depend on the shape that is the
 /// reference, or unloading and loading would not meet.
 struct ProneTissue {
@@ -68,7 +61,7 @@ struct ProneTissue {
 ProneTissue prone_tissue(const BreastProblem& problem, const HermiteMesh& mesh) {
   ProneTissue tissue;
   for (int e = 0; e < mesh.num_elements(); ++e) {
-    const SolidElement element = prone_element(mesh, e);
+    const SolidElement element(element_coefficients(mesh, mesh.nodes(), e));
     tissue.volume += element.volume();
     for (int q = 0; q < kPoints; ++q)
       tissue.materials.push_back(mix(

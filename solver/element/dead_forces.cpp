@@ -1,7 +1,7 @@
 #include "solver/element/dead_forces.h"
 
+#include "solver/element/element_coefficients.h"
 #include "solver/element/face.h"
-#include "solver/element/tensor_basis.h"
 
 namespace mammotwin {
 namespace {
@@ -25,14 +25,6 @@ class DeadPressure : public SurfacePotential {
   const SkinPressure& pressure_;
 };
 
-SolidElement::Coefficients coefficients_of(const HermiteMesh& mesh, int e) {
-  SolidElement::Coefficients c;
-  for (int a = 0; a < kFunctions; ++a)
-    c.row(a) =
-        mesh.node(mesh.corners(e)[corner_of_function(a)]).col(parameter_of_function(a)).transpose();
-  return c;
-}
-
 }  // namespace
 
 DeadForces forces_of_pressure(const MeshFile& shape, const SkinPressure& pressure) {
@@ -43,7 +35,7 @@ DeadForces forces_of_pressure(const MeshFile& shape, const SkinPressure& pressur
   for (int e = 0; e < mesh.num_elements(); ++e)
     for (int face = 0; face < 6; ++face) {
       if (shape.faces[e][face] != FaceLabel::skin) continue;
-      const SolidElement::Coefficients x = coefficients_of(mesh, e);
+      const SolidElement::Coefficients x = element_coefficients(mesh, mesh.nodes(), e);
       ElementSystem system;
       system.residual.setZero();
       Face(e, face, x, points1d).add(load, x, TangentKind::none, system);

@@ -6,21 +6,14 @@
 #include <string>
 #include <utility>
 
+#include "solver/element/element_coefficients.h"
+
 namespace mammotwin {
 
 namespace {
 
-SolidElement::Coefficients gather(const HermiteMesh& mesh, const std::vector<HermiteMesh::Node>& x,
-                                  int e) {
-  SolidElement::Coefficients c;
-  const auto& corners = mesh.corners(e);
-  for (int a = 0; a < kFunctions; ++a)
-    c.row(a) = x[corners[corner_of_function(a)]].col(parameter_of_function(a)).transpose();
-  return c;
-}
-
 SolidElement make_element(const HermiteMesh& mesh, int e) {
-  const auto X = gather(mesh, mesh.nodes(), e);
+  const auto X = element_coefficients(mesh, mesh.nodes(), e);
   if (!X.allFinite())
     throw std::invalid_argument("element " + std::to_string(e) +
                                 " has a nodal parameter that is not a finite number");
@@ -55,7 +48,7 @@ void Model::add_surface_potential(int e, int face, std::shared_ptr<const Surface
     return f.face() == face && f.points1d() == points1d;
   });
   if (found == faces.end()) {
-    faces.emplace_back(e, face, gather(reference_, reference_.nodes(), e), points1d,
+    faces.emplace_back(e, face, element_coefficients(reference_, reference_.nodes(), e), points1d,
                        num_surface_points_);
     num_surface_points_ += points1d * points1d;
     found = faces.end() - 1;
@@ -82,11 +75,11 @@ double Model::volume() const {
 
 SolidElement::Coefficients Model::coefficients(const std::vector<HermiteMesh::Node>& x,
                                                int e) const {
-  return gather(reference_, x, e);
+  return element_coefficients(reference_, x, e);
 }
 
 void Model::evaluate(int e, const State& state, TangentKind kind, ElementSystem& system) const {
-  const auto x = gather(reference_, state.x, e);
+  const auto x = element_coefficients(reference_, state.x, e);
   elements_[e].evaluate(x, state.pressure.data() + 8 * e, kind, system);
   if (!std::isfinite(system.energy)) return;  // J <= 0: nothing else is defined
   for (const auto& [face, potential] : potentials_[e])
@@ -100,7 +93,7 @@ void Model::evaluate(int e, const State& state, TangentKind kind, ElementSystem&
 }
 
 std::vector<Model::FaceCirculation> Model::circulations(int e, const State& state) const {
-  const auto x = gather(reference_, state.x, e);
+  const auto x = element_coefficients(reference_, state.x, e);
   std::vector<FaceCirculation> all;
   for (const auto& [face, potential] : potentials_[e]) {
     FaceCirculation part{&faces_[e][face], Face::Circulation::Zero()};
@@ -111,7 +104,7 @@ std::vector<Model::FaceCirculation> Model::circulations(int e, const State& stat
 
 void Model::evaluate_reference(int e, const State& state, const Eigen::Vector3d& body_force,
                                ReferenceSystem& system) const {
-  const auto x = gather(reference_, state.x, e);
+  const auto x = element_coefficients(reference_, state.x, e);
   elements_[e].evaluate_reference(x, state.pressure.data() + 8 * e, body_force, system);
   for (const auto& [face, potential] : potentials_[e])
     faces_[e][face].add_reference(*potential, x, system);

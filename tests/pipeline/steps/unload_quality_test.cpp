@@ -60,6 +60,16 @@ TEST(UnloadQuality, PlatesOfTheCoilAreSaid) {
   EXPECT_EQ(outcome.quality.at("coil_plates").at("apart_mm"), 64);
 }
 
+TEST(UnloadQuality, APressureOfPlatesThatAreNotThereIsSaid) {
+  UnloadingRecord record = taken_off(1);
+  record.coil_pressure_kpa = 0.5;
+  const Outcome outcome = judge_unloading(record);
+  EXPECT_EQ(outcome.status, Status::look);
+  ASSERT_EQ(outcome.reasons.size(), 1u);
+  EXPECT_NE(outcome.reasons[0].find("no plates"), std::string::npos) << outcome.reasons[0];
+  EXPECT_EQ(outcome.quality.at("coil_pressure_kpa"), 0);
+}
+
 TEST(UnloadQuality, PlacesOfABreastThatFallsFartherThanWomensAreDoubted) {
   for (const double move_mm : {160.0, 250.0}) {
     UnloadingRecord record = taken_off(1);
