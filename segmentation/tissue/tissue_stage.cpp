@@ -3,14 +3,14 @@
 #include "segmentation/image/crop.h"
 #include "segmentation/image/distance.h"
 #include "segmentation/image/restored_image.h"
+#include "segmentation/tissue/vessels.h"
 
 namespace mammotwin {
 namespace {
 
 constexpr double lesion_left_out_mm = 2.5;
-constexpr float vessel_enhancement = 1;  // vessels and lesions would lift gland's brightness
-constexpr double skin_blur_mm = 1;       // beyond the skin, its blur would pass for gland
-constexpr double wall_blur_mm = 1.5;     // in front of the wall, muscle's
+constexpr double skin_blur_mm = 1;    // beyond the skin, its blur would pass for gland
+constexpr double wall_blur_mm = 1.5;  // in front of the wall, muscle's
 
 }  // namespace
 
@@ -23,7 +23,7 @@ TissueMasks tissue_masks(const HalfBreast& half, const Volume<float>& enhancemen
                                 half.above_wall.values[v] > wall_blur_mm && lesions.values[v] == 0;
     masks.statistics.values[v] &=
         to_lesion.values[v] > lesion_left_out_mm &&
-        (enhancement.values.empty() || enhancement.values[v] < vessel_enhancement);
+        (enhancement.values.empty() || enhancement.values[v] < vessel_uptake);
   }
   return masks;
 }

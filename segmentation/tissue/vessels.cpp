@@ -18,10 +18,9 @@ namespace {
 using Mask = Volume<std::uint8_t>;
 
 constexpr double scales_mm[] = {1, 2};
-constexpr double stands_out = 0.2;   // of bright gland's contrast to fat, or of `takes_up`
+constexpr double stands_out = 0.2;   // of bright gland's contrast to fat, or of `vessel_uptake`
 constexpr double brighter = 1.25;    // than pure gland, where it runs through fat ...
 constexpr double more_in_gland = 5;  // ... and of bright gland for each share of gland around
-constexpr double takes_up = 1;       // enhancement: gland takes up less
 constexpr double around_block_mm = 3, around_mm = 10;
 constexpr float brightest = 6;   // of fat: a very bright lesion has no halo
 constexpr double wall_mm = 1.5;  // from a tube's core to where it ends
@@ -67,8 +66,8 @@ VesselImage by_brightness(Volume<float> image, const Volume<float>& fraction, co
 VesselImage by_uptake(Volume<float> enhancement, const Mask& interior) {
   auto bright = interior;
   for (std::size_t v = 0; v < bright.values.size(); ++v)
-    bright.values[v] &= enhancement.values[v] > takes_up;
-  return {std::move(enhancement), std::move(bright), stands_out * takes_up};
+    bright.values[v] &= enhancement.values[v] > vessel_uptake;
+  return {std::move(enhancement), std::move(bright), stands_out * vessel_uptake};
 }
 
 /// Bright voxels on a tube of any scale.

@@ -8,6 +8,9 @@
 
 namespace mammotwin {
 
+/// Relative enhancement from which on a voxel is a vessel's or a lesion's: gland takes up less.
+inline constexpr float vessel_uptake = 1;
+
 /// Vessels full of contrast agent: tubes (tube_response at two scales) longer than 15 mm, with
 /// 1.5 mm around. With `enhancement` (relative_enhancement, on the grid of `split`) it at least
 /// doubles brightness in them. Without, the image is fat-suppressed: strands of gland are as thin

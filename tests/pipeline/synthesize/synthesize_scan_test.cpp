@@ -10,6 +10,17 @@ double level(const ScanOptions& options, Substance s) {
   return intensities(options)[static_cast<std::size_t>(s)];
 }
 
+/// The first `columns` voxels along x of one substance, the others of another.
+TissueMap two_blocks(const Eigen::Vector3i& size, double spacing_mm, int columns, Substance first,
+                     Substance other) {
+  const auto spacing = Eigen::Vector3d::Constant(spacing_mm);
+  TissueMap tissue{Volume<VoxelMixture>(size, spacing, {0, 0, 0}), 1};
+  for (int k = 0; k < size.z(); ++k)
+    for (int j = 0; j < size.y(); ++j)
+      for (int i = 0; i < size.x(); ++i) ++tissue.mixtures(i, j, k)[i < columns ? first : other];
+  return tissue;
+}
+
 TEST(Scan, OnlyContrastAgentLiftsALesionOverGland) {
   ScanOptions before;
   before.contrast = ScanContrast::not_suppressed;
@@ -37,11 +48,7 @@ TEST(Scan, MuscleAndOrgansAreAsBrightAsAsked) {
 }
 
 TEST(Scan, VesselsRunThroughFatAndAreBright) {
-  TissueMap tissue{Volume<VoxelMixture>({60, 60, 60}, Eigen::Vector3d::Ones(), {0, 0, 0}), 1};
-  for (int k = 0; k < 60; ++k)
-    for (int j = 0; j < 60; ++j)
-      for (int i = 0; i < 60; ++i)
-        ++tissue.mixtures(i, j, k)[i < 45 ? Substance::fat : Substance::muscle];
+  const TissueMap tissue = two_blocks({60, 60, 60}, 1, 45, Substance::fat, Substance::muscle);
   const Coil coil({{0, 0, 0}}, 1e6, {0, 0, 0});
   ScanOptions options;
   options.noise = options.texture = options.blur_voxels = 0;
@@ -67,11 +74,7 @@ TEST(Scan, VesselsRunThroughFatAndAreBright) {
 
 /// A block of fat in the left half of the image; nothing else that could be seen.
 TEST(Scan, GhostsLieBesideTheBody) {
-  TissueMap tissue{Volume<VoxelMixture>({40, 10, 60}, Eigen::Vector3d::Constant(2), {0, 0, 0}), 1};
-  for (int k = 0; k < 60; ++k)
-    for (int j = 0; j < 10; ++j)
-      for (int i = 0; i < 40; ++i)
-        ++tissue.mixtures(i, j, k)[i < 15 ? Substance::fat : Substance::air];
+  const TissueMap tissue = two_blocks({40, 10, 60}, 2, 15, Substance::fat, Substance::air);
   const Coil coil({{0, 0, 0}}, 1e6, {0, 0, 0});
   ScanOptions options;
   options.noise = options.texture = options.blur_voxels = 0;
