@@ -12,6 +12,7 @@
 #include "pipeline/evaluate/compression/pressed_places.h"
 #include "pipeline/frame/products.h"
 #include "pipeline/patient/patient.h"
+#include "segmentation/body/breast_region.h"
 #include "segmentation/image/distance.h"
 #include "segmentation/mri/read_mri.h"
 #include "segmentation/segmentation_file.h"
@@ -107,10 +108,17 @@ double at_share(const std::vector<double>& sorted, double share) {
   return sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1))];
 }
 
-/// Share of the first one's breast, as far as the changed image shows it, that lies outside the
-/// region found there.
-double left_out(const Segmentation& first, const Segmentation& after, const ChangedMri& changed) {
-  double all = 0, outside = 0;
+/// Shares of the first one's breast, as far as its region holds it and the changed image shows it,
+/// that lie outside the region found there: of what hangs in front of the breastbone's skin, as
+/// regions are judged, and of all.
+struct LeftOut {
+  double of_hanging = 0, of_all = 0;
+};
+
+LeftOut left_out(const Segmentation& first, const Segmentation& after, const ChangedMri& changed) {
+  const Mask hanging = hanging_tissue(
+      find_region(first.labels, first.region.side, LabelsHold::one_side).pendant, first.labels);
+  double all[2] = {0, 0}, outside[2] = {0, 0};  // flank and axilla, what hangs
   for (int k = 0; k < first.labels.size.z(); ++k)
     for (int j = 0; j < first.labels.size.y(); ++j)
       for (int i = 0; i < first.labels.size.x(); ++i) {
@@ -119,10 +127,12 @@ double left_out(const Segmentation& first, const Segmentation& after, const Chan
         const Eigen::Vector3d there = changed.changed_from_first(x);
         const Eigen::Vector3i v = changed.image.index(there).array().round().cast<int>();
         if (!changed.image.contains(v.x(), v.y(), v.z())) continue;
-        ++all;
-        outside += !after.region.contains(there);
+        const int hangs = hanging(i, j, k) ? 1 : 0;
+        ++all[hangs];
+        outside[hangs] += !after.region.contains(there);
       }
-  return outside / std::max(1.0, all);
+  return {outside[1] / std::max(1.0, all[1]),
+          (outside[0] + outside[1]) / std::max(1.0, all[0] + all[1])};
 }
 
 std::vector<std::string> doubts_of(const json& sidecar) {
@@ -135,8 +145,8 @@ std::vector<std::string> doubts_of(const json& sidecar) {
 json new_change_row(const SegmentationChangeCase& asked, const std::string& change) {
   json row{{"name", asked.name}, {"change", change}};
   for (const char* key : {"wall_median_mm", "wall_p95_mm", "wall_over_5", "skin_p95_mm",
-                          "nipple_mm", "nipple_sd_mm", "lesion_mm", "left_out", "breast_ratio",
-                          "gland_ratio", "status", "doubted", "unsaid", "reason"})
+                          "nipple_mm", "nipple_sd_mm", "lesion_mm", "left_out", "left_out_of_all",
+                          "breast_ratio", "gland_ratio", "status", "doubted", "unsaid", "reason"})
     row[key] = nullptr;
   return row;
 }
@@ -197,7 +207,9 @@ std::vector<std::string> moved_unsaid(const json& row, const json& first_doubts)
 void compare_change(json& row, const Found& first, const Found& after, const ChangedMri& changed) {
   compare_surfaces(row, first, after, changed);
   compare_points(row, first.segmentation, after.segmentation, changed);
-  row["left_out"] = left_out(first.segmentation, after.segmentation, changed);
+  const LeftOut left = left_out(first.segmentation, after.segmentation, changed);
+  row["left_out"] = left.of_hanging;
+  row["left_out_of_all"] = left.of_all;
   const auto ratio = [&](const char* key) {
     return after.sidecar.at("quality").at(key).get<double>() /
            first.sidecar.at("quality").at(key).get<double>();
