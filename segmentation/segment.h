@@ -33,6 +33,11 @@ struct SegmentInput {
   /// The image before contrast agent: a file or folder of its own, or a series of `mri`'s folder.
   std::optional<std::filesystem::path> pre;
   std::optional<std::string> pre_series;
+  /// Another image of the same study, whose chest wall must be the same: a file or folder of its
+  /// own, or a series of `mri`'s folder. Where neither is given and a series of the folder was
+  /// chosen, one of the others.
+  std::optional<std::filesystem::path> compared;
+  std::optional<std::string> compared_series;
   std::optional<bool> fat_suppressed;  ///< decided from the image where not given
   std::optional<std::filesystem::path> label_map;
   /// Empty: by the names of its segments where it is a .seg.nrrd, else those of segmentation.h.

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "segmentation/body/midline.h"
+#include "segmentation/chest_wall/compared_wall.h"
 #include "segmentation/chest_wall/half_breast.h"
 #include "segmentation/chest_wall/judge_wall.h"
 #include "segmentation/chest_wall/muscle_slips.h"
@@ -198,6 +199,36 @@ std::optional<Volume<std::uint8_t>> take_out_vessels(bool fat_suppressed,
   return vessels;
 }
 
+/// Another image of the study, and where its chest wall lies.
+struct OtherImage {
+  std::string called;
+  ComparedWall wall;
+};
+
+/// Nothing where there is no other, or where it shows no wall; that is noted.
+std::optional<OtherImage> read_other_image(const Mri& mri, const SegmentInput& input,
+                                           const BodyStage& body, const PectoralWall& found,
+                                           Side side, double stiffness, SegmentResult& result) {
+  const std::string series =
+      input.compared_series.value_or(input.compared ? std::string() : mri.compared_series);
+  if (!input.compared && series.empty()) return std::nullopt;
+  const Mri other = read_mri(input.compared ? *input.compared : *input.mri,
+                             series.empty() ? std::nullopt : std::optional(series));
+  result.files.insert(result.files.end(), other.files.begin(), other.files.end());
+  std::string called = "the image that mri.compared names";
+  if (!input.compared) called = "another series of the study";
+  for (const SeriesRow& row : mri.series)
+    if (row.is_compared && !input.compared_series)
+      called = "series " + row.number + " of the study";
+  try {
+    return OtherImage{called, compared_wall(other.image, found, body, side, stiffness)};
+  } catch (const std::exception& error) {
+    result.quality.notes.push_back("the chest wall was not compared with that in " + called +
+                                   ", which shows none: " + error.what());
+    return std::nullopt;
+  }
+}
+
 SegmentResult segment_image(const Mri& mri, const SegmentInput& input,
                             const SegmentOptions& options, const SegmentProgress& progress) {
   std::vector<PlacedSeed> seeds;
@@ -224,6 +255,10 @@ SegmentResult segment_image(const Mri& mri, const SegmentInput& input,
     result.quality.notes.push_back("the chest wall was drawn by hand, with " +
                                    std::to_string(drawn.size()) +
                                    " points; between them it is not doubted");
+  std::optional<OtherImage> other;  // a wall that a person drew is not in question
+  if (drawn.empty())
+    other =
+        read_other_image(mri, input, body, wall.found.wall, side, options.wall_stiffness, result);
   judge_movement(wall.pre_match, result.quality);
   judge_end_slices(body, side, result.quality);
   judge_noise(result.quality);
@@ -259,9 +294,10 @@ SegmentResult segment_image(const Mri& mri, const SegmentInput& input,
   }
   const std::optional<Volume<std::uint8_t>> vessels =
       take_out_vessels(fat_suppressed, images.enhancement, wall.pre_match, masks.interior, split);
-  result.judge_in_region = [found = wall.found, frame = body.frame, slips, vessels](
+  result.judge_in_region = [found = wall.found, frame = body.frame, other, slips, vessels](
                                const BreastRegion& region, SegmentQuality& quality) {
     judge_wall(found, frame, region, quality);
+    if (other) judge_compared_wall(found.wall, other->wall, frame, region, other->called, quality);
     judge_muscle_slips(slips, region, quality);
     if (vessels) quality.vessels_ml = volume_in(region, *vessels);
   };

@@ -98,6 +98,7 @@ json to_json(const SegmentQuality& q) {
       {"chest_wall_fat_behind", optional_number(q.chest_wall_fat_behind)},
       {"chest_wall_disputed", optional_number(q.chest_wall_disputed)},
       {"chest_wall_unsteady", optional_number(q.chest_wall_unsteady)},
+      {"chest_wall_unlike_compared", optional_number(q.chest_wall_unlike_compared)},
       {"failed_suppression_ml", optional_number(q.failed_suppression_ml)},
       {"vessels_ml", optional_number(q.vessels_ml)},
       {"pre_shift_mm", optional_number(q.pre_shift_mm)},

@@ -37,6 +37,8 @@ struct SegmentQuality {
   std::optional<double> chest_wall_fat_behind;  ///< share of the wall with fat behind it
   std::optional<double> chest_wall_disputed;    ///< share where it may as well lie elsewhere
   std::optional<double> chest_wall_unsteady;    ///< share that moves when looked for otherwise
+  /// Share that lies elsewhere in another image of the study.
+  std::optional<double> chest_wall_unlike_compared;
   std::optional<double> failed_suppression_ml;  ///< breast brighter than twice fat
   std::optional<double> vessels_ml;             ///< in the region; empty where none can be told
   std::optional<double> pre_shift_mm;           ///< PreMatch, of an image before contrast agent

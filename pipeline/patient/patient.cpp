@@ -57,6 +57,12 @@ void Patient::declare_inputs(Settings& s) {
   s.path("mri.pre", pre_, "the image before contrast agent, where it lies apart");
   s.private_text("mri.pre_series", pre_series_,
                  "its series number or UID (with phase, \"NUMBER:PHASE\")");
+  s.path("mri.compared", compared_,
+         "another image of the study, in which the chest wall must lie where it lies in the one "
+         "that is read");
+  s.private_text("mri.compared_series", compared_series_,
+                 "its series number or UID; default: one of the folder's others, where it holds "
+                 "several");
   s.choice("mri.fat_suppressed", fat_suppressed_, {{"yes", true}, {"no", false}},
            "is the fat dark? default: decided from the image");
   s.path("labels.path", labels_, "label map made elsewhere, taken as the whole segmentation");
@@ -189,6 +195,7 @@ std::vector<NamedFile> Patient::named_files() const {
   };
   add("mri.path", mri_);
   add("mri.pre", pre_);
+  add("mri.compared", compared_);
   add("labels.path", labels_);
   add("nipple.markups", nipple_markups_);
   add("chest_wall.markups", wall_markups_);
@@ -277,6 +284,8 @@ SegmentInput Patient::segment_input() const {
   input.series = series_;
   if (pre_) input.pre = resolve(*pre_);
   input.pre_series = pre_series_;
+  if (compared_) input.compared = resolve(*compared_);
+  input.compared_series = compared_series_;
   input.fat_suppressed = fat_suppressed_;
   input.label_values = label_values();
   input.side = side_;

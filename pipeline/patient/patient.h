@@ -96,11 +96,11 @@ class Patient : public SettingsFile {
   std::filesystem::path file_;
   bool keeps_names_ = false;
   std::optional<Side> side_;
-  std::optional<std::filesystem::path> mri_, pre_, labels_, scan_, nipple_markups_, wall_markups_,
-      region_markups_;
+  std::optional<std::filesystem::path> mri_, pre_, compared_, labels_, scan_, nipple_markups_,
+      wall_markups_, region_markups_;
   ScannedSkinOptions scan_options_;
   std::optional<Eigen::Vector3d> scan_up_;
-  std::optional<std::string> series_, pre_series_;
+  std::optional<std::string> series_, pre_series_, compared_series_;
   std::optional<bool> fat_suppressed_;
   std::map<ForeignTissue, std::vector<int>> label_values_;
   std::optional<Eigen::Vector3d> nipple_lps_mm_;

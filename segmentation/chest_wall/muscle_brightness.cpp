@@ -13,7 +13,6 @@ constexpr double darkest = 0.08, brightest = 6;  // of fat
 constexpr double muscle_mm = 13;                 // pectoral and what lies between the ribs
 constexpr int clear_below_skin_mm = 8;
 constexpr int before_mm = 45, behind_mm = 45;  // of the usual wall: what is looked at
-constexpr double off_breastbone_degrees = 12;
 constexpr int rounds = 30;
 constexpr double least_samples = 2000;
 
@@ -48,7 +47,7 @@ std::vector<Sample> samples_of(const PolarRays& rays, const PectoralWall& grid,
                                const std::vector<UsualRadius>& usual, double z_low, double z_high) {
   std::vector<Sample> samples;
   for (const Side side : {Side::left, Side::right})
-    for (const std::size_t n : grid.rays_before(side, z_low, z_high, off_breastbone_degrees)) {
+    for (const std::size_t n : grid.rays_before(side, z_low, z_high, breastbone_degrees)) {
       if (!(usual[n].spread > 0)) continue;
       const int at = static_cast<int>(usual[n].mean - PolarRays::least_radius_mm);
       const int last = std::min(at + before_mm, rays.exit[n] - clear_below_skin_mm);

@@ -50,8 +50,6 @@ std::vector<double> median_filtered(const std::vector<double>& map, int rows, in
   return out;
 }
 
-constexpr double breastbone_degrees = 12;
-
 /// Of some rays in all that are in question; all, where there are none but drawn ones.
 double share_of(const std::vector<std::size_t>& some, const std::vector<std::size_t>& all,
                 bool any_drawn) {

@@ -18,6 +18,12 @@ struct WallContrast {
   double spread = 0.2;   ///< of the logarithm in each: noise, texture and what bias is left
 };
 
+/// Half the angle over the breastbone: thin skin on bone, and no breast.
+inline constexpr double breastbone_degrees = 12;
+
+/// Walls that lie further apart follow different edges.
+inline constexpr double other_edge_mm = 5;
+
 /// The front of the chest wall as a radius over angle and height, round a vertical axis behind the
 /// breastbone. Angle 0 points forward, positive to the patient's left.
 struct PectoralWall {

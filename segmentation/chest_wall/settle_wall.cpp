@@ -7,7 +7,6 @@
 namespace mammotwin {
 namespace {
 
-constexpr double differs_mm = 5;
 // More of the disputed rays than this lose their support: 0.06 where the prior mended a real wall,
 // 0.38 to 0.62 where it spoilt one.
 constexpr double most_lost = 0.15;
@@ -42,7 +41,7 @@ WallDispute wall_dispute(const PectoralWall& chosen, const PectoralWall& other, 
   const std::vector<std::size_t> rays = chosen.rays_before(side, z_low, z_high);
   for (const std::size_t n : rays) {
     const double by = other.radius[n] - chosen.radius[n];
-    if (std::abs(by) <= differs_mm) continue;
+    if (std::abs(by) <= other_edge_mm) continue;
     off.push_back(by);
     where.push_back(n);
   }

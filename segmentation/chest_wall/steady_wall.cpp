@@ -8,8 +8,6 @@
 namespace mammotwin {
 namespace {
 
-constexpr double flips_mm = 5;
-
 /// Index of the wall with the middle radius on one ray; of the first of equals.
 std::size_t middle_of(const std::vector<PectoralWall>& walls, std::size_t ray) {
   std::vector<std::size_t> order(walls.size());
@@ -48,7 +46,7 @@ WallFlips wall_flips(const std::vector<PectoralWall>& walls, const PectoralWall&
   const std::vector<std::size_t> rays = middle.rays_before(side, z_low, z_high);
   for (const std::size_t ray : rays) {
     const double spread = spread_of(walls, ray);
-    if (spread <= flips_mm) continue;
+    if (spread <= other_edge_mm) continue;
     spreads.push_back(spread);
     where.push_back(ray);
   }

@@ -11,8 +11,14 @@ namespace {
 
 constexpr double least_cover_mm = 100;  // of a breast with its fold
 constexpr double most_voxel_mm = 2.4;
-constexpr double as_fine = 1.1;  // times the finest voxel
+constexpr double most_compared_voxel_mm = 4;  // the wall is seen without the skin
+constexpr double as_fine = 1.1;               // times the finest voxel
 
+bool covers(const SeriesRow& r) { return r.covers_mm >= least_cover_mm; }
+bool is_fine(const SeriesRow& r) { return r.voxel_mm.maxCoeff() <= most_voxel_mm; }
+bool is_noisy(const SeriesRow& r) {
+  return r.look && r.look->signal_to_noise < limits::signal_to_noise;
+}
 double volume(const SeriesRow& row) { return row.voxel_mm.prod(); }
 
 /// Leaves out the rows that do not serve, unless none does.
@@ -62,15 +68,10 @@ class Sieve {
 std::size_t choose_series_row(std::vector<SeriesRow>& rows) {
   Sieve sieve(rows);
   sieve.keep([](const SeriesRow& r) { return !r.is_computed; }, "computed from other images");
-  sieve.keep([](const SeriesRow& r) { return r.covers_mm >= least_cover_mm; },
-             "covers less than 100 mm of the body");
-  sieve.keep([](const SeriesRow& r) { return r.voxel_mm.maxCoeff() <= most_voxel_mm; },
-             "voxels of over 2.4 mm lose the skin");
-  sieve.keep(
-      [](const SeriesRow& r) {
-        return !r.look || r.look->signal_to_noise >= limits::signal_to_noise;
-      },
-      "noisy: fat is less than 8 times as bright as noise");
+  sieve.keep(covers, "covers less than 100 mm of the body");
+  sieve.keep(is_fine, "voxels of over 2.4 mm lose the skin");
+  sieve.keep([](const SeriesRow& r) { return !is_noisy(r); },
+             "noisy: fat is less than 8 times as bright as noise");
   sieve.keep([](const SeriesRow& r) { return r.phase > 0; },
              "not of the dynamic study's geometry: lesions may have washed out");
   const double least = sieve.least_volume();
@@ -94,6 +95,23 @@ std::size_t choose_series_row(std::vector<SeriesRow>& rows) {
   return order[chosen];
 }
 
+std::optional<std::size_t> choose_compared_row(std::vector<SeriesRow>& rows, std::size_t read) {
+  const auto serves = [](const SeriesRow& r) {
+    return !r.is_computed && covers(r) && r.voxel_mm.maxCoeff() <= most_compared_voxel_mm &&
+           r.look && !is_noisy(r);
+  };
+  const auto suppressed = [](const SeriesRow& r) { return r.look && r.look->skin_over_fat > 1; };
+  const auto rank = [&](std::size_t n) {
+    return std::pair(suppressed(rows[n]) == suppressed(rows[read]),
+                     std::abs(rows[n].seconds - rows[read].seconds));
+  };
+  std::optional<std::size_t> best;
+  for (std::size_t n = 0; n < rows.size(); ++n)
+    if (n != read && serves(rows[n]) && (!best || rank(n) < rank(*best))) best = n;
+  if (best) rows[*best].is_compared = true;
+  return best;
+}
+
 nlohmann::json to_json(const std::vector<SeriesRow>& rows) {
   nlohmann::json table = nlohmann::json::array();
   for (const SeriesRow& r : rows)
@@ -107,6 +125,7 @@ nlohmann::json to_json(const std::vector<SeriesRow>& rows) {
          {"signal_to_noise", r.look ? nlohmann::json(r.look->signal_to_noise) : nlohmann::json()},
          {"skin_over_fat", r.look ? nlohmann::json(r.look->skin_over_fat) : nlohmann::json()},
          {"read", r.is_read},
+         {"wall_compared", r.is_compared},
          {"reason", r.reason}});
   return table;
 }

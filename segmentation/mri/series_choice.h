@@ -21,7 +21,8 @@ struct SeriesRow {
   int phase = 0;             ///< 1, 2, ... in the dynamic study; 0: not of it
   std::optional<SeriesLook> look;
   bool is_read = false;
-  std::string reason;  ///< why it is read or not
+  bool is_compared = false;  ///< the chest wall found in it with that in the one that is read
+  std::string reason;        ///< why it is read or not
 };
 
 /// Says which row is read, and of each why. Those left out, unless that leaves none, in this order:
@@ -30,6 +31,12 @@ struct SeriesRow {
 /// (its phases; a later series' lesions have washed out); voxels a tenth larger than the finest's;
 /// fewer slices. Of the rest the second in time is read: the first after the contrast agent.
 std::size_t choose_series_row(std::vector<SeriesRow>& rows);
+
+/// Which other row shows the chest wall independently of the one that is read, if any: of those
+/// looked at that are not computed, cover 100 mm, have voxels of at most 4 mm and fat at least 8
+/// times as bright as noise, one with fat suppressed where the read one's is not or the other way
+/// round; of several the nearest in time. Marks it.
+std::optional<std::size_t> choose_compared_row(std::vector<SeriesRow>& rows, std::size_t read);
 
 nlohmann::json to_json(const std::vector<SeriesRow>& rows);
 

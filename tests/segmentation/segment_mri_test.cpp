@@ -5,6 +5,7 @@
 #include "segmentation/image/crop.h"
 #include "segmentation/segment.h"
 #include "segmentation/segmentation_file.h"
+#include "tests/segmentation/files/dicom_writer.h"
 #include "tests/segmentation/message.h"
 #include "tests/segmentation/phantom.h"
 
@@ -302,6 +303,28 @@ TEST(SegmentOfAnMri, RefusesAnImageBeforeContrastAgentOfAnotherPlace) {
   input.pre = folder.path / "pre.nrrd";
   expect_mentions(message_of([&] { segment(input, {}); }),
                   {"before contrast agent covers", "90 %"});
+}
+
+/// Two series without a dynamic study: the second in time is read, the other's wall lies elsewhere.
+TEST(SegmentOfAnMri, ComparesTheWallWithThatOfAnotherSeries) {
+  const EmptyFolder folder("study");
+  Phantom phantom;
+  DicomHeader header;
+  header.series_number = "9", header.series_uid = "1.2.9", header.acquisition_time = "101010";
+  write_dicom_series(folder.path / "mri", "a", header, phantom.image());
+  const SegmentInput input = input_for(folder.path / "mri", phantom);
+  EXPECT_FALSE(segment(input, {}).quality.chest_wall_unlike_compared);
+  phantom.fat_suppressed = false;
+  Volume<float> moved = phantom.image();
+  moved.origin.y() += 8;
+  header.series_number = "4", header.series_uid = "1.2.4", header.acquisition_time = "101005";
+  write_dicom_series(folder.path / "mri", "b", header, moved);
+  const SegmentResult result = segment(input, {});
+  EXPECT_GT(*result.quality.chest_wall_unlike_compared, 0.9);
+  EXPECT_EQ(result.quality.status, SegmentStatus::look);
+  EXPECT_EQ(result.files.size(), 2U * moved.size.z()) << "both are inputs";
+  ASSERT_FALSE(result.quality.reasons.empty());
+  expect_mentions(result.quality.reasons[0], {"chest wall", "8 mm deeper", "series 4"});
 }
 
 TEST(SegmentOfAnMri, NamesAnImageTurnedBackToFront) {

@@ -36,5 +36,30 @@ TEST(SeriesChoice, LeavesWhatCoversAPartOfTheBreast) {
   EXPECT_NE(rows[0].reason.find("less than 100 mm"), std::string::npos);
 }
 
+TEST(SeriesChoice, ComparesTheWallWithThatOfASeriesOfTheOtherContrast) {
+  std::vector<SeriesRow> rows{row("4", 58, 0.64, 3, 63.), row("8", 160, 1, 1.2, 15.),
+                              row("9", 160, 1, 1.2, 15.)};
+  rows[0].look->skin_over_fat = 0.4;
+  rows[1].seconds = 100, rows[2].seconds = 200;
+  EXPECT_EQ(choose_series_row(rows), 2U);
+  EXPECT_EQ(choose_compared_row(rows, 2), 0U);
+  EXPECT_TRUE(rows[0].is_compared);
+}
+
+TEST(SeriesChoice, ComparesTheWallWithTheNearestInTimeWhereAllAreAlike) {
+  std::vector<SeriesRow> rows{row("7", 160, 1, 1.2, 15.), row("8", 160, 1, 1.2, 15.),
+                              row("9", 160, 1, 1.2, 15.)};
+  rows[1].seconds = 300, rows[2].seconds = 400;
+  EXPECT_EQ(choose_compared_row(rows, 2), 1U);
+}
+
+TEST(SeriesChoice, ComparesWithNothingNoisyComputedOrOfAPart) {
+  std::vector<SeriesRow> rows{row("9", 160, 1, 1.2, 15.),  row("24", 160, 1, 1.2, 6.),
+                              row("10", 160, 1, 1.2, 15.), row("2", 60, 1, 1.2, 15.),
+                              row("3", 40, 1, 5, 15.),     row("1", 160, 1, 1.2, {})};
+  rows[2].is_computed = true;
+  EXPECT_FALSE(choose_compared_row(rows, 0));
+}
+
 }  // namespace
 }  // namespace mammotwin
