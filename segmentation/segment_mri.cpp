@@ -157,15 +157,36 @@ void judge_movement(const std::optional<PreMatch>& match, SegmentQuality& qualit
   quality.doubt(SegmentStatus::look, {"movement", reason.str()});
 }
 
-/// The image before contrast agent, if one is named, laid on the one after it.
-BeforeAgent read_before_agent(const SegmentInput& input, const BodyStage& body,
+/// The image before contrast agent, if one is named, laid on the one after it; of a dynamic study
+/// the phase before the one that was chosen, where that shows uptake.
+BeforeAgent read_before_agent(const Mri& mri, const SegmentInput& input, const BodyStage& body,
                               SegmentResult& result) {
-  if (!input.pre && !input.pre_series) return {};
-  const Mri pre = read_mri(input.pre ? *input.pre : *input.mri, input.pre_series);
+  const bool named = input.pre || input.pre_series;
+  if (!named && mri.before_agent_series.empty()) return {};
+  const Mri pre = read_mri(input.pre ? *input.pre : *input.mri,
+                           named ? input.pre_series : std::optional(mri.before_agent_series));
   result.files.insert(result.files.end(), pre.files.begin(), pre.files.end());
+  BeforeAgent before =
+      lay_before_agent(body.lone ? with_mirror_image(pre.image, *body.lone) : pre.image, body);
+  if (named || before.shows_uptake(body.body)) return before;
   result.quality.notes.push_back(
+      "the phase before the one that was read shows no uptake of contrast agent between the two: "
+      "it is not used");
+  return {};
+}
+
+/// Leaves out a phase that was not named and before which the patient moved.
+void use_if_still(const std::optional<PreMatch>& match, bool named, BeforeAgent& before,
+                  SegmentQuality& quality) {
+  if (!before.is_given()) return;
+  if (!named && match && match->moved()) {
+    before = {};
+    quality.notes.push_back(
+        "the patient moved between the phase that was read and the one before: that is not used");
+    return;
+  }
+  quality.notes.push_back(
       "lesions were outlined in the enhancement over the image before contrast agent");
-  return lay_before_agent(body.lone ? with_mirror_image(pre.image, *body.lone) : pre.image, body);
 }
 
 /// Offers what takes up contrast agent in the breast, away from skin and wall.
@@ -241,7 +262,7 @@ SegmentResult segment_image(const Mri& mri, const SegmentInput& input,
 
   progress(0.10, "finding the outline");
   const BodyStage body = find_body(mri.image, input.fat_suppressed, result.quality);
-  const BeforeAgent before = read_before_agent(input, body, result);
+  BeforeAgent before = read_before_agent(mri, input, body, result);
   if (!mri.geometry_known)
     throw std::runtime_error(
         "its header does not say where its frames stand; expected positions "
@@ -259,7 +280,9 @@ SegmentResult segment_image(const Mri& mri, const SegmentInput& input,
   if (drawn.empty())
     other =
         read_other_image(mri, input, body, wall.found.wall, side, options.wall_stiffness, result);
-  judge_movement(wall.pre_match, result.quality);
+  const bool pre_is_named = input.pre || input.pre_series;
+  use_if_still(wall.pre_match, pre_is_named, before, result.quality);
+  if (before.is_given()) judge_movement(wall.pre_match, result.quality);
   judge_end_slices(body, side, result.quality);
   judge_noise(result.quality);
   if (!body.lone) judge_symmetry(body, wall.found.wall, result.quality);

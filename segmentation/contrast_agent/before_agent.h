@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+
 #include "segmentation/body/body_stage.h"
 
 namespace mammotwin {
@@ -8,6 +10,10 @@ namespace mammotwin {
 struct BeforeAgent {
   Volume<float> image;        ///< empty: there is none
   Volume<float> enhancement;  ///< relative_enhancement
+
+  /// Does the largest connected part of the body that at least doubles, the heart or a vessel, have
+  /// 20 ml? Without an agent between the two images nothing does.
+  bool shows_uptake(const Volume<std::uint8_t>& body) const;
 
   bool is_given() const { return !image.values.empty(); }
 };

@@ -83,10 +83,13 @@ std::size_t choose_series_row(std::vector<SeriesRow>& rows) {
   const std::size_t chosen = order.size() > 1 ? 1 : 0;
   for (std::size_t n = 0; n < order.size(); ++n)
     rows[order[n]].reason =
-        n < chosen ? "before the contrast agent, if one was given: may serve as mri.pre"
-                   : "later: lesions wash out";
+        n < chosen
+            ? "before the contrast agent, if one was given: used beside the one that is read "
+              "where that shows uptake and the patient lay still"
+            : "later: lesions wash out";
   SeriesRow& row = rows[order[chosen]];
   row.is_read = true;
+  if (chosen > 0) rows[order[0]].is_before_agent = rows[order[0]].phase > 0 && row.phase > 0;
   row.reason =
       order.size() > 1
           ? "the second in time of " + std::to_string(order.size()) +
@@ -125,6 +128,7 @@ nlohmann::json to_json(const std::vector<SeriesRow>& rows) {
          {"signal_to_noise", r.look ? nlohmann::json(r.look->signal_to_noise) : nlohmann::json()},
          {"skin_over_fat", r.look ? nlohmann::json(r.look->skin_over_fat) : nlohmann::json()},
          {"read", r.is_read},
+         {"before_agent", r.is_before_agent},
          {"wall_compared", r.is_compared},
          {"reason", r.reason}});
   return table;

@@ -21,15 +21,17 @@ struct SeriesRow {
   int phase = 0;             ///< 1, 2, ... in the dynamic study; 0: not of it
   std::optional<SeriesLook> look;
   bool is_read = false;
-  bool is_compared = false;  ///< the chest wall found in it with that in the one that is read
-  std::string reason;        ///< why it is read or not
+  bool is_before_agent = false;  ///< the phase before the one that is read
+  bool is_compared = false;      ///< the chest wall found in it with that in the one that is read
+  std::string reason;            ///< why it is read or not
 };
 
 /// Says which row is read, and of each why. Those left out, unless that leaves none, in this order:
 /// computed from other images; less than 100 mm of the body; voxels of over 2.4 mm, which lose the
 /// skin; fat less than 8 times as bright as noise; not of the dynamic study, where there is one
 /// (its phases; a later series' lesions have washed out); voxels a tenth larger than the finest's;
-/// fewer slices. Of the rest the second in time is read: the first after the contrast agent.
+/// fewer slices. Of the rest the second in time is read: the first after the contrast agent; the
+/// first, where both are phases of a dynamic study, is marked as before it.
 std::size_t choose_series_row(std::vector<SeriesRow>& rows);
 
 /// Which other row shows the chest wall independently of the one that is read, if any: of those

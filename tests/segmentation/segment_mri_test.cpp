@@ -27,6 +27,15 @@ SegmentInput input_for(const fs::path& mri, const Phantom& phantom,
   return input;
 }
 
+/// What fills with contrast agent behind the chest wall: a ball of 30 mm, three times as bright.
+void add_heart(Volume<float>& image) {
+  const Eigen::Vector3d middle = Phantom().chest_axis - Eigen::Vector3d(0, 90, 0);
+  for (int k = 0; k < image.size.z(); ++k)
+    for (int j = 0; j < image.size.y(); ++j)
+      for (int i = 0; i < image.size.x(); ++i)
+        if ((image.position(i, j, k) - middle).norm() < 30) image(i, j, k) *= 3;
+}
+
 class SegmentMri : public testing::TestWithParam<bool> {};
 
 TEST_P(SegmentMri, FindsThePartsOfThePhantom) {
@@ -291,6 +300,37 @@ TEST(SegmentOfAnMri, ImageBeforeContrastAgentShowsTheLesion) {
   EXPECT_LT((result.quality.candidates[0].centroid_in_lps - phantom.lesion).norm(), 1);
   // (0.95 - 0.42) / 0.42 = 1.26 inside; its edge, where the mean over a voxel is less, counts too.
   EXPECT_NEAR(result.quality.candidates[0].enhancement, 1.26, 0.15);
+}
+
+/// Three phases in one folder: the second is read, the first beside it where an agent came between.
+TEST(SegmentOfAnMri, UsesThePhaseBeforeOfADynamicStudyWhereItShowsUptake) {
+  Phantom phantom;
+  phantom.fat_suppressed = false;
+  const auto segmented = [&](bool agent) {
+    const EmptyFolder folder(agent ? "phases" : "repeats");
+    for (int phase = 1; phase <= 3; ++phase) {
+      phantom.contrast_agent = agent && phase > 1;
+      DicomHeader header;
+      header.series_number = std::to_string(phase),
+      header.series_uid = "1.2." + header.series_number;
+      header.acquisition_time = "10101" + header.series_number;
+      Volume<float> image = phantom.image();
+      if (phantom.contrast_agent) add_heart(image);
+      write_dicom_series(folder.path / "mri", header.series_number, header, image);
+    }
+    return segment(input_for(folder.path / "mri", phantom), {});
+  };
+  const SegmentResult with = segmented(true), without = segmented(false);
+  EXPECT_LT((with.segmentation.lesions.at(0).centroid_in_lps - phantom.lesion).norm(), 1);
+  EXPECT_EQ(with.quality.candidates.size(), 1U);
+  EXPECT_TRUE(without.quality.candidates.empty());
+  const auto notes = [](const SegmentResult& result) {
+    std::string all;
+    for (const std::string& note : result.quality.notes) all += note + "\n";
+    return all;
+  };
+  expect_mentions(notes(with), {"enhancement over the image before"});
+  expect_mentions(notes(without), {"no uptake of contrast agent"});
 }
 
 TEST(SegmentOfAnMri, RefusesAnImageBeforeContrastAgentOfAnotherPlace) {

@@ -36,6 +36,18 @@ TEST(SeriesChoice, LeavesWhatCoversAPartOfTheBreast) {
   EXPECT_NE(rows[0].reason.find("less than 100 mm"), std::string::npos);
 }
 
+TEST(SeriesChoice, TakesThePhaseBeforeOfADynamicStudyOnly) {
+  std::vector<SeriesRow> rows{row("7", 160, 1, 1.2, 15.), row("8", 160, 1, 1.2, 15.),
+                              row("9", 160, 1, 1.2, 15.)};
+  rows[1].seconds = 300, rows[2].seconds = 400;
+  EXPECT_EQ(choose_series_row(rows), 1U);
+  EXPECT_FALSE(rows[0].is_before_agent) << "two series that happen to serve equally";
+  for (int n = 0; n < 3; ++n) rows[n].phase = n + 1, rows[n].is_read = false;
+  EXPECT_EQ(choose_series_row(rows), 1U);
+  EXPECT_TRUE(rows[0].is_before_agent);
+  EXPECT_FALSE(rows[2].is_before_agent);
+}
+
 TEST(SeriesChoice, ComparesTheWallWithThatOfASeriesOfTheOtherContrast) {
   std::vector<SeriesRow> rows{row("4", 58, 0.64, 3, 63.), row("8", 160, 1, 1.2, 15.),
                               row("9", 160, 1, 1.2, 15.)};
