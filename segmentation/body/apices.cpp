@@ -56,8 +56,12 @@ std::optional<Apices> find_apices(const std::vector<double>& front, double step)
   apices.right = std::min(first, best.at);
   apices.left = std::max(first, best.at);
   apices.valley = valley_between(front, apices.right, apices.left);
-  const double along = (apices.valley - begin + 0.5) / static_cast<double>(end - begin);
-  if (along < 1.0 / 3 || along > 2.0 / 3) return std::nullopt;  // a breast and an arm
+  const auto in_middle_third = [&](double column) {
+    const double along = (column - begin + 0.5) / static_cast<double>(end - begin);
+    return along > 1.0 / 3 && along < 2.0 / 3;
+  };
+  if (!in_middle_third(apices.valley) && !in_middle_third((apices.right + apices.left) / 2.0))
+    return std::nullopt;  // a breast and an arm
   return apices;
 }
 

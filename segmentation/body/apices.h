@@ -36,7 +36,8 @@ struct Apices {
 /// `front[i]` is how far forward [mm] the skin reaches at the i-th column of x (-infinity: no
 /// skin). Of all second apices the one that stands highest over its valley is taken. Empty if it
 /// stands less than 10 mm over it, the two are less than 60 mm apart (`step` is the column width,
-/// mm), or the valley is not in the middle third of the skin's width (a breast and an arm).
+/// mm), or neither the valley nor the middle between the two is in the middle third of the skin's
+/// width (a breast and an arm).
 std::optional<Apices> find_apices(const std::vector<double>& front, double step);
 
 /// Middle of the columns between two, both included, that lie within 2 mm of the lowest of them: as

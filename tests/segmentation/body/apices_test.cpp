@@ -44,6 +44,26 @@ TEST(Apices, OfAMirroredProfileAreTheMirrorImages) {
   EXPECT_DOUBLE_EQ(valley_between({5, 0, 0, 5}, 0, 3), 1.5);
 }
 
+/// As where a coil's plates pressed one breast and not the other: the skin falls towards it.
+TEST(Apices, MayHaveTheirValleyBesideOneOfThem) {
+  std::vector<double> front;
+  for (int i = 0; i <= 150; ++i)
+    front.push_back(std::max(
+        {40 - 0.05 * (i - 40) * (i - 40), 30 - 0.2 * (i - 125) * (i - 125), 0.2 * (110 - i), 0.0}));
+  const auto apices = find_apices(front, 2);
+  ASSERT_TRUE(apices);
+  EXPECT_GT(apices->valley, 101) << "beyond two thirds";
+  EXPECT_EQ(apices->right, 40);
+  EXPECT_EQ(apices->left, 125);
+}
+
+TEST(Apices, OfABreastAndAnArmAreNone) {
+  std::vector<double> front(150, 0);
+  front[20] = 30, front[60] = 40;  // of 149: the middle between them at 0.27, the valley before it
+  for (int i = 21; i < 60; ++i) front[i] = 0.1 * i;
+  EXPECT_FALSE(find_apices(front, 2));
+}
+
 TEST(Apices, OneBreastHasNoValley) { EXPECT_FALSE(find_apices(two_bumps(0), 2)); }
 
 TEST(Apices, ALowSecondBumpIsNoBreast) { EXPECT_FALSE(find_apices(two_bumps(8), 2)); }
