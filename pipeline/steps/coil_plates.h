@@ -19,9 +19,10 @@ struct CoilPlates {
   double apart_mm = 0;
 };
 
-/// Looks on both sides of the imaged breast for its largest plane patch: skin within 1 mm of a
-/// plane and 6 degrees of its normal, which runs within 45 degrees of left or right. Empty unless
-/// both are larger, and more parallel, than those of breasts that hang free.
+/// Looks for plane patches of skin on both sides of the imaged breast that face each other: skin
+/// within 1 mm of a plane and 6 degrees of its normal, which runs within 45 degrees of left or
+/// right; the two within 12 degrees of parallel. Of all pairs the one whose smaller patch is
+/// largest. Empty where that is smaller than 0.12 of the breast's volume to the power 2/3.
 std::optional<CoilPlates> find_coil_plates(const MeshFile& imaged);
 
 /// The plates' pressure on that skin: `pressure` [kPa] within 1 mm of a plate and 6 degrees of its
