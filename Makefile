@@ -36,11 +36,11 @@ override ELEMENTS := $(value ELEMENTS)
 ifeq ($(RESULTS),)
 $(error RESULTS is empty: name the folder that results go to)
 endif
-export P DATA RESULTS FORCE BIN SEED PATIENTS JOBS ONLY ENGINE CONFIG PREFIX CASES SYNTHETIC CHANGES VIEWS SPOIL MISFIT HARD FATTY OTHERS TABLE UNLOAD PRESET PRESS AXE MESHES NUMBERS ELEMENTS
+export P DATA RESULTS FORCE BIN SEED PATIENTS JOBS ONLY ENGINE CONFIG PREFIX CASES SYNTHETIC CHANGES VIEWS SPOIL MISFIT HARD FATTY OTHERS TABLE UNLOAD PRESET PRESS AXE MESHES NUMBERS ELEMENTS PRESSURES
 unexport MAKEFLAGS MAKEOVERRIDES
 
 .PHONY: help patient segment fit unload compress register report slicer paraview synthesize exam cohort verify-results \
-        evaluate-segmentation evaluate-segmentation-changes evaluate-fitting evaluate-compression evaluate-unload evaluate-gravity evaluate-registration \
+        evaluate-segmentation evaluate-segmentation-changes evaluate-fitting evaluate-compression evaluate-coil evaluate-unload evaluate-gravity evaluate-registration \
         evaluate-stability evaluate-refinement evaluate-stabilisation evaluate-other-meshes evaluate-supine-spread evaluate-what-if evaluate-page evaluate-outlines evaluate-mammograms evaluate-mammogram-changes evaluate-tomosynthesis evaluate-real-pairs evaluate-niftysim evaluate-victre calibrate-tissue measured validate bench chain programs configured \
         configured_to_test install docs test clean
 .NOTPARALLEL:  # ninja itself uses all cores
@@ -73,6 +73,8 @@ help:
 	@echo 'make evaluate-supine-spread  how far landmarks of women go against their nipple as they lie back:'
 	@echo '                       RESULTS/evaluation/supine_spread.json'
 	@echo 'make evaluate-unload   takes gravity off every breast of CASES: RESULTS/evaluation/unload.json'
+	@echo 'make evaluate-coil     drawn breasts imaged between the plates of a coil: RESULTS/evaluation/coil.json;'
+	@echo '                       SYNTHETIC=10 of them, PRESSURES="0 2" [kPa] to take off'
 	@echo 'make evaluate-compression   compresses SYNTHETIC=200 drawn breasts and those of CASES=folder in'
 	@echo '                       both views: RESULTS/evaluation/compression.json; JOBS=2 at a time; UNLOADED=1: free of gravity'
 	@echo 'make evaluate-stability  presses label maps and MRI of CASES again with their input changed in ways that must'
@@ -147,6 +149,10 @@ evaluate-fitting: mammotwin-evaluate-fitting
 
 evaluate-unload: mammotwin-evaluate-unload
 	@"$$BIN/mammotwin-evaluate-unload" "$$CASES" "$$RESULTS/evaluation/unload.json" --views
+
+evaluate-coil: mammotwin-evaluate-coil
+	@"$$BIN/mammotwin-evaluate-coil" "$$RESULTS/evaluation/coil.json" \
+	  $${SYNTHETIC:+--synthetic "$$SYNTHETIC"} $${PRESSURES:+--pressures $$PRESSURES} $${JOBS:+--jobs "$$JOBS"}
 
 evaluate-supine-spread: mammotwin-evaluate-supine-spread
 	@"$$BIN/mammotwin-evaluate-supine-spread" "$$CASES" "$$RESULTS/evaluation/supine_spread.json"

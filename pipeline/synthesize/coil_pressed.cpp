@@ -3,25 +3,64 @@
 #include <tbb/parallel_for.h>
 
 #include <cmath>
+#include <limits>
+#include <stdexcept>
 
+#include "pipeline/steps/breast_problem.h"
 #include "registration/carry/point_carrier.h"
 #include "registration/carry/position_grid.h"
 #include "segmentation/image/trilinear.h"
+#include "solver/element/face.h"
+#include "solver/press/compress.h"
 
 namespace mammotwin {
 namespace {
 
-constexpr double kBeside_mm = 12;  // of the mesh: the nipple, skin that it smooths, air
+constexpr double kClearance_mm = 5, kRounding_mm = 5;  // of the plates' rear edges
+constexpr double kGoesAlong_mm = 60;                   // beside the mesh, less and less
 
-/// What an image shows at a place where there is nothing, as noisy as there: its foremost row.
-std::int16_t air(const Volume<std::int16_t>& image, int i, int k) { return image(i, 0, k); }
+constexpr double kEndless = std::numeric_limits<double>::infinity();
+
+/// Calls `visit(label, place)` with points of the mesh's outer faces.
+template <class Visit>
+void for_outer_points(const MeshFile& mesh, const Visit& visit) {
+  constexpr int kSamples = 8;  // along each side of a face
+  for (int e = 0; e < mesh.mesh.num_elements(); ++e)
+    for (int face = 0; face < 6; ++face)
+      for (int k = 0; mesh.faces[e][face] != FaceLabel::interior && k < kSamples * kSamples; ++k)
+        visit(mesh.faces[e][face],
+              mesh.mesh.position({e, point_on_face(face, k % kSamples / (kSamples - 1.0),
+                                                   k / kSamples / (kSamples - 1.0))}));
+}
+
+/// Puts the plates' middle where that of the breast's front half is, and brings them together to
+/// this share of its width.
+void put_round_front_half(const MeshFile& prone, double share, PlateOptions& plates) {
+  double wall = -kEndless, tip = -kEndless;
+  for_outer_points(prone, [&](FaceLabel label, const Eigen::Vector3d& x) {
+    double& foremost = label == FaceLabel::chest_wall ? wall : tip;
+    foremost = std::max(foremost, plates.depth.dot(x));
+  });
+  PlateOptions halfway = plates;
+  halfway.wall_clearance = std::max(0.0, (tip - wall) / 2 - plates.rounding);
+  const PlateFrame front_half(prone, halfway);
+  const auto [low, high] = front_half.heights(prone.mesh.nodes());
+  plates.lift = (low + high) / 2 - front_half.centroid_height();
+  plates.thickness = share * (high - low);
+}
+
+/// 1 on the mesh, nothing from kGoesAlong_mm off it, and smooth.
+double goes_along(double outside_mm) {
+  const double off = std::min(1.0, outside_mm / kGoesAlong_mm);
+  return 1 - off * off * (3 - 2 * off);
+}
 
 Volume<std::int16_t> image_of(const Volume<std::int16_t>& image, const HermiteMesh& prone,
                               const HermiteMesh& pressed) {
-  const PointCarrier back(pressed, prone), there(prone, pressed);
-  Eigen::AlignedBox3d box = bounding_box(prone).merged(bounding_box(pressed));
-  box.min().array() -= kBeside_mm;
-  box.max().array() += kBeside_mm;
+  const PointCarrier back(pressed, prone);
+  Eigen::AlignedBox3d box = bounding_box(pressed);
+  box.min().array() -= kGoesAlong_mm;
+  box.max().array() += kGoesAlong_mm;
   Volume<std::int16_t> result = image;
   tbb::parallel_for(0, image.size.z(), [&](int k) {
     for (int j = 0; j < image.size.y(); ++j)
@@ -29,17 +68,32 @@ Volume<std::int16_t> image_of(const Volume<std::int16_t>& image, const HermiteMe
         const Eigen::Vector3d x = image.position(i, j, k);
         if (!box.contains(x)) continue;
         const CarriedPoint found = back.carry(x);
-        if (found.outside_mm <= kBeside_mm)
-          result(i, j, k) = static_cast<std::int16_t>(
-              std::lround(trilinear_corners(image, image.index(found.in_lps)).of(image)));
-        else if (there.carry(x).outside_mm <= kBeside_mm)
-          result(i, j, k) = air(image, i, k);
+        const Eigen::Vector3d moved = prone.position(found.point) - pressed.position(found.point);
+        const Eigen::Vector3d from =
+            found.outside_mm > 0 ? x + goes_along(found.outside_mm) * moved : found.in_lps;
+        result(i, j, k) = static_cast<std::int16_t>(
+            std::lround(trilinear_corners(image, image.index(from)).of(image)));
       }
   });
   return result;
 }
 
 }  // namespace
+
+CompressionResult press_between_coil_plates(CompressionProblem hanging,
+                                            CompressionSettings settings, double share) {
+  PlateOptions& plates = hanging.plates;
+  settings.paddle_tilt_deg = 0;
+  settings.shape_plates(plates);
+  plates.up = Eigen::Vector3d::UnitX();
+  plates.rounding = kRounding_mm;
+  plates.wall_clearance = kClearance_mm;
+  put_round_front_half(prone_file(hanging.mesh), 1 - share, plates);
+  CompressionResult result = compress(hanging, settings.options);
+  if (!result.report.usable())
+    throw std::runtime_error("truth: between the coil's plates: " + result.report.reason);
+  return result;
+}
 
 SyntheticPatient imaged_pressed(SyntheticPatient patient, const HermiteMesh& prone,
                                 const HermiteMesh& pressed) {

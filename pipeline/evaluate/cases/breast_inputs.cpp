@@ -40,17 +40,6 @@ json made_from(const EvaluatedBreast& breast) {
   return options;
 }
 
-/// The drawn breast on the first chest that can carry it.
-SyntheticPatient make_drawn(const SyntheticBreast& drawn) {
-  for (int attempt = 0;; ++attempt) {
-    try {
-      return make_patient_without_scan(draw_breast(drawn.number, attempt).patient);
-    } catch (const std::invalid_argument&) {
-      if (attempt + 1 == kMostAttempts) throw;
-    }
-  }
-}
-
 /// Runs a stage whose product lies in `folder` and returns its sidecar. Throws std::runtime_error
 /// with its reason where it left no product.
 json run_stage_in(const fs::path& folder, const std::string& stage,
@@ -164,8 +153,19 @@ void take_gravity_off(const EvaluatedBreast& breast, PreparedBreast& prepared) {
 
 }  // namespace
 
+SyntheticPatient make_drawn(const SyntheticBreast& drawn, bool scanned) {
+  for (int attempt = 0;; ++attempt) {
+    try {
+      const PatientOptions options = draw_breast(drawn.number, attempt).patient;
+      return scanned ? make_patient(options) : make_patient_without_scan(options);
+    } catch (const std::invalid_argument&) {
+      if (attempt + 1 == kMostAttempts) throw;
+    }
+  }
+}
+
 json segment_drawn(const SyntheticBreast& drawn, const fs::path& folder) {
-  const SyntheticPatient p = make_drawn(drawn);
+  const SyntheticPatient p = make_drawn(drawn, false);
   const Segmentation s = true_segmentation(p.tissue, p.labels, p.truth);
   write_segmentation(folder / "segmentation.seg.nrrd", s);
   write_fractions(folder / "fractions.nrrd", s.fractions);

@@ -9,6 +9,7 @@
 #include "pipeline/evaluate/cases/label_maps.h"
 #include "pipeline/evaluate/cases/population.h"
 #include "pipeline/patient/tissue_presets.h"
+#include "pipeline/synthesize/patient.h"
 
 namespace mammotwin {
 
@@ -41,6 +42,9 @@ struct PreparedBreast {
   std::array<AskedView, 2> views{{{.view = "cc"}, {.view = "mlo"}}};
   bool usable() const { return reason.empty(); }
 };
+
+/// The drawn breast on the first chest that can carry it, with its MRI or without.
+SyntheticPatient make_drawn(const SyntheticBreast& drawn, bool scanned);
 
 /// A drawn breast as `segment` would hand it on if it made no mistake: segmentation.seg.nrrd and
 /// fractions.nrrd in `folder`. Returns facts of it: side, volume_ml, density, ptosis, lesions.

@@ -8,6 +8,7 @@
 #include "fitting/fit_breast.h"
 #include "pipeline/patient/gravity_settings.h"
 #include "pipeline/steps/breast_problem.h"
+#include "pipeline/synthesize/coil_pressed.h"
 #include "registration/view/view_frame.h"
 #include "solver/gravity/unload.h"
 #include "solver/press/compress.h"
@@ -87,17 +88,9 @@ CompressionProblem TrueBreast::problem(const CompressionSettings& settings, Pose
 }
 
 HermiteMesh TrueBreast::between_coil_plates(double share) const {
-  constexpr double kClearance_mm = 15;  // of the plates from the chest wall
-  CompressionSettings settings = true_settings(tissue_);
-  settings.paddle_tilt_deg = 0;
-  CompressionProblem problem = this->problem(settings, Pose::prone);
-  settings.shape_plates(problem.plates);
-  problem.plates.up = Eigen::Vector3d::UnitX();
-  problem.plates.wall_clearance = kClearance_mm;
-  problem.plates.thickness = (1 - share) * free_thickness(prone_file(unloaded_), problem.plates);
-  const CompressionResult result = compress(problem, settings.options);
-  if (!result.report.usable())
-    throw std::runtime_error("truth: between the coil's plates: " + result.report.reason);
+  const CompressionSettings settings = true_settings(tissue_);
+  const CompressionResult result =
+      press_between_coil_plates(problem(settings, Pose::prone), settings, share);
   return HermiteMesh(result.deformed, unloaded_.mesh.elements());
 }
 
