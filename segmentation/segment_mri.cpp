@@ -7,14 +7,13 @@
 #include <stdexcept>
 
 #include "segmentation/body/midline.h"
-#include "segmentation/chest_wall/compared_wall.h"
 #include "segmentation/chest_wall/half_breast.h"
 #include "segmentation/chest_wall/judge_wall.h"
 #include "segmentation/chest_wall/muscle_slips.h"
-#include "segmentation/contrast_agent/before_agent.h"
 #include "segmentation/contrast_agent/enhancement.h"
 #include "segmentation/files/markups.h"
 #include "segmentation/image/crop.h"
+#include "segmentation/images_beside.h"
 #include "segmentation/lesion/lesion_seed.h"
 #include "segmentation/lesion/lesion_stage.h"
 #include "segmentation/lesion/measure_lesions.h"
@@ -157,38 +156,6 @@ void judge_movement(const std::optional<PreMatch>& match, SegmentQuality& qualit
   quality.doubt(SegmentStatus::look, {"movement", reason.str()});
 }
 
-/// The image before contrast agent, if one is named, laid on the one after it; of a dynamic study
-/// the phase before the one that was chosen, where that shows uptake.
-BeforeAgent read_before_agent(const Mri& mri, const SegmentInput& input, const BodyStage& body,
-                              SegmentResult& result) {
-  const bool named = input.pre || input.pre_series;
-  if (!named && mri.before_agent_series.empty()) return {};
-  const Mri pre = read_mri(input.pre ? *input.pre : *input.mri,
-                           named ? input.pre_series : std::optional(mri.before_agent_series));
-  result.files.insert(result.files.end(), pre.files.begin(), pre.files.end());
-  BeforeAgent before =
-      lay_before_agent(body.lone ? with_mirror_image(pre.image, *body.lone) : pre.image, body);
-  if (named || before.shows_uptake(body.body)) return before;
-  result.quality.notes.push_back(
-      "the phase before the one that was read shows no uptake of contrast agent between the two: "
-      "it is not used");
-  return {};
-}
-
-/// Leaves out a phase that was not named and before which the patient moved.
-void use_if_still(const std::optional<PreMatch>& match, bool named, BeforeAgent& before,
-                  SegmentQuality& quality) {
-  if (!before.is_given()) return;
-  if (!named && match && match->moved()) {
-    before = {};
-    quality.notes.push_back(
-        "the patient moved between the phase that was read and the one before: that is not used");
-    return;
-  }
-  quality.notes.push_back(
-      "lesions were outlined in the enhancement over the image before contrast agent");
-}
-
 /// Offers what takes up contrast agent in the breast, away from skin and wall.
 void offer_candidates(const HalfBreast& half, const Volume<float>& enhancement,
                       SegmentQuality& quality) {
@@ -218,36 +185,6 @@ std::optional<Volume<std::uint8_t>> take_out_vessels(bool fat_suppressed,
       find_vessels(split, interior, uptake_known ? enhancement : Volume<float>());
   take_as_surroundings(vessels, interior, split);
   return vessels;
-}
-
-/// Another image of the study, and where its chest wall lies.
-struct OtherImage {
-  std::string called;
-  ComparedWall wall;
-};
-
-/// Nothing where there is no other, or where it shows no wall; that is noted.
-std::optional<OtherImage> read_other_image(const Mri& mri, const SegmentInput& input,
-                                           const BodyStage& body, const PectoralWall& found,
-                                           Side side, double stiffness, SegmentResult& result) {
-  const std::string series =
-      input.compared_series.value_or(input.compared ? std::string() : mri.compared_series);
-  if (!input.compared && series.empty()) return std::nullopt;
-  const Mri other = read_mri(input.compared ? *input.compared : *input.mri,
-                             series.empty() ? std::nullopt : std::optional(series));
-  result.files.insert(result.files.end(), other.files.begin(), other.files.end());
-  std::string called = "the image that mri.compared names";
-  if (!input.compared) called = "another series of the study";
-  for (const SeriesRow& row : mri.series)
-    if (row.is_compared && !input.compared_series)
-      called = "series " + row.number + " of the study";
-  try {
-    return OtherImage{called, compared_wall(other.image, found, body, side, stiffness)};
-  } catch (const std::exception& error) {
-    result.quality.notes.push_back("the chest wall was not compared with that in " + called +
-                                   ", which shows none: " + error.what());
-    return std::nullopt;
-  }
 }
 
 SegmentResult segment_image(const Mri& mri, const SegmentInput& input,

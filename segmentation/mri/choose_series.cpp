@@ -26,10 +26,7 @@ ChosenSeries choose_by_rule(const std::vector<DicomSeries>& all) {
   out.weighed = series_table(all);
   const std::size_t chosen = choose_series_row(out.weighed);
   out.series = all[chosen];
-  for (std::size_t n = 0; n < all.size(); ++n)
-    if (out.weighed[n].is_before_agent) out.before_agent_uid = all[n].uid;
-  if (const auto compared = choose_compared_row(out.weighed, chosen))
-    out.compared_uid = all[*compared].uid;
+  choose_compared_row(out.weighed, chosen);
   out.notes = {"of " + std::to_string(all.size()) + " series was read: " + out.series.name() +
                ", " + out.weighed[chosen].reason + "; mri.series names another"};
   return out;
@@ -44,7 +41,7 @@ ChosenSeries choose_named(const std::vector<DicomSeries>& all, const std::string
   if (matching.size() > 1)
     throw std::runtime_error("mri.series names " + std::to_string(matching.size()) + " series: " +
                              names_of(matching) + "; expected one (give its SeriesInstanceUID)");
-  return {matching.front(), {}, {}, {}, {}};
+  return {matching.front(), {}, {}};
 }
 
 ChosenSeries choose_any(const std::vector<DicomSeries>& all) {
@@ -54,8 +51,8 @@ ChosenSeries choose_any(const std::vector<DicomSeries>& all) {
     if (series.slices.size() >= least_slices) matching.push_back(series);
   check_one_patient(matching);
   if (matching.size() > 1) return choose_by_rule(matching);
-  if (matching.size() == 1) return {matching.front(), {}, {}, {}, {}};
-  if (all.size() == 1) return {all.front(), {}, {}, {}, {}};
+  if (matching.size() == 1) return {matching.front(), {}, {}};
+  if (all.size() == 1) return {all.front(), {}, {}};
   throw std::runtime_error("holds no MR series of at least " + std::to_string(least_slices) +
                            " slices; found " + names_of(all));
 }

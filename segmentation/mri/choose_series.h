@@ -12,8 +12,6 @@ namespace mammotwin {
 struct ChosenSeries {
   DicomSeries series;
   std::vector<SeriesRow> weighed;  ///< empty without a choice
-  std::string before_agent_uid;    ///< of the one before contrast agent; or empty
-  std::string compared_uid;        ///< of the one with whose wall its own is compared; or empty
   std::vector<std::string> notes;  ///< in sentences
 };
 

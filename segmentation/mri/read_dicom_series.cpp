@@ -40,8 +40,6 @@ DicomVolume read_dicom_series(const fs::path& path, const std::optional<std::str
     ChosenSeries chosen = choose_series(all, series.value_or(""));
     out.notes.insert(out.notes.end(), chosen.notes.begin(), chosen.notes.end());
     out.series = std::move(chosen.weighed);
-    out.before_agent_series = std::move(chosen.before_agent_uid);
-    out.compared_series = std::move(chosen.compared_uid);
     const std::vector<DicomSlice>& slices = chosen.series.slices;
     out.geometry_known = slices.front().geometry_known;
     out.patient_position = slices.front().patient_position;

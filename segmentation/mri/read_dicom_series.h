@@ -15,8 +15,6 @@ struct DicomVolume {
   std::vector<std::filesystem::path> files;  ///< those that the volume was made from
   std::vector<std::string> notes;            ///< what was left aside and chosen, in sentences
   std::vector<SeriesRow> series;             ///< what was weighed; empty without a choice
-  std::string before_agent_series;           ///< UID of the phase before contrast agent; or empty
-  std::string compared_series;               ///< UID of the one to compare the wall with; or empty
   std::string patient_position;              ///< "HFP"; empty where the header does not say
   bool geometry_known = true;                ///< false: sizes and places were assumed
 };

@@ -46,8 +46,6 @@ Mri read_mri(const fs::path& path, const std::optional<std::string>& series) {
     mri.files = std::move(dicom.files);
     mri.notes = std::move(dicom.notes);
     mri.series = std::move(dicom.series);
-    mri.before_agent_series = std::move(dicom.before_agent_series);
-    mri.compared_series = std::move(dicom.compared_series);
     mri.patient_position = dicom.patient_position;
     mri.geometry_known = dicom.geometry_known;
   } else {

@@ -16,10 +16,8 @@ struct Mri {
   std::vector<std::filesystem::path> files;  ///< what was read
   std::vector<std::string> notes;            ///< what the reader chose or changed, in sentences
   std::vector<SeriesRow> series;             ///< of which one was chosen; empty without a choice
-  std::string before_agent_series;  ///< of the same folder, perhaps before contrast agent; or empty
-  std::string compared_series;      ///< of the same folder, to compare the wall with; or empty
-  std::string patient_position;     ///< DICOM's code, "HFP"; empty where not known
-  bool geometry_known = true;       ///< false: the header gives no places; axial, 1 mm was assumed
+  std::string patient_position;              ///< DICOM's code, "HFP"; empty where not known
+  bool geometry_known = true;  ///< false: the header gives no places; axial, 1 mm was assumed
 };
 
 /// Reads a folder with a DICOM series, a (multi-frame) DICOM file, or NIfTI (.nii, .nii.gz), NRRD

@@ -12,6 +12,7 @@ namespace mammotwin {
 
 /// One series of a folder and what became of it.
 struct SeriesRow {
+  std::string uid;     ///< SeriesInstanceUID, for us alone
   std::string number;  ///< "9"; what else a header calls it may name somebody
   std::size_t slices = 0;
   Eigen::Vector3d voxel_mm = Eigen::Vector3d::Zero();

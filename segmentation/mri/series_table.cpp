@@ -65,6 +65,7 @@ SeriesRow row_of(const DicomSeries& series, double first_seconds) {
   const std::vector<double> along = places_along(series);
   const SlicePlacement& place = series.slices.front().placement;
   SeriesRow row;
+  row.uid = series.uid;
   row.number = series.short_number();
   row.slices = series.slices.size();
   row.covers_mm = along.back() - along.front();

@@ -12,10 +12,10 @@ namespace mammotwin {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-BreastStages::BreastStages(const BreastToPress& breast)
+BreastStages::BreastStages(const BreastToPress& breast, bool is_drawn)
     : breast_(breast), segmentation_(breast.folder / "segmentation.seg.nrrd") {
   fs::create_directories(breast.folder);
-  run_to_product({"segment", {}, segmentation_, breast.patient_toml});
+  if (!is_drawn) run_to_product({"segment", {}, segmentation_, breast.patient_toml});
 }
 
 std::vector<std::string> BreastStages::inputs(const fs::path& mesh) const {

@@ -15,8 +15,8 @@ namespace mammotwin {
 /// the stage's reason where it left no product.
 class BreastStages {
  public:
-  /// Segments it. `breast` must outlive this.
-  explicit BreastStages(const BreastToPress& breast);
+  /// Segments it, unless its segmentation was drawn. `breast` must outlive this.
+  explicit BreastStages(const BreastToPress& breast, bool is_drawn = false);
 
   const BreastToPress& breast() const { return breast_; }
   const std::filesystem::path& segmentation() const { return segmentation_; }

@@ -6,11 +6,10 @@
 
 #include "pipeline/evaluate/cases/breast_inputs.h"
 #include "pipeline/evaluate/cases/stage_command.h"
-#include "pipeline/evaluate/compression/pressed_places.h"
+#include "pipeline/evaluate/compression/breast_stages.h"
 #include "pipeline/frame/products.h"
 #include "pipeline/patient/patient.h"
 #include "pipeline/steps/breast_problem.h"
-#include "pipeline/steps/coil_plates.h"
 #include "pipeline/synthesize/coil_pressed.h"
 #include "pipeline/synthesize/hanging_truth.h"
 #include "pipeline/synthesize/nrrd_file.h"
@@ -28,35 +27,10 @@ constexpr const char* kImagedScan =
 constexpr double kKpaPerNPerCm2 = 10;
 const char* const kViews[] = {"cc", "mlo"};
 
-/// A breast under way through the stages, in its folder.
-class CoilStages {
- public:
-  explicit CoilStages(fs::path folder) : folder_(std::move(folder)) {
-    fs::create_directories(folder_);
-  }
-  fs::path file(const std::string& name) const { return folder_ / name; }
-
-  double run(const std::string& stage, const std::string& product,
-             std::vector<std::string> options = {}) const {
-    std::vector<std::string> inputs;
-    if (stage != "segment")
-      inputs = {file("segmentation.seg.nrrd").string(), file("fractions.nrrd").string()};
-    if (stage == "unload") inputs.push_back(file("prone.vtu").string());
-    return run_to_product({stage, inputs, file(product), file("patient.toml"), std::move(options)});
-  }
-
-  void press(const std::string& view, const std::string& unloaded,
-             const std::string& product) const {
-    run_to_product({"compress",
-                    {view, file("segmentation.seg.nrrd").string(), file("fractions.nrrd").string(),
-                     file(unloaded).string()},
-                    file(product),
-                    file("patient.toml")});
-  }
-
- private:
-  fs::path folder_;
-};
+BreastToPress breast_in(const fs::path& folder) {
+  fs::create_directories(folder);
+  return {folder.filename(), folder / "patient.toml", folder};
+}
 
 /// What is true of one breast, and its MRI between the plates.
 struct CoilTruth {
@@ -65,36 +39,41 @@ struct CoilTruth {
   double force_N = 0, area_cm2 = 0;
 };
 
-std::string views_toml(const CoilStages& truth) {
+std::string views_toml(const BreastToPress& truth) {
   std::ostringstream toml;
   for (const char* view : kViews)
     toml << "[views." << view << "]\nthickness_mm = "
-         << stage_sidecar(truth.file(std::string(view) + ".vtu")).at("quality").at("thickness_mm")
+         << stage_sidecar(truth.folder / (std::string(view) + ".vtu"))
+                .at("quality")
+                .at("thickness_mm")
          << "\n";
   return toml.str();
 }
 
-CoilTruth make_truth(const CoilCase& asked, const CoilStages& stages) {
+CoilTruth make_truth(const CoilCase& asked, const BreastToPress& breast) {
   const SyntheticBreast drawn = draw_breast(asked.number);
   CoilTruth truth;
   SyntheticPatient patient = make_drawn(drawn, true);
   const Eigen::Vector3i n = kTruthElements;
-  write_text_atomically(stages.file("patient.toml"),
+  write_text_atomically(breast.patient_toml,
                         "side = \"" + std::string(name_of(patient.truth.region.side)) +
                             "\"\nfit.elements = [" + std::to_string(n.x()) + ", " +
                             std::to_string(n.y()) + ", " + std::to_string(n.z()) + "]\n");
-  segment_drawn(drawn, stages.file(""));
-  stages.run("fit", "prone.vtu");
-  stages.run("unload", "unloaded.vtu");
-  for (const char* view : kViews) stages.press(view, "unloaded.vtu", std::string(view) + ".vtu");
+  segment_drawn(drawn, breast.folder);
+  const BreastStages stages(breast, true);
+  const fs::path prone = breast.folder / "prone.vtu", unloaded = breast.folder / "unloaded.vtu";
+  stages.fit(prone);
+  stages.unload(prone, unloaded);
+  for (const std::string view : kViews)
+    stages.press(view, unloaded, breast.folder / (view + ".vtu"));
 
-  const MeshFile file = read_mesh_file(stages.file("unloaded.vtu"));
+  const MeshFile file = read_mesh_file(unloaded);
   const Segmentation segmentation =
-      read_segmentation(stages.file("segmentation.seg.nrrd"), stages.file("fractions.nrrd"));
+      read_segmentation(stages.segmentation(), fractions_beside(stages.segmentation()));
   Patient settings;
   Settings table;
   settings.declare(table);
-  settings.read(stages.file("patient.toml"), table);
+  settings.read(breast.patient_toml, table);
   CompressionProblem hanging{
       breast_problem(file, tissue_of(file, segmentation.fractions), settings.compression,
                      stiffness_factor_of(file, settings.compression)),
@@ -116,8 +95,9 @@ CoilTruth make_truth(const CoilCase& asked, const CoilStages& stages) {
   return truth;
 }
 
-void write_imaged(const CoilTruth& truth, const CoilStages& imaged, const CoilStages& stages) {
-  write_nrrd(imaged.file(kImagedScan), truth.imaged.scan.image);
+void write_imaged(const CoilTruth& truth, const BreastToPress& imaged,
+                  const BreastToPress& true_breast) {
+  write_nrrd(imaged.folder / kImagedScan, truth.imaged.scan.image);
   std::ostringstream toml;
   toml << "side = \"" << name_of(truth.imaged.truth.region.side) << "\"\n[mri]\npath = \""
        << kImagedScan << "\"\n";
@@ -126,7 +106,7 @@ void write_imaged(const CoilTruth& truth, const CoilStages& imaged, const CoilSt
     toml << "[[lesions]]\nid = \"" << lesion.id << "\"\npoint_lps_mm = [" << at.x() << ", "
          << at.y() << ", " << at.z() << "]\n";
   }
-  write_text_atomically(imaged.file("patient.toml"), toml.str() + views_toml(stages));
+  write_text_atomically(imaged.patient_toml, toml.str() + views_toml(true_breast));
 }
 
 /// Root mean square distance of the unloaded skin from where it truly is [mm].
@@ -152,13 +132,12 @@ double shape_rms(const fs::path& unloaded, const CoilTruth& truth) {
 }
 
 /// The largest distance of a lesion from where it truly comes to lie, relative to the nipple [mm].
-double lesion_off(const std::string& view, const fs::path& pressed, const CoilStages& imaged,
-                  const CoilStages& stages) {
-  const auto segmentation = [](const CoilStages& of) { return of.file("segmentation.seg.nrrd"); };
-  const PressedPlaces found(pressed, view, segmentation(imaged));
-  const PressedPlaces truly(stages.file(view + ".vtu"), view, segmentation(stages));
-  const auto lesions = [&](const CoilStages& of) {
-    return read_segmentation(segmentation(of), of.file("fractions.nrrd")).lesions;
+double lesion_off(const std::string& view, const fs::path& pressed, const BreastStages& imaged,
+                  const BreastStages& stages) {
+  const PressedPlaces found(pressed, view, imaged.segmentation());
+  const PressedPlaces truly(stages.breast().folder / (view + ".vtu"), view, stages.segmentation());
+  const auto lesions = [&](const BreastStages& of) {
+    return read_segmentation(of.segmentation(), fractions_beside(of.segmentation())).lesions;
   };
   const std::vector<Lesion> there = lesions(imaged), here = lesions(stages);
   double worst = 0;
@@ -179,20 +158,22 @@ json new_coil_row(const CoilCase& asked) {
 }
 
 /// What comes of taking off one pressure; the files carry its number in their names.
-void take_off(double pressure_kpa, const CoilTruth& truth, const CoilStages& imaged,
-              const CoilStages& stages, json& row) {
+void take_off(double pressure_kpa, const CoilTruth& truth, const BreastStages& imaged,
+              const BreastStages& stages, json& row) {
   row["taken_off_kpa"] = pressure_kpa;
-  const std::string number = json(pressure_kpa).dump(), unloaded = "unloaded_" + number + ".vtu";
-  imaged.run("unload", unloaded, {"--coil-pressure-kpa", number});
-  const json quality = stage_sidecar(imaged.file(unloaded)).at("quality");
+  const fs::path& folder = imaged.breast().folder;
+  const std::string number = json(pressure_kpa).dump();
+  const fs::path unloaded = folder / ("unloaded_" + number + ".vtu");
+  imaged.unload(folder / "prone.vtu", unloaded, {"--coil-pressure-kpa", number});
+  const json quality = stage_sidecar(unloaded).at("quality");
   row["stiffened"] = quality.at("stiffened");
   if (const json& plates = quality.at("coil_plates"); !plates.is_null())
     for (const char* key : {"left_cm2", "right_cm2", "apart_mm"}) row[key] = plates.at(key);
-  row["shape_rms_mm"] = shape_rms(imaged.file(unloaded), truth);
+  row["shape_rms_mm"] = shape_rms(unloaded, truth);
   for (const std::string view : kViews) {
-    const std::string pressed = view + "_" + number + ".vtu";
+    const fs::path pressed = folder / (view + "_" + number + ".vtu");
     imaged.press(view, unloaded, pressed);
-    row["lesion_" + view + "_mm"] = lesion_off(view, imaged.file(pressed), imaged, stages);
+    row["lesion_" + view + "_mm"] = lesion_off(view, pressed, imaged, stages);
   }
 }
 
@@ -201,14 +182,15 @@ void take_off(double pressure_kpa, const CoilTruth& truth, const CoilStages& ima
 void add_coil_rows(const CoilCase& asked, const std::function<void(const json&)>& add) {
   json row = new_coil_row(asked);
   try {
-    const CoilStages stages(asked.folder / "truth"), imaged(asked.folder / "imaged");
-    const CoilTruth truth = make_truth(asked, stages);
-    write_imaged(truth, imaged, stages);
+    const BreastToPress true_breast = breast_in(asked.folder / "truth"),
+                        imaged_breast = breast_in(asked.folder / "imaged");
+    const CoilTruth truth = make_truth(asked, true_breast);
+    write_imaged(truth, imaged_breast, true_breast);
     row["volume_ml"] = truth.imaged.truth.breast_ml;
     row["plates_N"] = truth.force_N;
     if (truth.force_N > 0) row["plates_kpa"] = kKpaPerNPerCm2 * truth.force_N / truth.area_cm2;
-    imaged.run("segment", "segmentation.seg.nrrd");
-    imaged.run("fit", "prone.vtu");
+    const BreastStages stages(true_breast, true), imaged(imaged_breast);
+    imaged.fit(imaged_breast.folder / "prone.vtu");
     for (const double pressure_kpa : asked.pressures) {
       json one = row;
       try {
