@@ -74,7 +74,7 @@ help:
 	@echo '                       RESULTS/evaluation/supine_spread.json'
 	@echo 'make evaluate-unload   takes gravity off every breast of CASES: RESULTS/evaluation/unload.json'
 	@echo 'make evaluate-coil     drawn breasts imaged between the plates of a coil: RESULTS/evaluation/coil.json;'
-	@echo '                       SYNTHETIC=10 of them, PRESSURES="0 2" [kPa] to take off'
+	@echo '                       SYNTHETIC=10 of them, ROUNDNESS="0 0.8" of the breast let go'
 	@echo 'make evaluate-compression   compresses SYNTHETIC=200 drawn breasts and those of CASES=folder in'
 	@echo '                       both views: RESULTS/evaluation/compression.json; JOBS=2 at a time; UNLOADED=1: free of gravity'
 	@echo 'make evaluate-stability  presses label maps and MRI of CASES again with their input changed in ways that must'
@@ -152,7 +152,7 @@ evaluate-unload: mammotwin-evaluate-unload
 
 evaluate-coil: mammotwin-evaluate-coil
 	@"$$BIN/mammotwin-evaluate-coil" "$$RESULTS/evaluation/coil.json" \
-	  $${SYNTHETIC:+--synthetic "$$SYNTHETIC"} $${PRESSURES:+--pressures $$PRESSURES} $${JOBS:+--jobs "$$JOBS"}
+	  $${SYNTHETIC:+--synthetic "$$SYNTHETIC"} $${ROUNDNESS:+--roundness $$ROUNDNESS} $${JOBS:+--jobs "$$JOBS"}
 
 evaluate-supine-spread: mammotwin-evaluate-supine-spread
 	@"$$BIN/mammotwin-evaluate-supine-spread" "$$CASES" "$$RESULTS/evaluation/supine_spread.json"

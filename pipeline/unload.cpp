@@ -10,6 +10,7 @@
 #include "pipeline/steps/breast_problem.h"
 #include "pipeline/steps/second_state.h"
 #include "pipeline/steps/unload_quality.h"
+#include "registration/search/view_state.h"
 #include "segmentation/files/detached_data.h"
 #include "segmentation/segmentation_file.h"
 #include "solver/newton/blas_kernels.h"
@@ -72,7 +73,6 @@ void hang_in_other_poses(const BreastProblem& unloaded, const StageRun& stage,
     done += 0.2;
     BreastProblem problem = unloaded;
     problem.gravity = gravity_in_lps(pose);
-    problem.skin_forces.clear();
     PoseState state{hang(problem, to_another_pose())};
     state.wall_slide_mm =
         wall_slide(problem.mesh, problem.mesh.mesh.nodes(), state.result.deformed);
@@ -100,31 +100,40 @@ Outcome run(const Arguments& args, const Patient& patient, StageRun& stage) {
   const Pose imaged = patient.imaged_pose(patient_position(args.segmentation));
   UnloadingRecord record;
   record.imaged = imaged;
-  if (imaged != Pose::none) record.coil = find_coil_plates(prone);
-  record.coil_pressure_kpa = patient.gravity.coil_pressure_kpa;
-  DeadForces coil_forces;
-  if (record.coil && record.coil_pressure_kpa > 0)
-    coil_forces = forces_of_pressure(prone, pressure_of(*record.coil, record.coil_pressure_kpa));
+  if (imaged != Pose::none) record.coil = find_pressed_sides(prone);
   const auto problem_with = [&](double factor) {
     BreastProblem problem = breast_problem(prone, tissue, patient.compression, factor);
     problem.gravity = gravity_in_lps(imaged);
     problem.density = patient.gravity.density();
-    problem.skin_forces = coil_forces;
     return problem;
   };
   record.stiffness_factor =
       find_stiffness(patient, stage, problem_with(patient.compression.stiffness_factor), record);
   if (record.stiffness_fit && !record.stiffness_fit->usable()) return judge_unloading(record);
-  const UnloadResult result =
-      unload(problem_with(record.stiffness_factor), {},
-             [&](double done, const std::string& what) { stage.progress(0.6 * done, what); });
+  const auto progress = [&](double from, double share) {
+    return [&stage, from, share](double done, const std::string& what) {
+      stage.progress(from + share * done, what);
+    };
+  };
+  BreastProblem problem = problem_with(record.stiffness_factor);
+  if (record.coil)
+    record.release =
+        release_from_coil(problem, *record.coil, patient.gravity.coil_roundness, progress(0, 0.2));
+  if (record.release) problem.pressed = record.release->pressed;
+  const UnloadResult result = unload(problem, {}, progress(0.2, 0.4));
   record.report = result.report;
   stiffen_as_needed(record);
   if (record.report.usable()) {
     if (record.imaged != Pose::none)
       hang_in_other_poses(from_unloaded(problem_with(record.stiffness_factor), result.unloaded),
                           stage, record);
-    write_mesh_file(stage.products.write_main(), unloaded_file(prone, result, record));
+    MeshFile file = unloaded_file(prone, result, record);
+    if (record.release)
+      if (auto rounder = rounder_shape(problem_with(record.stiffness_factor), *record.coil,
+                                       *record.release, kCoilRoundnessSd);
+          !rounder.empty())
+        file.configurations[kRounderByCoil] = std::move(rounder);
+    write_mesh_file(stage.products.write_main(), file);
   }
   return judge_unloading(record);
 }

@@ -44,9 +44,9 @@ void declare_gravity(Settings& s, GravitySettings& gravity) {
   s.choice("unload.second_gravity", gravity.second_gravity,
            {{"supine", Pose::supine}, {"standing", Pose::standing}, {"prone", Pose::prone}},
            "the pose of `unload.second_state`");
-  s.number("unload.coil_pressure_kpa", gravity.coil_pressure_kpa, {0, 5, "kPa"},
-           "with which the coil's plates press the breast flat, where its skin shows them: taken "
-           "off with gravity");
+  s.number("unload.coil_roundness", gravity.coil_roundness, {0, 1.5, ""},
+           "width over height of the front half, free of load, of a breast that the coil pressed "
+           "flat; 0: it stays as narrow as imaged");
 }
 
 }  // namespace mammotwin

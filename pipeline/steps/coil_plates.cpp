@@ -7,8 +7,8 @@
 #include <numbers>
 #include <vector>
 
+#include "pipeline/steps/skin_samples.h"
 #include "solver/contact/plate_placement.h"
-#include "solver/element/face.h"
 
 namespace mammotwin {
 namespace {
@@ -31,33 +31,12 @@ struct PlanePatch {
   double area_cm2 = 0;
 };
 
-struct SkinSample {
-  Eigen::Vector3d x, outward;
-  double area;  ///< [mm²]
-};
-
-SkinSample sample_at(const HermiteMesh& mesh, int element, int face, const Eigen::Vector3d& xi) {
-  const Eigen::Matrix3d J = mesh.jacobian({element, xi});
-  const auto [a, b] = face_directions(face);
-  Eigen::Vector3d normal = J.col(a).cross(J.col(b));
-  if (normal.dot(J.col(face / 2)) * (face % 2 ? 1 : -1) < 0) normal = -normal;
-  return {mesh.position({element, xi}), normal.normalized(),
-          normal.norm() / (kPatchSamples * kPatchSamples)};
-}
-
 /// Of the skin that faces one side.
 std::vector<SkinSample> side_samples(const MeshFile& imaged, double towards_left) {
-  std::vector<SkinSample> samples;
-  for (int e = 0; e < imaged.mesh.num_elements(); ++e)
-    for (int face = 0; face < 6; ++face)
-      for (int k = 0; imaged.faces[e][face] == FaceLabel::skin && k < kPatchSamples * kPatchSamples;
-           ++k) {
-        const SkinSample sample =
-            sample_at(imaged.mesh, e, face,
-                      point_on_face(face, (k % kPatchSamples + 0.5) / kPatchSamples,
-                                    (k / kPatchSamples + 0.5) / kPatchSamples));
-        if (sample.outward.x() * towards_left > cosine(kTowardsSide_deg)) samples.push_back(sample);
-      }
+  std::vector<SkinSample> samples = skin_samples(imaged, kPatchSamples);
+  std::erase_if(samples, [&](const SkinSample& s) {
+    return s.outward.x() * towards_left <= cosine(kTowardsSide_deg);
+  });
   return samples;
 }
 
@@ -120,20 +99,6 @@ std::optional<CoilPlates> find_coil_plates(const MeshFile& imaged) {
                     left.area_cm2,
                     right.area_cm2,
                     across.dot(left.middle_in_lps - right.middle_in_lps)};
-}
-
-SkinPressure pressure_of(const CoilPlates& plates, double pressure_kpa) {
-  return [plates, pressure_kpa](const Eigen::Vector3d& x, const Eigen::Vector3d& outward) {
-    double share = 0;
-    for (const CoilPlates::Plate& plate : {plates.left, plates.right}) {
-      const double off_mm = std::abs(plate.outward.dot(x - plate.point_in_lps));
-      const double turn_deg =
-          std::acos(std::clamp(plate.outward.dot(outward), -1.0, 1.0)) * 180 / std::numbers::pi;
-      const double off = std::max(off_mm / kOffPlane_mm, turn_deg / kPlaneTurn_deg);
-      share = std::max(share, std::clamp(2 - off, 0.0, 1.0));
-    }
-    return pressure_kpa * share;
-  };
 }
 
 }  // namespace mammotwin

@@ -3,7 +3,6 @@
 #include <optional>
 
 #include "fitting/mesh/mesh_file.h"
-#include "solver/element/dead_forces.h"
 
 namespace mammotwin {
 
@@ -24,9 +23,5 @@ struct CoilPlates {
 /// right; the two within 12 degrees of parallel. Of all pairs the one whose smaller patch is
 /// largest. Empty where that is smaller than 0.12 of the breast's volume to the power 2/3.
 std::optional<CoilPlates> find_coil_plates(const MeshFile& imaged);
-
-/// The plates' pressure on that skin: `pressure` [kPa] within 1 mm of a plate and 6 degrees of its
-/// normal, nothing from twice as far on.
-SkinPressure pressure_of(const CoilPlates& plates, double pressure_kpa);
 
 }  // namespace mammotwin

@@ -25,7 +25,7 @@ RegisteredView read_registered_view(const std::string& name, const std::filesyst
       record.baseline ? std::optional(baseline_of(*record.baseline, mesh, view)) : std::nullopt);
   std::map<std::string, HermiteMesh> states;
   for (const auto& [state, nodes] : file.configurations)
-    if (state != "prone" && !is_of_registration(state))
+    if (state != "prone" && state != kRounderByCoil && !is_of_registration(state))
       states.emplace(state, HermiteMesh(nodes, file.mesh.elements()));
   return {file,
           std::move(mesh),

@@ -27,8 +27,35 @@ json fit_json(const StiffnessFit& fit) {
           {"trials", fit.trials}};
 }
 
-json coil_json(const CoilPlates& coil) {
-  return {{"apart_mm", coil.apart_mm}, {"left_cm2", coil.left_cm2}, {"right_cm2", coil.right_cm2}};
+json coil_json(const UnloadingRecord& record) {
+  if (!record.coil) return {};
+  json coil = {{"roundness_imaged", record.coil->roundness}, {"plates", nullptr}};
+  if (const auto& plates = record.coil->plates)
+    coil["plates"] = {{"apart_mm", plates->apart_mm},
+                      {"left_cm2", plates->left_cm2},
+                      {"right_cm2", plates->right_cm2}};
+  const bool released = record.release.has_value();
+  coil["roundness"] = released ? json(record.release->fit.figure) : json();
+  coil["way_mm"] = released ? json(record.release->fit.way_mm) : json();
+  coil["force_N"] = released ? json(record.report.skin_force_N) : json();
+  return coil;
+}
+
+std::string coil_sentence(const UnloadingRecord& record) {
+  std::string text = sentence(
+      "the coil seems to have pressed the breast flat from both sides: its front half is %.2f "
+      "times as wide as high",
+      record.coil->roundness);
+  if (const auto& plates = record.coil->plates)
+    text += sentence(", and %.0f and %.0f cm2 of its skin are plane and parallel, %.0f mm apart",
+                     plates->left_cm2, plates->right_cm2, plates->apart_mm);
+  if (!record.release) return text + "; only gravity is taken off, so it stays as narrow";
+  text += sentence(
+      "; let go it is taken to be %.2f times as wide as high (unload.coil_roundness), for which "
+      "plates would have pressed with %.0f N: nobody saw it so",
+      record.release->fit.figure, record.report.skin_force_N);
+  if (!record.release->fit.reason.empty()) text += " (rounder: " + record.release->fit.reason + ")";
+  return text;
 }
 
 json quality_of(const UnloadingRecord& record) {
@@ -45,8 +72,7 @@ json quality_of(const UnloadingRecord& record) {
                   {"stretch_max", r.stretch_max},
                   {"min_J", r.min_J},
                   {"max_J", r.max_J},
-                  {"coil_plates", record.coil ? coil_json(*record.coil) : json()},
-                  {"coil_pressure_kpa", record.coil ? record.coil_pressure_kpa : 0},
+                  {"coil", coil_json(record)},
                   {"steps", r.steps},
                   {"newton_iterations", r.newton_iterations},
                   {"dof", r.dof}};
@@ -114,21 +140,7 @@ Outcome judge_unloading(const UnloadingRecord& record) {
         sentence("the tissue was taken %.2f times as stiff as set: no softer breast hangs as this "
                  "one does (is the chest wall right, and is skin where the mesh has it?)",
                  record.stiffened));
-  if (record.coil)
-    doubt(true,
-          sentence("plates of the coil seem to press the breast flat from both sides, %.0f mm "
-                   "apart (%.0f and %.0f cm2 of its skin are plane and parallel); ",
-                   record.coil->apart_mm, record.coil->left_cm2, record.coil->right_cm2) +
-              (record.coil_pressure_kpa > 0
-                   ? sentence("%.2f kPa of them are taken off, a pressure that nobody measured",
-                              record.coil_pressure_kpa)
-                   : "only gravity is taken off, so it stays as narrow as they made it "
-                     "(unload.coil_pressure_kpa takes them off)"));
-  else
-    doubt(record.coil_pressure_kpa > 0,
-          sentence("unload.coil_pressure_kpa is %.2f, but no plates of a coil show in the skin: "
-                   "only gravity is taken off",
-                   record.coil_pressure_kpa));
+  if (record.coil) doubt(true, coil_sentence(record));
   for (const auto& [name, pose] : record.poses) {
     const HangReport& r = pose.result.report;
     doubt(!r.usable(), "the breast does not come to rest " + name + ": " + r.reason +

@@ -6,7 +6,7 @@
 
 #include "pipeline/frame/outcome.h"
 #include "pipeline/patient/gravity_settings.h"
-#include "pipeline/steps/coil_plates.h"
+#include "pipeline/steps/coil_release.h"
 #include "solver/gravity/fit_stiffness.h"
 
 namespace mammotwin {
@@ -25,8 +25,8 @@ struct UnloadingRecord {
   double stiffened = 1;  ///< of that: what the settings' was raised by, so that the breast hangs
   std::optional<StiffnessFit> stiffness_fit;
   UnloadReport report;
-  std::optional<CoilPlates> coil;
-  double coil_pressure_kpa = 0;            ///< as set; taken off where there are plates
+  std::optional<PressedSides> coil;
+  std::optional<CoilRelease> release;      ///< empty: it stays as narrow as imaged
   std::map<std::string, PoseState> poses;  ///< "standing", "supine"
 };
 

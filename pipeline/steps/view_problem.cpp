@@ -39,6 +39,13 @@ CompressionProblem changed(const Patient& patient, const ViewSettings& view, Sid
     law->c1_kpa *= std::exp(state[kStiffnessRatio]);
     law->c2_kpa *= std::exp(state[kStiffnessRatio]);
   }
+  if (const auto rounder = mesh.configurations.find(kRounderByCoil);
+      rounder != mesh.configurations.end() && state[kCoilRoundness] != 0) {
+    const double share = state[kCoilRoundness] / kCoilRoundnessSd;
+    problem.mesh.mesh =
+        HermiteMesh(combined(1 - share, problem.mesh.mesh.nodes(), share, rounder->second),
+                    problem.mesh.mesh.elements());
+  }
   problem.laws = stiffer.laws(stiffness_factor_of(mesh, patient.compression));
   problem.boundary.chest_wall_spring *= std::exp(state[kSprings]);
   problem.friction.coefficient =

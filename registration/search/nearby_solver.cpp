@@ -132,6 +132,7 @@ std::optional<Slopes> NearbySolver::slopes(const ViewState& sd) const {
   if (!nearby.usable()) return std::nullopt;
   Slopes slopes;
   for (int i = 0; i < kMechanical; ++i) {
+    if (sd[i] == 0) continue;
     const ViewState nudge = kStateNudge * sd[i] * ViewState::Unit(i);
     try {
       slopes[i] = change_between(nearby, -nudge, nudge);

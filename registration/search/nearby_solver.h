@@ -59,7 +59,8 @@ class NearbySolver {
   std::optional<SolvedView> solve(const ViewState& state) const;
 
   /// At the base with the softer contact, by implicit differentiation
-  /// (solver/press/nearby_equilibria.h), for standard deviations `sd`. Empty where that equilibrium
+  /// (solver/press/nearby_equilibria.h), for standard deviations `sd`; 0: not a number of this
+  /// breast. Empty where that equilibrium
   /// is not there or not stable.
   std::optional<Slopes> slopes(const ViewState& sd) const;
 

@@ -5,7 +5,6 @@
 
 #include <cmath>
 #include <numbers>
-#include <numeric>
 #include <utility>
 
 namespace mammotwin {
@@ -86,8 +85,9 @@ void ReducedView::rebase(const ViewState& z, const Nodes& solved_in_view) {
 }
 
 ReducedView reduce_view(const NearbySolver& solver, const ViewState& sd) {
-  std::vector<int> all(kMechanical);
-  std::iota(all.begin(), all.end(), 0);
+  std::vector<int> all;
+  for (int i = 0; i < kMechanical; ++i)
+    if (sd[i] > 0) all.push_back(i);
   return reduce_view(solver, sd, all);
 }
 
@@ -115,6 +115,7 @@ ReducedView reduce_view(const NearbySolver& solver, const ViewState& sd,
     reduced.modes[numbers[n]] = mode_of(zero, up, down);
     reduced.failed_solves += (up.share == 0) + (down.share == 0);
   }
+  if (reduced.failed_solves == static_cast<int>(found.size())) return unvaried_view(solver, sd);
   return reduced;
 }
 
@@ -125,6 +126,7 @@ ReducedView linear_view(const NearbySolver& solver, const ViewState& sd) {
   reduced.failed_solves = 0;
   for (int i = 0; i < kMechanical; ++i) {
     const Nodes& slope = (*slopes)[i];
+    if (sd[i] == 0) continue;
     if (slope.empty())
       reduced.failed_solves += 2;
     else

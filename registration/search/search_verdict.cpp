@@ -24,6 +24,7 @@ constexpr std::array<Words, kStates> kWords = {{{"thickness", "mm"},
                                                 {"stiffness of gland over fat", ""},
                                                 {"stiffness of the chest wall's springs", ""},
                                                 {"friction with the plates", ""},
+                                                {"roundness free of the coil", ""},
                                                 {"turn on the detector", "degrees"},
                                                 {"place in depth", "mm"},
                                                 {"place sideways", "mm"}}};
@@ -42,7 +43,7 @@ std::string outline_sentence(double rms_mm) {
 
 std::string state_sentence(int number, double value, double limit) {
   const Words& words = kWords[number];
-  if (number == kFriction)
+  if (number == kFriction || number == kCoilRoundness)
     return text_of("the mammogram asks for another %s, by %.2f; beyond %.2f is unusual", words.what,
                    value, limit);
   if (shared_by_views(number))

@@ -26,11 +26,18 @@ ReducedView unsolved(const SearchInput& input) {
   return view;
 }
 
+/// Numbers that this breast has not, do not vary.
+ViewState deviations(const MeshFile& file) {
+  ViewState sd = prior_sd();
+  if (!file.configurations.contains(kRounderByCoil)) sd[kCoilRoundness] = 0;
+  return sd;
+}
+
 /// By secants where a search will go far, else by slopes.
 ReducedView reduced_view(const SearchInput& input) {
   ReducedView view = !input.solver    ? unsolved(input)
-                     : input.evidence ? reduce_view(*input.solver, prior_sd())
-                                      : linear_view(*input.solver, prior_sd());
+                     : input.evidence ? reduce_view(*input.solver, deviations(input.file))
+                                      : linear_view(*input.solver, deviations(input.file));
   view.elements = input.file.mesh.elements();
   return view;
 }

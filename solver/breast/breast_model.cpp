@@ -17,7 +17,8 @@ namespace mammotwin {
 
 namespace {
 
-constexpr double kWallPenalty = 1000;  // x modulus/size: 10 kPa moves the wall by about 0.05 mm
+constexpr double kSkinHoldPenalty = 10;  // x modulus/size: rigid beside tissue
+constexpr double kWallPenalty = 1000;    // x modulus/size: 10 kPa moves the wall by about 0.05 mm
 
 void check(bool good, const std::string& message) {
   if (!good) throw std::invalid_argument(message);
@@ -128,6 +129,24 @@ void hold_chest_wall(const BreastProblem& problem, const HermiteMesh& prone, Bre
   }
 }
 
+void hold_skin(const BreastProblem& problem, const HermiteMesh& prone, BreastModel& breast) {
+  if (!problem.pressed) return;
+  breast.skin_hold = std::make_shared<SkinHold>();
+  const double k = kSkinHoldPenalty * breast.penalty_unit();
+  for (const auto& [e, face] : faces_labelled(problem.mesh, FaceLabel::skin)) {
+    breast.model->add_surface_potential(e, face, breast.skin_hold);
+    for (const Face& f : breast.model->faces(e)) {
+      if (f.face() != face) continue;
+      const Face imaged(e, face, element_coefficients(prone, prone.nodes(), e), f.points1d());
+      for (int q = 0; q < f.num_points(); ++q) {
+        const SurfacePoint& there = imaged.point(q);
+        breast.skin_hold->remember(f.point(q), there.X,
+                                   k * problem.pressed.at(there.X, there.normal).share);
+      }
+    }
+  }
+}
+
 void hold_cut_faces(const BreastProblem& problem, BreastModel& breast) {
   const auto& options = problem.boundary;
   const Faces faces = faces_labelled(problem.mesh, FaceLabel::cut);
@@ -157,6 +176,11 @@ Faces faces_labelled(const MeshFile& mesh, FaceLabel label) {
   return faces;
 }
 
+void BreastModel::set_skin_share(double share) {
+  model->set_dead_share(share);
+  if (skin_hold) skin_hold->set_share(share);
+}
+
 BreastModel make_breast_model(const BreastProblem& problem, const SolidOptions& solid) {
   check_problem(problem);
   BreastModel breast;
@@ -181,6 +205,7 @@ BreastModel make_breast_model(const BreastProblem& problem, const SolidOptions& 
   add_skin(problem, *breast.model);
   hold_chest_wall(problem, prone, breast);
   hold_cut_faces(problem, breast);
+  hold_skin(problem, prone, breast);
   breast.dofs->number(mesh);
   return breast;
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "solver/breast/breast_problem.h"
+#include "solver/load/skin_hold.h"
 #include "solver/load/wall_surface.h"
 #include "solver/newton/dof_map.h"
 #include "solver/newton/model.h"
@@ -17,10 +18,14 @@ using Faces = std::vector<std::pair<int, int>>;  ///< (element, face)
 struct BreastModel {
   std::unique_ptr<Model> model;
   std::unique_ptr<DofMap> dofs;
-  std::shared_ptr<WallSurface> wall;  ///< null if the chest wall is clamped
+  std::shared_ptr<WallSurface> wall;    ///< null if the chest wall is clamped
+  std::shared_ptr<SkinHold> skin_hold;  ///< null where no skin is held
   Faces wall_faces;
   double largest_modulus = 0;  ///< of the tissue at the quadrature points [kPa]
   double element_size = 0;     ///< cube root of the mean element volume [mm]
+
+  /// Of the dead forces on the skin and of what holds it, how much there is.
+  void set_skin_share(double share);
 
   /// Shear modulus / element size [kPa/mm]: the unit of penalties.
   double penalty_unit() const { return largest_modulus / element_size; }

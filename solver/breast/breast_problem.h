@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "fitting/mesh/mesh_file.h"
+#include "solver/breast/pressed_skin.h"
 #include "solver/element/dead_forces.h"
 #include "solver/material/mixture.h"
 
@@ -71,10 +72,8 @@ struct BreastProblem {
   BoundaryOptions boundary;
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  ///< [mm/s²]
   double density = 1e-6;                              ///< [kg/mm³] > 0
-  DeadForces skin_forces;  ///< of what pressed the breast when it was imaged; empty: none
+  PressedSkin pressed;     ///< of the imaged skin; there it is held (SkinHold), too
+  DeadForces skin_forces;  ///< of what presses it; empty: none
 };
-
-/// Gravity and skin forces times `factor`.
-void scale_load(double factor, BreastProblem& problem);
 
 }  // namespace mammotwin

@@ -13,12 +13,12 @@ constexpr double kLowest = 0.1, kHighest = 10, kPrecision = 0.02;
 double distance_with(double factor, BreastProblem prone, const Eigen::Vector3d& second_gravity,
                      const StateDistance& distance, UnloadOptions options) {
   options.check = false;
-  scale_load(1 / factor, prone);
+  prone.gravity /= factor;
   const UnloadResult unloaded = unload(prone, options);
   if (!unloaded.report.usable()) return std::numeric_limits<double>::infinity();
   BreastProblem second = from_unloaded(prone, unloaded.unloaded);
   second.gravity = second_gravity / factor;
-  second.skin_forces.clear();
+  second.pressed = {};
   HangOptions hanging;
   hanging.solid = options.solid;
   const HangResult state = hang(second, hanging);

@@ -25,7 +25,7 @@ LoadSteppingReport raise_body_force(BreastModel& breast, Newton& newton,
       [&](double fraction, State& trial) {
         breast.model->set_body_force(
             [force = (fraction * body_force).eval()](const Eigen::Vector3d&) { return force; });
-        breast.model->set_dead_share(fraction);
+        breast.set_skin_share(fraction);
         return newton.solve(trial, balance);
       },
       [](const LoadSteppingReport&, const State&, const NewtonReport&) {});

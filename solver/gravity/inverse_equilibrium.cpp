@@ -17,6 +17,8 @@ namespace mammotwin {
 
 namespace {
 
+constexpr double kSpringPenalty = 30;  // x modulus/size: a centimetre short takes it half a one
+
 using Fractions = std::vector<std::array<double, 3>>;
 
 /// Keeps what the sampler gives in `memory`.
@@ -33,6 +35,18 @@ TissueSampler replaying(std::shared_ptr<const Fractions> memory) {
     next %= memory->size();
     return (*memory)[next++];
   };
+}
+
+/// The imaged shape as its own reference; the problem remembers its tissue.
+BreastModel remembered_model(BreastProblem& problem, const SolidOptions& solid) {
+  problem.prone.clear();
+  problem.gravity.setZero();
+  problem.skin_forces.clear();
+  auto memory = std::make_shared<Fractions>();
+  problem.tissue = recording(problem.tissue, memory);
+  BreastModel model = make_breast_model(problem, solid);
+  problem.tissue = replaying(memory);
+  return model;
 }
 
 State moved(const State& from, const std::vector<HermiteMesh::Node>& nodes,
@@ -57,19 +71,28 @@ NewtonReport& stopped(NewtonReport& report, const char* reason) {
 }  // namespace
 
 InverseEquilibrium::InverseEquilibrium(const BreastProblem& problem, const SolidOptions& solid)
-    : problem_(problem), solid_(solid) {
-  problem_.prone.clear();
-  problem_.gravity.setZero();
-  auto memory = std::make_shared<Fractions>();
-  problem_.tissue = recording(problem.tissue, memory);
-  prone_ = make_breast_model(problem_, solid_);
-  problem_.tissue = replaying(memory);
+    : problem_(problem),
+      solid_(solid),
+      prone_(remembered_model(problem_, solid)),
+      springs_(problem_, kSpringPenalty * prone_.penalty_unit()) {
   problem_.prone = problem.mesh.mesh.nodes();
   pattern_ = make_sparse_pattern(problem.mesh.mesh, *prone_.dofs);
   matrix_ = std::make_unique<GeneralMatrix>(pattern_);
 }
 
 State InverseEquilibrium::start() const { return prone_.model->rest(); }
+
+DeadForces InverseEquilibrium::skin_forces(const State& solution) const {
+  return springs_.any()
+             ? springs_.forces(HermiteMesh(solution.x, problem_.mesh.mesh.elements()), skin_way_mm_)
+             : DeadForces();
+}
+
+double InverseEquilibrium::skin_force_N(const State& solution) const {
+  return springs_.any() ? springs_.force_N(HermiteMesh(solution.x, problem_.mesh.mesh.elements()),
+                                           skin_way_mm_)
+                        : 0;
+}
 
 bool InverseEquilibrium::folded(const std::vector<HermiteMesh::Node>& X) const {
   for (int e = 0; e < prone_.model->num_elements(); ++e)
@@ -106,13 +129,14 @@ InverseEquilibrium::Evaluation InverseEquilibrium::evaluate(
   now.breast = forward_model(reference);
   const Model& model = *now.breast.model;
   now.breast.model->set_body_force([&](const Eigen::Vector3d&) { return body_force; });
-  now.breast.model->set_dead_share(skin_share_);
   const State state{problem_.prone, reference.pressure};
   const int count = model.num_elements();
   std::vector<ElementSystem> systems(count);
   tbb::parallel_for(0, count, [&](int e) {
     systems[e].tangent.resize(0, 0);
     model.evaluate(e, state, TangentKind::none, systems[e]);
+    if (springs_.any())
+      springs_.add(e, model.coefficients(reference.x, e), skin_way_mm_, &systems[e], nullptr);
   });
   now.valid = true;
   now.residual = Eigen::VectorXd::Zero(pattern_.num_columns());
@@ -147,6 +171,8 @@ bool InverseEquilibrium::linearise(const State& reference, const Evaluation& her
   tbb::parallel_for(0, count, [&](int e) {
     ReferenceSystem& s = systems[e];
     model.evaluate_reference(e, state, body_force, s);
+    if (springs_.any())
+      springs_.add(e, model.coefficients(reference.x, e), skin_way_mm_, nullptr, &s);
     const Eigen::MatrixXd stiffness = pressure_stiffness(model.element(e));
     s.tangent.noalias() += s.coupling.leftCols(n) * (stiffness * s.pressure_tangent.topRows(n));
     eliminations_[e] = {s.coupling.leftCols(n), s.pressure_tangent.topRows(n), stiffness};

@@ -5,6 +5,7 @@
 
 #include "solver/breast/breast_model.h"
 #include "solver/gravity/general_matrix.h"
+#include "solver/gravity/pressing_springs.h"
 #include "solver/load/load_stepping.h"
 
 namespace mammotwin {
@@ -26,8 +27,12 @@ class InverseEquilibrium {
   /// The deformed shape as its own reference, without pressure: the solution without a load.
   State start() const;
 
-  /// Of problem.skin_forces, how much acts beside the body force; 1 at first.
-  void set_skin_share(double share) { skin_share_ = share; }
+  /// How far problem.pressed goes outward [mm]; 0 at first.
+  void set_skin_way(double way_mm) { skin_way_mm_ = way_mm; }
+
+  /// What pressed there, of a solution.
+  DeadForces skin_forces(const State& solution) const;
+  double skin_force_N(const State& solution) const;
 
   int num_equations() const { return pattern_.num_columns(); }
 
@@ -78,8 +83,9 @@ class InverseEquilibrium {
 
   BreastProblem problem_;  ///< its tissue is remembered: every reference has the same
   SolidOptions solid_;
-  double skin_share_ = 1;
+  double skin_way_mm_ = 0;
   BreastModel prone_;
+  PressingSprings springs_;
   SparsePattern pattern_;
   std::unique_ptr<GeneralMatrix> matrix_;
   std::vector<Elimination> eliminations_;

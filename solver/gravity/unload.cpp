@@ -37,11 +37,6 @@ void measure_strain(const BreastProblem& hanging, const SolidOptions& solid, Unl
   report.stretch_max = stretches.back();
 }
 
-void take(State reference, UnloadResult& result) {
-  result.unloaded = std::move(reference.x);
-  result.pressure = std::move(reference.pressure);
-}
-
 /// One unloading under way.
 class Unloading {
  public:
@@ -57,15 +52,19 @@ class Unloading {
     State reference;
     LoadSteppingReport load;
     double margin = 0;  ///< 0 where the load is not complete
+    DeadForces skin_forces;
+    double skin_force_N = 0;
   };
   TakenOff take_off(double share);
+  void take(TakenOff found, UnloadResult& result);
   HangOptions reload_options() const;
   struct Reload {
     std::optional<double> error_mm;  ///< empty where the breast does not come to rest
     std::string reason;
     bool back_within(double tolerance) const { return error_mm && *error_mm < tolerance; }
   };
-  Reload reload(const Nodes& unloaded, double share, const HangOptions& options) const;
+  Reload reload(const Nodes& unloaded, double share, const DeadForces& skin_forces,
+                const HangOptions& options) const;
   std::optional<double> naive_error() const;
   void find_largest_share(UnloadResult& result, bool reloaded);
   void check(UnloadResult& result);
@@ -77,16 +76,17 @@ class Unloading {
   const UnloadOptions& options_;
   const Progress& progress_;
   InverseEquilibrium inverse_;
+  DeadForces skin_forces_;  ///< of the result
 };
 
 /// Solves for a share of the gravity, from the prone shape on.
 Unloading::TakenOff Unloading::take_off(double share) {
   const Eigen::Vector3d weight = share * problem_.density * problem_.gravity;
-  TakenOff result{inverse_.start(), {}};
+  TakenOff result{inverse_.start(), {}, 0, {}};
   result.load = step_load(
       result.reference, options_.load,
       [&](double fraction, State& trial) {
-        inverse_.set_skin_share(fraction * share);
+        inverse_.set_skin_way(fraction * problem_.pressed.way_mm);
         return inverse_.solve(trial, fraction * weight, options_.tolerance,
                               options_.max_iterations);
       },
@@ -94,6 +94,8 @@ Unloading::TakenOff Unloading::take_off(double share) {
         say(0.5 * so_far.reached, "gravity taken off");
       });
   if (result.load.complete()) result.margin = inverse_.stability_margin(result.reference);
+  result.skin_forces = inverse_.skin_forces(result.reference);
+  result.skin_force_N = inverse_.skin_force_N(result.reference);
   return result;
 }
 
@@ -108,9 +110,11 @@ HangOptions Unloading::reload_options() const {
 
 /// Where an unloaded shape hangs to, beside the prone one.
 Unloading::Reload Unloading::reload(const Nodes& unloaded, double share,
+                                    const DeadForces& skin_forces,
                                     const HangOptions& options) const {
   BreastProblem hanging = from_unloaded(problem_, unloaded);
-  scale_load(share, hanging);
+  hanging.gravity *= share;
+  hanging.skin_forces = skin_forces;
   const HangResult again = hang(hanging, options);
   if (!again.report.usable())
     return {std::nullopt, "it stops at " + percent(again.report.gravity_fraction) +
@@ -120,16 +124,17 @@ Unloading::Reload Unloading::reload(const Nodes& unloaded, double share,
 
 /// What many do: solve the prone shape with gravity reversed and call that unloaded.
 std::optional<double> Unloading::naive_error() const {
+  if (problem_.pressed) return std::nullopt;  // it reverses gravity, not what pressed
   BreastProblem reversed = problem_;
   reversed.prone.clear();
-  scale_load(-1, reversed);
+  reversed.gravity *= -1;
   HangOptions options = reload_options();
   // Soft tissue stood on its head buckles, and for long: only a comparison, it is not waited for.
   options.load.smallest_step = 1;
   options.step_iterations = 12;
   const HangResult naive = hang(reversed, options);
   if (!naive.report.usable()) return std::nullopt;
-  return reload(naive.deformed, 1, options).error_mm;
+  return reload(naive.deformed, 1, {}, options).error_mm;
 }
 
 /// Bisection for the share of the gravity up to which the imaged shape is stable and, if
@@ -138,28 +143,39 @@ void Unloading::find_largest_share(UnloadResult& result, bool reloaded) {
   constexpr int trials = 5;  // to a thirty-second
   UnloadReport& report = result.report;
   double low = 0, high = 1;
-  TakenOff best{inverse_.start(), {}, 1};
+  TakenOff best{inverse_.start(), {}, 1, {}};
   for (int trial = 0; trial < trials; ++trial) {
     const double share = (low + high) / 2;
     say(0.5 + 0.08 * trial, "looking for the largest gravity that works");
     TakenOff tried = take_off(share);
     report.newton_iterations += tried.load.iterations;
     const bool works =
-        tried.margin > 0 && (!reloaded || reload(tried.reference.x, share, reload_options())
-                                              .back_within(options_.round_trip_tolerance));
+        tried.margin > 0 &&
+        (!reloaded || reload(tried.reference.x, share, tried.skin_forces, reload_options())
+                          .back_within(options_.round_trip_tolerance));
     (works ? low : high) = share;
     if (works) best = std::move(tried);
   }
   report.gravity_fraction = low;
   report.stability_margin = best.margin;
-  take(std::move(best.reference), result);
+  take(std::move(best), result);
+}
+
+/// What pressed, for tissue so much stiffer that all of the gravity acts.
+void Unloading::take(TakenOff found, UnloadResult& result) {
+  result.unloaded = std::move(found.reference.x);
+  result.pressure = std::move(found.reference.pressure);
+  skin_forces_ = std::move(found.skin_forces);
+  const double share = result.report.gravity_fraction;
+  result.report.skin_force_N = share > 0 ? found.skin_force_N / share : 0;
 }
 
 /// Loads the result again. A stable shape that balances may yet be one of several.
 void Unloading::check(UnloadResult& result) {
   UnloadReport& report = result.report;
   say(0.9, "loading again");
-  const Reload again = reload(result.unloaded, report.gravity_fraction, reload_options());
+  const Reload again =
+      reload(result.unloaded, report.gravity_fraction, skin_forces_, reload_options());
   if (again.back_within(options_.round_trip_tolerance)) {
     report.round_trip_max_mm = *again.error_mm;
     if (report.usable()) report.naive_reversal_error_mm = naive_error();
@@ -183,7 +199,7 @@ UnloadResult Unloading::run() {
   report.cutbacks = all.load.cutbacks;
   report.newton_iterations = all.load.iterations;
   report.dof = inverse_.num_equations();
-  take(std::move(all.reference), result);
+  take(std::move(all), result);
   if (!report.converged) {
     report.reason = all.load.complete() ? "the imaged shape is not stable under its weight: "
                                           "unloaded and loaded again, it would fall elsewhere"

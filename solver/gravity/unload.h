@@ -26,6 +26,7 @@ struct UnloadReport {
   /// softest deformation is left, 1 without load (InverseEquilibrium::stability_margin).
   double stability_margin = 0;
   int steps = 0, cutbacks = 0, newton_iterations = 0;
+  double skin_force_N = 0;                  ///< of what pressed, on each side (PressingSprings)
   double sag_max_mm = 0;                    ///< largest way of a node from unloaded to prone
   double stretch_p95 = 1, stretch_max = 1;  ///< largest principal stretch at quadrature points
   double min_J = 1, max_J = 1;
@@ -49,9 +50,10 @@ struct UnloadResult {
   UnloadReport report;
 };
 
-/// The shape free of stress that `problem.gravity` and `problem.skin_forces` turn into
-/// `problem.mesh`, which is the breast as imaged (`problem.prone` is not looked at). Where a report
-/// says gravity, it means both.
+/// The shape free of stress that `problem.gravity`, and what pressed `problem.pressed`, turn into
+/// `problem.mesh`, which is the breast as imaged (`problem.prone` is not looked at). Free of load
+/// the pressed skin lies about as far outward as the problem says (PressingSprings); loaded again
+/// by what that takes, it is held where it was imaged.
 ///
 /// Springs are taken to be relaxed, and the skin unstressed, in the unloaded shape; the chest wall
 /// stands where the prone one does, and tissue slides on it.

@@ -10,6 +10,7 @@
 #include "pipeline/frame/products.h"
 #include "pipeline/patient/patient.h"
 #include "pipeline/steps/breast_problem.h"
+#include "pipeline/steps/pressed_sides.h"
 #include "pipeline/synthesize/coil_pressed.h"
 #include "pipeline/synthesize/hanging_truth.h"
 #include "pipeline/synthesize/nrrd_file.h"
@@ -24,7 +25,6 @@ using nlohmann::json;
 
 constexpr const char* kImagedScan =
     "scan.nrrd";  // `segment` leaves its part of the MRI in mri.nrrd
-constexpr double kKpaPerNPerCm2 = 10;
 const char* const kViews[] = {"cc", "mlo"};
 
 BreastToPress breast_in(const fs::path& folder) {
@@ -36,7 +36,8 @@ BreastToPress breast_in(const fs::path& folder) {
 struct CoilTruth {
   SyntheticPatient imaged;
   HermiteMesh pressed{{}, {}}, unloaded{{}, {}};
-  double force_N = 0, area_cm2 = 0;
+  double force_N = 0;
+  double roundness = 0;  ///< free of load
 };
 
 std::string views_toml(const BreastToPress& truth) {
@@ -89,8 +90,10 @@ CoilTruth make_truth(const CoilCase& asked, const BreastToPress& breast) {
         press_between_coil_plates(hanging, settings.compression, asked.pressed);
     truth.pressed = HermiteMesh(result.deformed, file.mesh.elements());
     truth.force_N = result.report.force_N;
-    truth.area_cm2 = result.report.contact_area_cm2;
   }
+  MeshFile shown = file;
+  shown.mesh = truth.pressed;
+  truth.roundness = Roundness(shown, Eigen::Vector3d::UnitX()).of(truth.unloaded.nodes());
   truth.imaged = imaged_pressed(std::move(patient), prone_file(file).mesh, truth.pressed);
   return truth;
 }
@@ -150,25 +153,28 @@ double lesion_off(const std::string& view, const fs::path& pressed, const Breast
 
 json new_coil_row(const CoilCase& asked) {
   json row{{"name", draw_breast(asked.number).name}};
-  for (const char* key :
-       {"volume_ml", "taken_off_kpa", "plates_N", "plates_kpa", "left_cm2", "right_cm2", "apart_mm",
-        "shape_rms_mm", "lesion_cc_mm", "lesion_mlo_mm", "stiffened", "reason"})
+  for (const char* key : {"volume_ml", "asked_roundness", "true_roundness", "imaged_roundness",
+                          "roundness", "plates_N", "found_N", "shape_rms_mm", "lesion_cc_mm",
+                          "lesion_mlo_mm", "stiffened", "reason"})
     row[key] = nullptr;
   return row;
 }
 
-/// What comes of taking off one pressure; the files carry its number in their names.
-void take_off(double pressure_kpa, const CoilTruth& truth, const BreastStages& imaged,
-              const BreastStages& stages, json& row) {
-  row["taken_off_kpa"] = pressure_kpa;
+/// What comes of one roundness; the files carry its number in their names.
+void let_go(double roundness, const CoilTruth& truth, const BreastStages& imaged,
+            const BreastStages& stages, json& row) {
+  row["asked_roundness"] = roundness;
   const fs::path& folder = imaged.breast().folder;
-  const std::string number = json(pressure_kpa).dump();
+  const std::string number = json(roundness).dump();
   const fs::path unloaded = folder / ("unloaded_" + number + ".vtu");
-  imaged.unload(folder / "prone.vtu", unloaded, {"--coil-pressure-kpa", number});
+  imaged.unload(folder / "prone.vtu", unloaded, {"--coil-roundness", number});
   const json quality = stage_sidecar(unloaded).at("quality");
   row["stiffened"] = quality.at("stiffened");
-  if (const json& plates = quality.at("coil_plates"); !plates.is_null())
-    for (const char* key : {"left_cm2", "right_cm2", "apart_mm"}) row[key] = plates.at(key);
+  if (const json& coil = quality.at("coil"); !coil.is_null()) {
+    row["imaged_roundness"] = coil.at("roundness_imaged");
+    row["roundness"] = coil.at("roundness");
+    row["found_N"] = coil.at("force_N");
+  }
   row["shape_rms_mm"] = shape_rms(unloaded, truth);
   for (const std::string view : kViews) {
     const fs::path pressed = folder / (view + "_" + number + ".vtu");
@@ -188,13 +194,13 @@ void add_coil_rows(const CoilCase& asked, const std::function<void(const json&)>
     write_imaged(truth, imaged_breast, true_breast);
     row["volume_ml"] = truth.imaged.truth.breast_ml;
     row["plates_N"] = truth.force_N;
-    if (truth.force_N > 0) row["plates_kpa"] = kKpaPerNPerCm2 * truth.force_N / truth.area_cm2;
+    row["true_roundness"] = truth.roundness;
     const BreastStages stages(true_breast, true), imaged(imaged_breast);
     imaged.fit(imaged_breast.folder / "prone.vtu");
-    for (const double pressure_kpa : asked.pressures) {
+    for (const double roundness : asked.roundnesses) {
       json one = row;
       try {
-        take_off(pressure_kpa, truth, imaged, stages, one);
+        let_go(roundness, truth, imaged, stages, one);
       } catch (const std::exception& error) {
         one["reason"] = error.what();
       }

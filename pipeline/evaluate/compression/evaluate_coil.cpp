@@ -17,7 +17,7 @@ struct Arguments {
   fs::path table;
   int synthetic = 10, jobs = 1;
   double pressed = 0.4;
-  std::vector<double> pressures{0};
+  std::vector<double> roundnesses{0, 0.8};
 };
 
 void declare(CommandLine& command, Arguments& args) {
@@ -30,7 +30,8 @@ void declare(CommandLine& command, Arguments& args) {
               "share of the front half's width that plates take off; 0: no plates")
       .between(0.0, 0.6)
       .with_default();
-  command.option("--pressures", args.pressures, "to take off [kPa]; 0: gravity only (default)");
+  command.option("--roundness", args.roundnesses,
+                 "asked of the unloaded breast, 0: gravity only (default 0 and 0.8)");
   declare_jobs(command, args.jobs, "breasts at a time");
 }
 
@@ -46,7 +47,7 @@ int run(const Arguments& args) {
   const std::vector<int> numbers = large_breasts(args.synthetic);
   work_through(numbers.size(), args.jobs, [&](std::size_t n) {
     add_coil_rows({numbers[n], table.folder() / args.table.stem() / draw_breast(numbers[n]).name,
-                   args.pressed, args.pressures},
+                   args.pressed, args.roundnesses},
                   [&](const nlohmann::json& row) { table.add(n, row); });
   });
   return 0;
@@ -59,7 +60,7 @@ int main(int argc, char** argv) {
   using namespace mammotwin;
   return run_plain_command<Arguments>(
       argc, argv, "evaluate-coil",
-      "Images drawn breasts between a coil's plates, takes the plates off, and writes how near "
+      "Images drawn breasts between a coil's plates, lets them go, and writes how near "
       "that "
       "comes to the true shape and to where lesions truly come to lie",
       declare, run);

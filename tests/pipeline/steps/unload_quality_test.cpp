@@ -48,26 +48,30 @@ TEST(UnloadQuality, TissueSofterThanAnEighthOfThatIsNotUnloaded) {
   }
 }
 
-TEST(UnloadQuality, PlatesOfTheCoilAreSaid) {
+TEST(UnloadQuality, ACoilThatPressedIsSaidAndWhatCameOfIt) {
   UnloadingRecord record = taken_off(1);
-  record.coil = CoilPlates{};
-  record.coil->left_cm2 = 36, record.coil->right_cm2 = 39, record.coil->apart_mm = 64;
-  const Outcome outcome = judge_unloading(record);
-  EXPECT_EQ(outcome.status, Status::look);
-  ASSERT_EQ(outcome.reasons.size(), 1u);
-  EXPECT_NE(outcome.reasons[0].find("64 mm apart (36 and 39 cm2"), std::string::npos)
-      << outcome.reasons[0];
-  EXPECT_EQ(outcome.quality.at("coil_plates").at("apart_mm"), 64);
-}
+  record.coil = PressedSides{CoilPlates{}, 0.45};
+  record.coil->plates->left_cm2 = 36, record.coil->plates->right_cm2 = 39;
+  record.coil->plates->apart_mm = 64;
+  const Outcome kept = judge_unloading(record);
+  EXPECT_EQ(kept.status, Status::look);
+  ASSERT_EQ(kept.reasons.size(), 1u);
+  EXPECT_NE(kept.reasons[0].find("0.45 times as wide as high, and 36 and 39 cm2"),
+            std::string::npos)
+      << kept.reasons[0];
+  EXPECT_NE(kept.reasons[0].find("stays as narrow"), std::string::npos) << kept.reasons[0];
+  EXPECT_EQ(kept.quality.at("coil").at("plates").at("apart_mm"), 64);
+  EXPECT_TRUE(kept.quality.at("coil").at("force_N").is_null());
 
-TEST(UnloadQuality, APressureOfPlatesThatAreNotThereIsSaid) {
-  UnloadingRecord record = taken_off(1);
-  record.coil_pressure_kpa = 0.5;
-  const Outcome outcome = judge_unloading(record);
-  EXPECT_EQ(outcome.status, Status::look);
-  ASSERT_EQ(outcome.reasons.size(), 1u);
-  EXPECT_NE(outcome.reasons[0].find("no plates"), std::string::npos) << outcome.reasons[0];
-  EXPECT_EQ(outcome.quality.at("coil_pressure_kpa"), 0);
+  record.release = CoilRelease{{}, {26, 0.8, 5, ""}};
+  record.report.skin_force_N = 8;
+  const Outcome let_go = judge_unloading(record);
+  EXPECT_EQ(let_go.status, Status::look);
+  EXPECT_NE(let_go.reasons[0].find("0.80 times as wide as high (unload.coil_roundness), for which "
+                                   "plates would have pressed with 8 N"),
+            std::string::npos)
+      << let_go.reasons[0];
+  EXPECT_EQ(let_go.quality.at("coil").at("way_mm"), 26);
 }
 
 TEST(UnloadQuality, PlacesOfABreastThatFallsFartherThanWomensAreDoubted) {

@@ -2,9 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 
+#include "solver/breast/breast_model.h"
+#include "solver/element/element_coefficients.h"
 #include "solver/element/skin_membrane.h"
+#include "solver/gravity/fit_skin_way.h"
+#include "solver/gravity/pressing_springs.h"
 #include "solver/load/spring_bed.h"
 #include "solver/load/wall_surface.h"
 #include "solver/material/exponential.h"
@@ -157,29 +162,100 @@ TEST(Unload, WithoutGravityTheShapeIsTheImagedOne) {
   EXPECT_EQ(result.report.newton_iterations, 0);
 }
 
-/// Pressed from both sides, as by a coil's plates: without them the skin there goes outward, so
-/// their forces would do negative work on the way.
-TEST(Unload, TakesPressureOnTheSkinOff) {
-  BreastProblem problem = hanging_dome(2);
-  const UnloadResult hung = unload(problem, {});
-  problem.skin_forces =
-      forces_of_pressure(problem.mesh, [](const Eigen::Vector3d&, const Eigen::Vector3d& outward) {
-        return 0.3 * std::abs(outward.x());
-      });
-  const UnloadResult pressed = unload(problem, {});
-  ASSERT_TRUE(hung.report.usable() && pressed.report.usable()) << pressed.report.reason;
-  EXPECT_LT(pressed.report.round_trip_max_mm, 1e-6) << "hung up and pressed again";
-  double work = 0, size = 0;  // [mN mm]
+/// The dome's sides, as if a coil's plates had pressed them.
+PressedSkin pressed_sides(double way_mm) {
+  PressedSkin pressed;
+  pressed.way_mm = way_mm;
+  pressed.at = [](const Eigen::Vector3d&, const Eigen::Vector3d& normal) {
+    PressedSkin::Point point;
+    point.outward = normal.x() > 0 ? Eigen::Vector3d::UnitX() : (-Eigen::Vector3d::UnitX()).eval();
+    point.share = point.way = std::clamp(2 * std::abs(normal.x()) - 0.5, 0.0, 1.0);
+    return point;
+  };
+  return pressed;
+}
+
+/// How far the sides of one shape lie outward of those of another, weighed by share [mm].
+double outward_way(const BreastProblem& problem, const std::vector<HermiteMesh::Node>& from,
+                   const std::vector<HermiteMesh::Node>& to) {
+  double sum = 0, weight = 0;
   const HermiteMesh& mesh = problem.mesh.mesh;
-  for (int e = 0; e < mesh.num_elements(); ++e)
-    for (int a = 0; a < kFunctions; ++a) {
-      const int node = mesh.corners(e)[corner_of_function(a)];
-      const Eigen::Vector3d way =
-          (pressed.unloaded[node] - hung.unloaded[node]).col(parameter_of_function(a));
-      const Eigen::Vector3d force = problem.skin_forces[e].row(a);
-      work += force.dot(way), size += force.norm() * way.norm();
+  for (const auto& [e, side] : faces_labelled(problem.mesh, FaceLabel::skin)) {
+    const Face face(e, side, element_coefficients(mesh, mesh.nodes(), e), 8);
+    for (int q = 0; q < face.num_points(); ++q) {
+      const SurfacePoint& point = face.point(q);
+      const PressedSkin::Point pressed = problem.pressed.at(point.X, point.normal);
+      const Eigen::Vector3d way = (face.deformed(element_coefficients(mesh, to, e), q) -
+                                   face.deformed(element_coefficients(mesh, from, e), q))
+                                      .head<3>();
+      sum += pressed.share * point.area * pressed.outward.dot(way);
+      weight += pressed.share * point.area;
     }
-  EXPECT_LT(work, -0.2 * size);
+  }
+  return sum / weight;
+}
+
+TEST(Unload, PressedSkinGoesOutwardAndComesBack) {
+  BreastProblem problem = hanging_dome(2);
+  const std::vector<HermiteMesh::Node>& imaged = problem.mesh.mesh.nodes();
+  double way = 0, force_N = 0;
+  for (const double way_mm : {2.0, 4.0}) {
+    problem.pressed = pressed_sides(way_mm);
+    const UnloadResult result = unload(problem, {});
+    ASSERT_TRUE(result.report.usable()) << result.report.reason;
+    EXPECT_LT(result.report.round_trip_max_mm, 1e-6) << "hung up and pressed again";
+    EXPECT_GT(outward_way(problem, imaged, result.unloaded), way + 0.7);
+    EXPECT_GT(result.report.skin_force_N, force_N + 0.1);
+    way = outward_way(problem, imaged, result.unloaded);
+    force_N = result.report.skin_force_N;
+  }
+}
+
+TEST(FitSkinWay, FindsTheWayToAFigureOrSaysHowFarItCame) {
+  BreastProblem problem = hanging_dome(2);
+  problem.pressed = pressed_sides(0);
+  const std::vector<HermiteMesh::Node> imaged = problem.mesh.mesh.nodes();
+  const auto outward = [&](const auto& shape) { return outward_way(problem, imaged, shape); };
+  const SkinWayFit fit = fit_skin_way(problem, outward, 3, {});
+  EXPECT_EQ(fit.reason, "");
+  EXPECT_NEAR(fit.figure, 3, 0.01);
+  problem.pressed.way_mm = fit.way_mm;
+  EXPECT_NEAR(outward(unload(problem, {}).unloaded), fit.figure, 1e-5);
+
+  const SkinWayFit too_far = fit_skin_way(problem, outward, 300, {});
+  EXPECT_NE(too_far.reason, "");
+  EXPECT_GT(too_far.figure, 3);
+  EXPECT_LT(too_far.figure, 300);
+}
+
+TEST(PressingSprings, ForcesAreTheResidualThatTheyLeaveAndItsDerivative) {
+  BreastProblem problem = hanging_dome(1);
+  problem.pressed = pressed_sides(3);
+  const PressingSprings springs(problem, 0.4);
+  const HermiteMesh& mesh = problem.mesh.mesh;
+  EXPECT_GT(springs.force_N(mesh, 3), 0);
+  EXPECT_EQ(springs.force_N(mesh, 0), 0) << "the imaged shape asks for none";
+  const HermiteMesh X = distorted(mesh, 0.5, 3);
+  const DeadForces forces = springs.forces(X, 3);
+  constexpr double h = 1e-4;
+  int pressed = 0;
+  for (int e = 0; e < mesh.num_elements(); ++e) {
+    const SolidElement::Coefficients at = element_coefficients(X, X.nodes(), e);
+    ElementSystem here, there;
+    ReferenceSystem reference;
+    here.residual.setZero();
+    there.residual.setZero();
+    reference.tangent.setZero();
+    springs.add(e, at, 3, &here, &reference);
+    EXPECT_EQ((here.residual + forces[e].reshaped()).norm(), 0) << e;
+    SolidElement::Coefficients direction = SolidElement::Coefficients::Random();
+    springs.add(e, at + h * direction, 3, &there, nullptr);
+    const Eigen::VectorXd change = (there.residual - here.residual) / h;  // linear
+    EXPECT_NEAR((change - reference.tangent * direction.reshaped()).norm(), 0,
+                1e-6 * (1 + change.norm()));
+    pressed += change.norm() > 0;
+  }
+  EXPECT_GT(pressed, 0);
 }
 
 TEST(Unload, AClampedWallStaysWhereItIs) {

@@ -1,0 +1,154 @@
+#include "pipeline/steps/pressed_sides.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "pipeline/steps/skin_samples.h"
+#include "solver/element/face.h"
+
+namespace mammotwin {
+namespace {
+
+constexpr double kLeastRound = 0.55;  // of breasts that hang
+const Eigen::Vector3d kForward = -Eigen::Vector3d::UnitY(), kHeadward = Eigen::Vector3d::UnitZ();
+
+/// Cosines of a normal to its side: none of it is pressed from the first on, all from the second.
+constexpr double kNotPressed = 0.7, kPressed = 0.9;
+constexpr double kBeyondSpread = 1.2;  // ellipse over that of the same moments
+constexpr double kRearRim_mm = 10;     // before the wall: there it begins
+
+struct Reach {
+  double wall = -std::numeric_limits<double>::infinity();  ///< foremost of it [mm forward]
+  double tip = -std::numeric_limits<double>::infinity();
+};
+
+Reach reach_of(const MeshFile& mesh) {
+  constexpr int n = 8;
+  Reach reach;
+  for (int e = 0; e < mesh.mesh.num_elements(); ++e)
+    for (int face = 0; face < 6; ++face)
+      for (int k = 0; mesh.faces[e][face] != FaceLabel::interior && k < n * n; ++k) {
+        const double forward = kForward.dot(
+            mesh.mesh.position({e, point_on_face(face, k % n / (n - 1.0), k / n / (n - 1.0))}));
+        double& foremost = mesh.faces[e][face] == FaceLabel::chest_wall ? reach.wall : reach.tip;
+        foremost = std::max(foremost, forward);
+      }
+  return reach;
+}
+
+double facing(double cosine) {
+  return std::clamp((cosine - kNotPressed) / (kPressed - kNotPressed), 0.0, 1.0);
+}
+
+/// Pressed skin of one side, in the plane of its forward and headward directions.
+struct PressedEllipse {
+  Eigen::Vector3d outward;
+  double wall;  ///< foremost of it [mm forward]
+  Eigen::Vector2d middle = Eigen::Vector2d::Zero();
+  Eigen::Matrix2d inverse = Eigen::Matrix2d::Zero();  ///< of its quadratic form
+
+  static Eigen::Vector2d flat(const Eigen::Vector3d& x) {
+    return {kForward.dot(x), kHeadward.dot(x)};
+  }
+  /// 1 in the middle, 0 at the rim, beyond it and behind the wall.
+  double at(const Eigen::Vector3d& x) const {
+    const Eigen::Vector2d off = flat(x) - middle;
+    const double before = std::clamp((kForward.dot(x) - wall) / kRearRim_mm, 0.0, 1.0);
+    return before * std::max(0.0, 1 - off.dot(inverse * off));
+  }
+};
+
+PressedEllipse pressed_ellipse(const std::vector<SkinSample>& skin, const Eigen::Vector3d& outward,
+                               double wall) {
+  PressedEllipse ellipse{outward, wall};
+  double area = 0;
+  const auto weight = [&](const SkinSample& s) {
+    return kForward.dot(s.x) > wall ? s.area * facing(outward.dot(s.outward)) : 0;
+  };
+  for (const SkinSample& s : skin) {
+    area += weight(s);
+    ellipse.middle += weight(s) * PressedEllipse::flat(s.x);
+  }
+  if (area == 0) return ellipse;
+  ellipse.middle /= area;
+  Eigen::Matrix2d moments = Eigen::Matrix2d::Zero();
+  for (const SkinSample& s : skin) {
+    const Eigen::Vector2d off = PressedEllipse::flat(s.x) - ellipse.middle;
+    moments += weight(s) / area * off * off.transpose();
+  }
+  const double half_axis = 2 * kBeyondSpread;  // a uniform ellipse reaches to two deviations
+  ellipse.inverse = (half_axis * half_axis * moments).inverse();
+  return ellipse;
+}
+
+}  // namespace
+
+Roundness::Roundness(const MeshFile& imaged, const Eigen::Vector3d& across)
+    : elements_(imaged.mesh.elements()), across_(across) {
+  constexpr int n = 6;
+  const Reach reach = reach_of(imaged);
+  double wall = 0;  // in the mean
+  int faces = 0;
+  for (int e = 0; e < imaged.mesh.num_elements(); ++e)
+    for (int face = 0; face < 6; ++face)
+      if (imaged.faces[e][face] == FaceLabel::chest_wall) {
+        wall += kForward.dot(imaged.mesh.position({e, point_on_face(face, 0.5, 0.5)}));
+        ++faces;
+      }
+  const double middle = (wall / faces + reach.tip) / 2;
+  for (int e = 0; e < imaged.mesh.num_elements(); ++e)
+    for (int k = 0; k < n * n * n; ++k) {
+      const MeshPoint point{
+          e, (Eigen::Vector3d(k % n, k / n % n, k / n / n) + Eigen::Vector3d::Constant(0.5)) / n};
+      if (kForward.dot(imaged.mesh.position(point)) > middle)
+        samples_.push_back({point, imaged.mesh.jacobian(point).determinant()});
+    }
+}
+
+double Roundness::of(const std::vector<HermiteMesh::Node>& shape) const {
+  const HermiteMesh mesh(shape, elements_);
+  double volume = 0;
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero(), squares = Eigen::Vector2d::Zero();
+  for (const auto& [point, weight] : samples_) {
+    const Eigen::Vector3d x = mesh.position(point);
+    const Eigen::Vector2d here(across_.dot(x), kHeadward.dot(x));
+    volume += weight;
+    sum += weight * here;
+    squares += weight * here.cwiseAbs2();
+  }
+  const Eigen::Vector2d variances = squares / volume - (sum / volume).cwiseAbs2();
+  return std::sqrt(variances.x() / variances.y());
+}
+
+std::optional<PressedSides> find_pressed_sides(const MeshFile& imaged) {
+  PressedSides sides;
+  sides.plates = find_coil_plates(imaged);
+  if (sides.plates)
+    sides.across = (sides.plates->left.outward - sides.plates->right.outward).normalized();
+  sides.roundness = Roundness(imaged, sides.across).of(imaged.mesh.nodes());
+  if (!sides.plates && sides.roundness >= kLeastRound) return std::nullopt;
+  return sides;
+}
+
+PressedSkin pressed_skin(const MeshFile& imaged, const PressedSides& sides) {
+  const std::vector<SkinSample> skin = skin_samples(imaged, 6);
+  const double wall = reach_of(imaged).wall;
+  const std::array<PressedEllipse, 2> ellipses{pressed_ellipse(skin, sides.across, wall),
+                                               pressed_ellipse(skin, -sides.across, wall)};
+  PressedSkin pressed;
+  pressed.at = [ellipses](const Eigen::Vector3d& x, const Eigen::Vector3d& normal) {
+    PressedSkin::Point point;
+    for (const PressedEllipse& ellipse : ellipses) {
+      const double here = ellipse.at(x), towards = facing(ellipse.outward.dot(normal));
+      if (here > 0 && towards > 0)
+        point = {std::cbrt(here) * towards, ellipse.outward, here};  // stiff to near the rim
+    }
+    return point;
+  };
+  return pressed;
+}
+
+}  // namespace mammotwin
