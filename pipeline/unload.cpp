@@ -129,10 +129,8 @@ Outcome run(const Arguments& args, const Patient& patient, StageRun& stage) {
                           stage, record);
     MeshFile file = unloaded_file(prone, result, record);
     if (record.release)
-      if (auto rounder = rounder_shape(problem_with(record.stiffness_factor), *record.coil,
-                                       *record.release, kCoilRoundnessSd);
-          !rounder.empty())
-        file.configurations[kRounderByCoil] = std::move(rounder);
+      file.configurations[kRounderByCoil] =
+          rounder_shape(problem, *record.coil, result, 1 / record.stiffened, kCoilRoundnessSd);
     write_mesh_file(stage.products.write_main(), file);
   }
   return judge_unloading(record);

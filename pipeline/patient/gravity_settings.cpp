@@ -44,7 +44,7 @@ void declare_gravity(Settings& s, GravitySettings& gravity) {
   s.choice("unload.second_gravity", gravity.second_gravity,
            {{"supine", Pose::supine}, {"standing", Pose::standing}, {"prone", Pose::prone}},
            "the pose of `unload.second_state`");
-  s.number("unload.coil_roundness", gravity.coil_roundness, {0, 1.5, ""},
+  s.number("unload.coil_roundness", gravity.coil_roundness, {0, 1.5},
            "width over height of the front half, free of load, of a breast that the coil pressed "
            "flat; 0: it stays as narrow as imaged");
 }

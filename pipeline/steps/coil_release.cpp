@@ -1,5 +1,7 @@
 #include "pipeline/steps/coil_release.h"
 
+#include "solver/gravity/inverse_equilibrium.h"
+
 namespace mammotwin {
 
 std::optional<CoilRelease> release_from_coil(const BreastProblem& imaged, const PressedSides& sides,
@@ -17,16 +19,20 @@ std::optional<CoilRelease> release_from_coil(const BreastProblem& imaged, const 
   return release;
 }
 
-std::vector<HermiteMesh::Node> rounder_shape(const BreastProblem& imaged, const PressedSides& sides,
-                                             const CoilRelease& release, double by) {
-  const auto rounder = release_from_coil(imaged, sides, release.fit.figure + by);
-  if (!rounder || !rounder->fit.reason.empty()) return {};
-  BreastProblem problem = imaged;
-  problem.pressed = rounder->pressed;
-  UnloadOptions options;
-  options.check = false;
-  const UnloadResult result = unload(problem, options);
-  return result.report.usable() ? result.unloaded : std::vector<HermiteMesh::Node>();
+std::vector<HermiteMesh::Node> rounder_shape(const BreastProblem& released,
+                                             const PressedSides& sides, const UnloadResult& found,
+                                             double gravity_share, double by) {
+  constexpr double nudge = 0.1;  // [mm]
+  InverseEquilibrium inverse(released, {});
+  inverse.set_skin_way(released.pressed.way_mm);
+  const State solution{found.unloaded, found.pressure};
+  inverse.linearise_at(solution, gravity_share * released.density * released.gravity);
+  const std::vector<HermiteMesh::Node> slope = inverse.change_by_skin_way(solution);
+  const Roundness roundness(released.mesh, sides.across);
+  const double rounder_by_mm = (roundness.of(combined(1, found.unloaded, nudge, slope)) -
+                                roundness.of(combined(1, found.unloaded, -nudge, slope))) /
+                               (2 * nudge);
+  return combined(1, found.unloaded, by / rounder_by_mm, slope);
 }
 
 }  // namespace mammotwin

@@ -17,8 +17,10 @@ struct CoilRelease {
 std::optional<CoilRelease> release_from_coil(const BreastProblem& imaged, const PressedSides& sides,
                                              double roundness, const Progress& progress = {});
 
-/// Its shape free of load if it were rounder than that by so much; empty where none is found.
-std::vector<HermiteMesh::Node> rounder_shape(const BreastProblem& imaged, const PressedSides& sides,
-                                             const CoilRelease& release, double by);
+/// The shape that `unload` found of the released breast (problem.pressed is set) under a share of
+/// its gravity, if it were rounder by so much, to first order.
+std::vector<HermiteMesh::Node> rounder_shape(const BreastProblem& released,
+                                             const PressedSides& sides, const UnloadResult& found,
+                                             double gravity_share, double by);
 
 }  // namespace mammotwin

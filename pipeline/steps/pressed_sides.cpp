@@ -1,5 +1,6 @@
 #include "pipeline/steps/pressed_sides.h"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <array>
@@ -12,6 +13,7 @@
 namespace mammotwin {
 namespace {
 
+constexpr int kSkinSamples = 6;       // of a face along each of its sides
 constexpr double kLeastRound = 0.55;  // of breasts that hang
 const Eigen::Vector3d kForward = -Eigen::Vector3d::UnitY(), kHeadward = Eigen::Vector3d::UnitZ();
 
@@ -84,6 +86,21 @@ PressedEllipse pressed_ellipse(const std::vector<SkinSample>& skin, const Eigen:
   return ellipse;
 }
 
+/// The horizontal direction that most of the skin before the wall faces, one way or the other: of a
+/// flat breast that of its sides, however the body is turned. From side to side where that is
+/// nearer to forward, as of a shallow one.
+Eigen::Vector3d facing_direction(const MeshFile& imaged) {
+  const double wall = reach_of(imaged).wall;
+  Eigen::Matrix2d sum = Eigen::Matrix2d::Zero();
+  for (const SkinSample& s : skin_samples(imaged, kSkinSamples))
+    if (kForward.dot(s.x) > wall)
+      sum += s.area * s.outward.head<2>() * s.outward.head<2>().transpose();
+  const Eigen::Vector2d most =
+      Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(sum).eigenvectors().col(1);
+  if (std::abs(most.x()) < std::abs(most.y())) return Eigen::Vector3d::UnitX();
+  return std::copysign(1, most.x()) * Eigen::Vector3d(most.x(), most.y(), 0);
+}
+
 }  // namespace
 
 Roundness::Roundness(const MeshFile& imaged, const Eigen::Vector3d& across)
@@ -126,15 +143,16 @@ double Roundness::of(const std::vector<HermiteMesh::Node>& shape) const {
 std::optional<PressedSides> find_pressed_sides(const MeshFile& imaged) {
   PressedSides sides;
   sides.plates = find_coil_plates(imaged);
-  if (sides.plates)
-    sides.across = (sides.plates->left.outward - sides.plates->right.outward).normalized();
+  sides.across = sides.plates
+                     ? (sides.plates->left.outward - sides.plates->right.outward).normalized()
+                     : facing_direction(imaged);
   sides.roundness = Roundness(imaged, sides.across).of(imaged.mesh.nodes());
   if (!sides.plates && sides.roundness >= kLeastRound) return std::nullopt;
   return sides;
 }
 
 PressedSkin pressed_skin(const MeshFile& imaged, const PressedSides& sides) {
-  const std::vector<SkinSample> skin = skin_samples(imaged, 6);
+  const std::vector<SkinSample> skin = skin_samples(imaged, kSkinSamples);
   const double wall = reach_of(imaged).wall;
   const std::array<PressedEllipse, 2> ellipses{pressed_ellipse(skin, sides.across, wall),
                                                pressed_ellipse(skin, -sides.across, wall)};

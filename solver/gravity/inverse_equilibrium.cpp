@@ -230,6 +230,21 @@ std::vector<HermiteMesh::Node> InverseEquilibrium::change(const State& solution,
   return step_of(correction(difference), difference).nodes;
 }
 
+std::vector<HermiteMesh::Node> InverseEquilibrium::change_by_skin_way(const State& solution) const {
+  const HermiteMesh X(solution.x, problem_.mesh.mesh.elements());
+  const DeadForces with = springs_.forces(X, 1), without = springs_.forces(X, 0);
+  Evaluation difference;
+  difference.residual = Eigen::VectorXd::Zero(pattern_.num_columns());
+  difference.pressure_residual = Eigen::MatrixXd::Zero(8, X.num_elements());
+  for (int e = 0; e < X.num_elements(); ++e) {
+    const Eigen::VectorXd residual = (without[e] - with[e]).reshaped();
+    for (int k = 0; k < kUnknowns; ++k)
+      if (const int equation = pattern_.equations[e][k]; equation >= 0)
+        difference.residual[equation] += pattern_.factors[e][k] * residual[k];
+  }
+  return step_of(correction(difference), difference).nodes;
+}
+
 /// Residuals say little here (the wall's penalty swamps them), so the test is natural: the next
 /// correction with the same matrix must be smaller (Deuflhard, Newton Methods, section 3.3).
 bool InverseEquilibrium::search(State& reference, Evaluation& here,

@@ -51,6 +51,10 @@ class InverseEquilibrium {
                                         const InverseEquilibrium& from,
                                         const InverseEquilibrium& to) const;
 
+  /// Of the linearised solution: what its shape free of load changes by for each mm that the
+  /// pressed skin goes farther outward, to first order.
+  std::vector<HermiteMesh::Node> change_by_skin_way(const State& solution) const;
+
   /// Of a solution: the smallest eigenvalue of the forward problem's tangent in the deformed shape
   /// against that in the shape free of load (in the metric of the μ-weighted Laplacian; 1 without
   /// load), or 0 where it is not positive definite: the deformed shape then is no minimum of the

@@ -21,10 +21,13 @@ TEST(PressedSides, AreSeenByTheirPlanesOrByAShapeThatNoneHas) {
   ASSERT_TRUE(plane && plane->plates);
   EXPECT_NEAR(plane->across.x(), std::cos(5 * std::numbers::pi / 180), 1e-9);
   EXPECT_NEAR(plane->roundness, 0.6, 0.02) << "the front half is another after a turn";
-  const auto narrow = find_pressed_sides(pressed_breast(25, 0, 50));  // 20 degrees: no plane pair
-  ASSERT_TRUE(narrow);
-  EXPECT_FALSE(narrow->plates);
-  EXPECT_LT(narrow->roundness, 0.5);
+  for (const double turn : {0.0, 5.0, -20.0}) {
+    const auto narrow = find_pressed_sides(pressed_breast(25, turn, 50));  // no plane pair
+    ASSERT_TRUE(narrow);
+    EXPECT_FALSE(narrow->plates);
+    EXPECT_NEAR(narrow->across.x(), std::cos(turn * std::numbers::pi / 180), 0.03);
+    EXPECT_LT(narrow->roundness, 0.5);
+  }
   EXPECT_FALSE(find_pressed_sides(dome_breast({4, 4, 2})));
 }
 
