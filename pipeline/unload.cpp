@@ -51,6 +51,13 @@ std::string patient_position(const std::filesystem::path& segmentation) {
              : "";
 }
 
+/// Progress of a part of the stage.
+Progress part_of(const StageRun& stage, double from, double share) {
+  return [&stage, from, share](double done, const std::string& what) {
+    stage.progress(from + share * done, what);
+  };
+}
+
 /// One factor for all stiffnesses where a second state is there to ask; else the settings'.
 double find_stiffness(const Patient& patient, StageRun& stage, const BreastProblem& as_set,
                       UnloadingRecord& record) {
@@ -61,7 +68,7 @@ double find_stiffness(const Patient& patient, StageRun& stage, const BreastProbl
   const Eigen::Vector3d gravity = gravity_in_lps(patient.gravity.second_gravity);
   record.stiffness_fit = fit_stiffness(
       as_set, gravity, [&](const auto& x) { return state.distance(x); }, {},
-      [&](double f, const std::string& what) { stage.progress(0.6 * f, what); });
+      part_of(stage, 0, 0.6));
   return factor * record.stiffness_fit->factor;
 }
 
@@ -110,17 +117,13 @@ Outcome run(const Arguments& args, const Patient& patient, StageRun& stage) {
   record.stiffness_factor =
       find_stiffness(patient, stage, problem_with(patient.compression.stiffness_factor), record);
   if (record.stiffness_fit && !record.stiffness_fit->usable()) return judge_unloading(record);
-  const auto progress = [&](double from, double share) {
-    return [&stage, from, share](double done, const std::string& what) {
-      stage.progress(from + share * done, what);
-    };
-  };
   BreastProblem problem = problem_with(record.stiffness_factor);
   if (record.coil)
-    record.release =
-        release_from_coil(problem, *record.coil, patient.gravity.coil_roundness, progress(0, 0.2));
+    record.release = release_from_coil(problem, *record.coil, patient.gravity.coil_roundness,
+                                       part_of(stage, 0, 0.2));
   if (record.release) problem.pressed = record.release->pressed;
-  const UnloadResult result = unload(problem, {}, progress(0.2, 0.4));
+  const double begun = record.release ? 0.2 : 0;
+  const UnloadResult result = unload(problem, {}, part_of(stage, begun, 0.6 - begun));
   record.report = result.report;
   stiffen_as_needed(record);
   if (record.report.usable()) {

@@ -1,12 +1,14 @@
 #include "pipeline/steps/coil_release.h"
 
+#include <algorithm>
+
 #include "solver/gravity/inverse_equilibrium.h"
 
 namespace mammotwin {
 
 std::optional<CoilRelease> release_from_coil(const BreastProblem& imaged, const PressedSides& sides,
                                              double roundness, const Progress& progress) {
-  if (sides.roundness >= roundness) return std::nullopt;
+  if (sides.roundness >= std::min(roundness, kFlat)) return std::nullopt;
   BreastProblem problem = imaged;
   problem.pressed = pressed_skin(imaged.mesh, sides);
   const Roundness figure(imaged.mesh, sides.across);

@@ -13,8 +13,7 @@
 namespace mammotwin {
 namespace {
 
-constexpr int kSkinSamples = 6;       // of a face along each of its sides
-constexpr double kLeastRound = 0.55;  // of breasts that hang
+constexpr int kSkinSamples = 6;  // of a face along each of its sides
 const Eigen::Vector3d kForward = -Eigen::Vector3d::UnitY(), kHeadward = Eigen::Vector3d::UnitZ();
 
 /// Cosines of a normal to its side: none of it is pressed from the first on, all from the second.
@@ -147,7 +146,7 @@ std::optional<PressedSides> find_pressed_sides(const MeshFile& imaged) {
                      ? (sides.plates->left.outward - sides.plates->right.outward).normalized()
                      : facing_direction(imaged);
   sides.roundness = Roundness(imaged, sides.across).of(imaged.mesh.nodes());
-  if (!sides.plates && sides.roundness >= kLeastRound) return std::nullopt;
+  if (!sides.plates && sides.roundness >= kFlat) return std::nullopt;
   return sides;
 }
 

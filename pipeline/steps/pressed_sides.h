@@ -36,8 +36,11 @@ struct PressedSides {
   Eigen::Vector3d across = Eigen::Vector3d::UnitX();
 };
 
-/// Where the skin shows plates, or the breast is less round than any that hangs: 0.61 to 0.89 on
-/// 13 sides of label maps, 0.32 to 0.49 on five of real patients between a coil's plates.
+/// Less round than any breast that hangs: those have 0.61 to 0.89 on 12 sides of label maps, five
+/// sides of real patients between a coil's plates 0.32 to 0.49.
+inline constexpr double kFlat = 0.55;
+
+/// Where the skin shows plates, or the breast is flat.
 std::optional<PressedSides> find_pressed_sides(const MeshFile& imaged);
 
 /// Their skin, as far as it faces its side and lies in front of the chest wall: an ellipse on each,

@@ -49,7 +49,7 @@ inline constexpr const char* kRounderByCoil = "rounder_by_coil";
 /// detector by centimetres (its edge: edge_prior.h); moduli by a factor of two as the literature
 /// does, springs by a factor of three as they are only known to lie in 0.02 to 0.2 kPa/mm, friction
 /// as it differs between people and materials (Zhang and Mak 1999). Roundness as it differs between
-/// the 13 sides of label maps that no coil presses (0.08 as imaged), and as what pressed is
+/// the 12 sides of label maps that no coil presses (0.08 as imaged), and as what pressed is
 /// guessed.
 inline ViewState prior_sd() {
   ViewState sd;

@@ -6,7 +6,7 @@
   if (!root || !mammotwin.panes) return;
   const panes = [...mammotwin.panes.values()].filter(pane => pane.view.what_if);
   if (!panes.length) return;
-  const STATES = 11, MECHANICAL = 8, TURN = 8, DEPTH = 9, LATERAL = 10;  // registration/search/view_state.h
+  const STATES = 12, MECHANICAL = 9, TURN = 9, DEPTH = 10, LATERAL = 11;  // registration/search/view_state.h
   const NINETY = Math.sqrt(8 * (Math.pow(1 - 0.9, -2 / 10) - 1));  // registration/search/search_ellipse.h
   const WORDS = {
     thickness_mm: ["Thickness", (by, view) => (view.thickness_mm + by).toFixed(1) + " mm"],

@@ -43,9 +43,11 @@ TEST(CoilRelease, MakesTheBreastAsRoundAsAskedAndOneThatIsRounder) {
       << "to first order";
 }
 
-TEST(CoilRelease, LeavesABreastThatIsAsRoundAlready) {
-  const BreastProblem imaged = pressed_problem();
+TEST(CoilRelease, LeavesABreastThatIsAsRoundAlreadyOrNotFlat) {
+  BreastProblem imaged = pressed_problem();
   EXPECT_FALSE(release_from_coil(imaged, *find_pressed_sides(imaged.mesh), 0.3));
+  imaged.mesh = pressed_breast(0, 0, 60);  // between plates, and 0.6 times as wide as high
+  EXPECT_FALSE(release_from_coil(imaged, *find_pressed_sides(imaged.mesh), 0.8));
 }
 
 }  // namespace

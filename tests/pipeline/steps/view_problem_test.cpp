@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 
 #include "pipeline/steps/typical_thickness.h"
@@ -25,6 +26,33 @@ TEST(ViewProblem, OnlyAnAssumedThicknessEndsAtTheMostForce) {
   view.thickness_mm = 50;
   EXPECT_EQ(problem(view).plates.thickness, 50);
   EXPECT_EQ(problem(view).most_force, std::numeric_limits<double>::infinity());
+}
+
+TEST(ViewProblem, AStateKnowsHowRoundABreastIsThatItsCoilPressed) {
+  const Patient patient;
+  MeshFile compressed = dome_breast({2, 2, 1});
+  const std::vector<HermiteMesh::Node> unloaded = compressed.mesh.nodes();
+  std::vector<HermiteMesh::Node> rounder = unloaded;
+  for (HermiteMesh::Node& node : rounder) node.row(0) *= 1.25;
+  compressed.configurations = {
+      {"prone", unloaded}, {"unloaded", unloaded}, {kRounderByCoil, rounder}};
+  CompressionResult solved;
+  solved.pressure.assign(8 * compressed.mesh.num_elements(), 0);
+  solved.penalty = 1;
+  remember_solution(solved, compressed);
+  const auto solver =
+      nearby_solver(patient, {"cc", Side::left, 0, 60, {}}, compressed, lumpy_tissue());
+  ASSERT_TRUE(solver);
+  const auto widest = [&](double deviations) {
+    double most = 0;
+    const CompressionProblem problem =
+        solver->problem_at(deviations * kCoilRoundnessSd * ViewState::Unit(kCoilRoundness));
+    for (const HermiteMesh::Node& node : problem.mesh.mesh.nodes())
+      most = std::max(most, node(0, 0));
+    return most;
+  };
+  EXPECT_NEAR(widest(1) / widest(0), 1.25, 1e-12);
+  EXPECT_NEAR(widest(-2) / widest(0), 0.5, 1e-12);
 }
 
 }  // namespace

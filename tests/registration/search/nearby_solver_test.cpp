@@ -10,10 +10,14 @@
 namespace mammotwin {
 namespace {
 
-/// A dome between plates that three of the state's numbers move.
+/// A dome between plates that three of the state's numbers move; a fourth widens it free of load.
 CompressionProblem dome_at(const ViewState& state) {
   CompressionProblem problem = dome_problem(85 + state[kThickness]);
   problem.mesh = dome_breast({2, 2, 1});
+  problem.prone = problem.mesh.mesh.nodes();
+  Nodes wider = problem.prone;
+  for (HermiteMesh::Node& node : wider) node.row(0) *= 1 + state[kCoilRoundness];
+  problem.mesh.mesh = HermiteMesh(wider, problem.mesh.mesh.elements());
   problem.plates.lift = state[kLift];
   problem.plates.wall_clearance += state[kClearance];
   return problem;
@@ -43,7 +47,7 @@ TEST(NearbySolver, SlopesAreWhatSolvesSay) {
   const ViewState sd = ViewState::Constant(0.002);
   const auto slopes = solver.slopes(sd);
   ASSERT_TRUE(slopes);
-  for (const int i : {kThickness, kClearance}) {
+  for (const int i : {kThickness, kClearance, kCoilRoundness}) {
     const auto up = solver.solve(sd[i] * ViewState::Unit(i));
     const auto down = solver.solve(-sd[i] * ViewState::Unit(i));
     ASSERT_TRUE(up && down) << kStateNames[i];
@@ -142,6 +146,15 @@ TEST(LinearView, IsTheBaseAndItsSlopes) {
   for (std::size_t n = 0; n < moved.size(); ++n) moved[n] -= view.base[n];
   EXPECT_GT(largest(moved), 0.5);  // plates 3 mm farther apart
   EXPECT_LT(largest(moved), 10);
+}
+
+TEST(LinearView, LeavesOutANumberThatTheBreastHasNot) {
+  ViewState sd = prior_sd();
+  sd[kCoilRoundness] = 0;
+  const ReducedView view = linear_view(dome_solver(), sd);
+  EXPECT_EQ(view.failed_solves, 0);
+  EXPECT_TRUE(view.modes[kCoilRoundness].linear.empty());
+  EXPECT_FALSE(view.modes[kFriction].linear.empty());
 }
 
 // A quadratic's slope is its central difference, whatever the step.
