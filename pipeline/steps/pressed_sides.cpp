@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
+#include "pipeline/steps/breast_reach.h"
 #include "pipeline/steps/skin_samples.h"
 #include "solver/element/face.h"
 
@@ -20,25 +20,6 @@ const Eigen::Vector3d kForward = -Eigen::Vector3d::UnitY(), kHeadward = Eigen::V
 constexpr double kNotPressed = 0.7, kPressed = 0.9;
 constexpr double kBeyondSpread = 1.2;  // ellipse over that of the same moments
 constexpr double kRearRim_mm = 10;     // before the wall: there it begins
-
-struct Reach {
-  double wall = -std::numeric_limits<double>::infinity();  ///< foremost of it [mm forward]
-  double tip = -std::numeric_limits<double>::infinity();
-};
-
-Reach reach_of(const MeshFile& mesh) {
-  constexpr int n = 8;
-  Reach reach;
-  for (int e = 0; e < mesh.mesh.num_elements(); ++e)
-    for (int face = 0; face < 6; ++face)
-      for (int k = 0; mesh.faces[e][face] != FaceLabel::interior && k < n * n; ++k) {
-        const double forward = kForward.dot(
-            mesh.mesh.position({e, point_on_face(face, k % n / (n - 1.0), k / n / (n - 1.0))}));
-        double& foremost = mesh.faces[e][face] == FaceLabel::chest_wall ? reach.wall : reach.tip;
-        foremost = std::max(foremost, forward);
-      }
-  return reach;
-}
 
 double facing(double cosine) {
   return std::clamp((cosine - kNotPressed) / (kPressed - kNotPressed), 0.0, 1.0);
@@ -89,7 +70,7 @@ PressedEllipse pressed_ellipse(const std::vector<SkinSample>& skin, const Eigen:
 /// flat breast that of its sides, however the body is turned. From side to side where that is
 /// nearer to forward, as of a shallow one.
 Eigen::Vector3d facing_direction(const MeshFile& imaged) {
-  const double wall = reach_of(imaged).wall;
+  const double wall = breast_reach(imaged, kForward).wall;
   Eigen::Matrix2d sum = Eigen::Matrix2d::Zero();
   for (const SkinSample& s : skin_samples(imaged, kSkinSamples))
     if (kForward.dot(s.x) > wall)
@@ -105,7 +86,7 @@ Eigen::Vector3d facing_direction(const MeshFile& imaged) {
 Roundness::Roundness(const MeshFile& imaged, const Eigen::Vector3d& across)
     : elements_(imaged.mesh.elements()), across_(across) {
   constexpr int n = 6;
-  const Reach reach = reach_of(imaged);
+  const double tip = breast_reach(imaged, kForward).tip;
   double wall = 0;  // in the mean
   int faces = 0;
   for (int e = 0; e < imaged.mesh.num_elements(); ++e)
@@ -114,7 +95,7 @@ Roundness::Roundness(const MeshFile& imaged, const Eigen::Vector3d& across)
         wall += kForward.dot(imaged.mesh.position({e, point_on_face(face, 0.5, 0.5)}));
         ++faces;
       }
-  const double middle = (wall / faces + reach.tip) / 2;
+  const double middle = (wall / faces + tip) / 2;
   for (int e = 0; e < imaged.mesh.num_elements(); ++e)
     for (int k = 0; k < n * n * n; ++k) {
       const MeshPoint point{
@@ -152,7 +133,7 @@ std::optional<PressedSides> find_pressed_sides(const MeshFile& imaged) {
 
 PressedSkin pressed_skin(const MeshFile& imaged, const PressedSides& sides) {
   const std::vector<SkinSample> skin = skin_samples(imaged, kSkinSamples);
-  const double wall = reach_of(imaged).wall;
+  const double wall = breast_reach(imaged, kForward).wall;
   const std::array<PressedEllipse, 2> ellipses{pressed_ellipse(skin, sides.across, wall),
                                                pressed_ellipse(skin, -sides.across, wall)};
   PressedSkin pressed;

@@ -3,14 +3,13 @@
 #include <tbb/parallel_for.h>
 
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 
 #include "pipeline/steps/breast_problem.h"
+#include "pipeline/steps/breast_reach.h"
 #include "registration/carry/point_carrier.h"
 #include "registration/carry/position_grid.h"
 #include "segmentation/image/trilinear.h"
-#include "solver/element/face.h"
 #include "solver/press/compress.h"
 
 namespace mammotwin {
@@ -19,28 +18,10 @@ namespace {
 constexpr double kClearance_mm = 5, kRounding_mm = 5;  // of the plates' rear edges
 constexpr double kGoesAlong_mm = 60;                   // beside the mesh, less and less
 
-constexpr double kEndless = std::numeric_limits<double>::infinity();
-
-/// Calls `visit(label, place)` with points of the mesh's outer faces.
-template <class Visit>
-void for_outer_points(const MeshFile& mesh, const Visit& visit) {
-  constexpr int kSamples = 8;  // along each side of a face
-  for (int e = 0; e < mesh.mesh.num_elements(); ++e)
-    for (int face = 0; face < 6; ++face)
-      for (int k = 0; mesh.faces[e][face] != FaceLabel::interior && k < kSamples * kSamples; ++k)
-        visit(mesh.faces[e][face],
-              mesh.mesh.position({e, point_on_face(face, k % kSamples / (kSamples - 1.0),
-                                                   k / kSamples / (kSamples - 1.0))}));
-}
-
 /// Puts the plates' middle where that of the breast's front half is, and brings them together to
 /// this share of its width.
 void put_round_front_half(const MeshFile& prone, double share, PlateOptions& plates) {
-  double wall = -kEndless, tip = -kEndless;
-  for_outer_points(prone, [&](FaceLabel label, const Eigen::Vector3d& x) {
-    double& foremost = label == FaceLabel::chest_wall ? wall : tip;
-    foremost = std::max(foremost, plates.depth.dot(x));
-  });
+  const auto [wall, tip] = breast_reach(prone, plates.depth);
   PlateOptions halfway = plates;
   halfway.wall_clearance = std::max(0.0, (tip - wall) / 2 - plates.rounding);
   const PlateFrame front_half(prone, halfway);
