@@ -5,17 +5,30 @@
 #include "solver/gravity/inverse_equilibrium.h"
 
 namespace mammotwin {
+namespace {
+
+constexpr double kQuiteFlat = 0.45;  // of the roundness as imaged: let go altogether
+
+/// The nearer a breast is to one that hangs, the less it was pressed: no breast is let go by more
+/// than its neighbour for a hair.
+double wanted_roundness(double imaged, double asked) {
+  const double flat = std::clamp((kFlat - imaged) / (kFlat - kQuiteFlat), 0.0, 1.0);
+  return imaged + flat * (asked - imaged);
+}
+
+}  // namespace
 
 std::optional<CoilRelease> release_from_coil(const BreastProblem& imaged, const PressedSides& sides,
                                              double roundness, const Progress& progress) {
-  if (sides.roundness >= std::min(roundness, kFlat)) return std::nullopt;
+  const double wanted = wanted_roundness(sides.roundness, roundness);
+  if (sides.roundness >= wanted) return std::nullopt;
   BreastProblem problem = imaged;
   problem.pressed = pressed_skin(imaged.mesh, sides);
   const Roundness figure(imaged.mesh, sides.across);
   CoilRelease release{
       problem.pressed,
       fit_skin_way(
-          problem, [&](const auto& shape) { return figure.of(shape); }, roundness, {}, progress)};
+          problem, [&](const auto& shape) { return figure.of(shape); }, wanted, {}, progress)};
   if (release.fit.way_mm == 0) return std::nullopt;
   release.pressed.way_mm = release.fit.way_mm;
   return release;

@@ -12,8 +12,9 @@ struct CoilRelease {
   SkinWayFit fit;  ///< its figure is the Roundness
 };
 
-/// `imaged`: the breast as `unload` takes it. Empty where it is as round already or not flat
-/// (plates that show in it did little), or no shape with its skin farther out was found.
+/// `imaged`: the breast as `unload` takes it. One less round than 0.45 gets what is asked, one from
+/// kFlat on (in which plates show, but did little) stays as it is, between them in proportion.
+/// Empty where it is as round already, or no shape with its skin farther out was found.
 std::optional<CoilRelease> release_from_coil(const BreastProblem& imaged, const PressedSides& sides,
                                              double roundness, const Progress& progress = {});
 

@@ -37,8 +37,8 @@ struct PressedSides {
 };
 
 /// Less round than any breast that hangs: those have 0.61 to 0.89 on 12 sides of label maps, five
-/// sides of real patients between a coil's plates 0.32 to 0.49.
-inline constexpr double kFlat = 0.55;
+/// sides of real patients between a coil's plates 0.32 to 0.49, one of which nobody knows 0.55.
+inline constexpr double kFlat = 0.6;
 
 /// Where the skin shows plates, or the breast is flat.
 std::optional<PressedSides> find_pressed_sides(const MeshFile& imaged);

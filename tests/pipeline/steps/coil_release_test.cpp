@@ -43,10 +43,19 @@ TEST(CoilRelease, MakesTheBreastAsRoundAsAskedAndOneThatIsRounder) {
       << "to first order";
 }
 
+TEST(CoilRelease, LetsABreastGoTheLessTheRounderItIs) {
+  BreastProblem imaged = pressed_problem();
+  imaged.mesh = pressed_breast(0, 0, 52.5);  // half of the way from 0.6 to 0.45
+  const auto sides = find_pressed_sides(imaged.mesh);
+  const auto release = release_from_coil(imaged, *sides, 0.725);
+  ASSERT_TRUE(release);
+  EXPECT_NEAR(release->fit.figure, 0.625, 0.011);
+}
+
 TEST(CoilRelease, LeavesABreastThatIsAsRoundAlreadyOrNotFlat) {
   BreastProblem imaged = pressed_problem();
   EXPECT_FALSE(release_from_coil(imaged, *find_pressed_sides(imaged.mesh), 0.3));
-  imaged.mesh = pressed_breast(0, 0, 60);  // between plates, and 0.6 times as wide as high
+  imaged.mesh = pressed_breast(0, 0, 62);  // between plates, and 0.62 times as wide as high
   EXPECT_FALSE(release_from_coil(imaged, *find_pressed_sides(imaged.mesh), 0.8));
 }
 
