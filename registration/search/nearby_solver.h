@@ -60,8 +60,7 @@ class NearbySolver {
 
   /// At the base with the softer contact, by implicit differentiation
   /// (solver/press/nearby_equilibria.h), for standard deviations `sd`; 0: not a number of this
-  /// breast. Empty where that equilibrium
-  /// is not there or not stable.
+  /// breast. Empty where that equilibrium is not there or not stable.
   std::optional<Slopes> slopes(const ViewState& sd) const;
 
  private:

@@ -17,7 +17,7 @@ namespace mammotwin {
 
 namespace {
 
-constexpr double kSpringPenalty = 30;  // x modulus/size: a centimetre short takes it half a one
+constexpr double kSpringPenalty = 30;  // x modulus/size: what is asked of the skin prevails
 
 using Fractions = std::vector<std::array<double, 3>>;
 
