@@ -68,11 +68,14 @@ Volume<float> look_of(const SegmentResult& result) {
   return look;
 }
 
-/// Gland below the skin of a label map is no areola: without an image only a papilla tells.
+/// Gland below the skin of a label map is no areola: without an image only a papilla tells, and
+/// only where nothing else on the skin looks like one.
 Nipple nipple_of(const SegmentResult& result) {
+  constexpr double most_sd_mm = 10;
   const Segmentation& s = result.segmentation;
   const Nipple nipple = find_nipple(s.labels, s.region, look_of(result));
-  const bool is_seen = !result.image.values.empty() || !nipple.papilla.values.empty();
+  const bool is_seen = !result.image.values.empty() ||
+                       (!nipple.papilla.values.empty() && nipple.sd_mm <= most_sd_mm);
   return is_seen ? nipple : unknown_nipple(s.labels, s.region);
 }
 

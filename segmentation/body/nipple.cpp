@@ -19,7 +19,7 @@ using Eigen::Vector3i;
 using Mask = Volume<std::uint8_t>;
 
 constexpr double ball_mm = 9;   // a papilla is 10 to 14 mm wide
-constexpr double least_mm = 2;  // over the ball: less is the outline's own unevenness
+constexpr double least_mm = 1.5;  // over the ball: less is the outline's own unevenness
 constexpr double least_ml = 0.08, most_ml = 3;
 constexpr double tip_mm = 1;         // the tip is the middle of what stands out as far as this
 constexpr double same_place_mm = 8;  // a papilla's tip from the place of the best sum
@@ -127,9 +127,9 @@ struct Candidate {
   double score = 0;
 };
 
-/// The best places, apart from each other, the best first.
-std::vector<Candidate> candidates(std::vector<SkinPoint> skin, const StandingOut& out,
-                                  const BreastRegion& region, const Vector3d& front) {
+/// Places on the skin, the best first.
+std::vector<Candidate> ranked(const std::vector<SkinPoint>& skin, const StandingOut& out,
+                              const BreastRegion& region, const Vector3d& front) {
   std::vector<Candidate> all;
   for (const SkinPoint& point : skin) {
     if (!is_well_inside(region, point.x_in_lps)) continue;
@@ -138,6 +138,11 @@ std::vector<Candidate> candidates(std::vector<SkinPoint> skin, const StandingOut
   }
   std::stable_sort(all.begin(), all.end(),
                    [](const Candidate& a, const Candidate& b) { return a.score > b.score; });
+  return all;
+}
+
+/// The best of the ranked that lie apart from each other.
+std::vector<Candidate> apart(const std::vector<Candidate>& all) {
   std::vector<Candidate> best;
   for (const Candidate& c : all) {
     const bool is_new = std::all_of(best.begin(), best.end(), [&](const Candidate& other) {
@@ -158,6 +163,21 @@ double deviation(const std::vector<Candidate>& best) {
     weights += weight;
   }
   return std::sqrt(sum / weights + at_best_sd_mm * at_best_sd_mm);
+}
+
+/// Mean of the places around the first, by how nearly they are as good: which single voxel is best
+/// hangs on the grid.
+Vector3d middle(const std::vector<Candidate>& all) {
+  const Candidate& first = all.front();
+  Vector3d sum = Vector3d::Zero();
+  double weights = 0;
+  for (const Candidate& c : all) {
+    if ((c.at.x_in_lps - first.at.x_in_lps).norm() > apart_mm / 2) continue;
+    const double weight = std::exp(c.score - first.score);
+    sum += weight * c.at.x_in_lps;
+    weights += weight;
+  }
+  return sum / weights;
 }
 
 /// What stands out at the nipple, if anything does; the tip moves to its middle.
@@ -184,14 +204,15 @@ Nipple find_nipple(const Mask& labels, const BreastRegion& region, const Volume<
   const Vector3d front = nipple.tip_in_lps;
   const Near near = cut_near(labels, look, front);
   const StandingOut out(near.body);
-  const std::vector<Candidate> best =
-      candidates(skin_around(near.body, near.look, front, reach_mm), out, region, front);
+  const std::vector<Candidate> all =
+      ranked(skin_around(near.body, near.look, front, reach_mm), out, region, front);
+  const std::vector<Candidate> best = apart(all);
   if (best.empty()) return nipple;
   nipple.evidence = best.front().at.sum() + out.evidence(best.front().at.x_in_lps);
   nipple.is_found = nipple.evidence >= least_evidence;
   nipple.rival_in_lps = best[best.size() > 1 && nipple.is_found ? 1 : 0].at.x_in_lps;
   if (!nipple.is_found) return nipple;
-  nipple.tip_in_lps = best.front().at.x_in_lps;
+  nipple.tip_in_lps = middle(all);
   nipple.sd_mm = deviation(best);
   take_papilla(out, nipple);
   return nipple;

@@ -14,10 +14,11 @@ namespace {
 constexpr double dome_mm = 50, peg_mm = 5;
 const Eigen::Vector3d middle(0, 60, 0);
 
-/// A half ball of fat, its middle at `middle`, with a rounded peg that ends `height` mm over it.
-Volume<std::uint8_t> dome(const Eigen::Vector3d& direction, double height) {
-  Volume<std::uint8_t> labels({100, 60, 100}, Eigen::Vector3d::Constant(1.2), {-60, 0, -60},
-                              label::air);
+/// A half ball of fat, its middle at `middle`, with a rounded peg that ends `height` mm over it;
+/// the grid is off by `shift` along each axis.
+Volume<std::uint8_t> dome(const Eigen::Vector3d& direction, double height, double shift = 0) {
+  Volume<std::uint8_t> labels({100, 60, 100}, Eigen::Vector3d::Constant(1.2),
+                              Eigen::Vector3d(-60, 0, -60).array() + shift, label::air);
   for (int k = 0; k < labels.size.z(); ++k)
     for (int j = 0; j < labels.size.y(); ++j)
       for (int i = 0; i < labels.size.x(); ++i) {
@@ -67,6 +68,19 @@ TEST(Nipple, ShowsByBrightnessWhereNothingStandsOut) {
   EXPECT_TRUE(nipple.is_found);
   EXPECT_LT((nipple.tip_in_lps - place).norm(), 4) << "9 mm of it are as bright";
   EXPECT_LT(nipple.sd_mm, 8);
+}
+
+TEST(Nipple, DoesNotHangOnTheGrid) {
+  constexpr double off = 28 * std::numbers::pi / 180;
+  const Eigen::Vector3d place =
+      middle + dome_mm * Eigen::Vector3d(std::sin(off), -std::cos(off), 0);
+  const auto tip = [&](double shift) {
+    const Volume<std::uint8_t> labels = dome(-Eigen::Vector3d::UnitY(), 0, shift);
+    return find_nipple(labels, region, with_spot(labels, place, 9)).tip_in_lps;
+  };
+  const Eigen::Vector3d there = tip(0);
+  for (const double shift : {0.3, 0.6, 0.9})
+    EXPECT_LT((tip(shift) - there).norm(), 0.8) << "grid off by " << shift << " mm";
 }
 
 TEST(Nipple, IsUnsureOfTwoPlacesThatLookAlike) {

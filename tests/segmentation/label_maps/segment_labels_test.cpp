@@ -42,6 +42,46 @@ SegmentInput foreign_input(const fs::path& folder) {
   return input;
 }
 
+/// Bumps of 4 mm that stand `off` mm to each side of the left breast's apex, or one.
+SegmentInput bumpy_input(const fs::path& folder, const std::vector<double>& off) {
+  Volume<float> map({80, 70, 80}, Eigen::Vector3d::Constant(1.5), {20, -15, -60}, 0);
+  const Eigen::Vector3d base(75, 60, 0);
+  for (int k = 0; k < map.size.z(); ++k)
+    for (int j = 0; j < map.size.y(); ++j)
+      for (int i = 0; i < map.size.x(); ++i) {
+        const Eigen::Vector3d x = map.position(i, j, k);
+        double r = (x - base).norm() - 60;
+        for (const double angle : off) {
+          const Eigen::Vector3d tip =
+              base + 59 * Eigen::Vector3d(std::sin(angle), -std::cos(angle), 0);
+          r = std::min(r, (x - tip).norm() - 5);
+        }
+        if (x.y() < 75 && std::min(r, 48 - x.y()) < 0) map(i, j, k) = x.y() > 60 ? 13 : 11;
+      }
+  write_image(folder / "map.nrrd", map);
+  SegmentInput input;
+  input.label_map = folder / "map.nrrd";
+  input.side = Side::left;
+  input.label_values = {{11, ForeignTissue::fat}, {13, ForeignTissue::muscle}};
+  return input;
+}
+
+TEST(SegmentLabels, OnlyABumpWithoutRivalsIsTheNipple) {
+  const EmptyFolder folder("bumps");
+  const auto nipple = [&](const std::vector<double>& off) {
+    return segment(bumpy_input(folder.path, off), {}).quality;
+  };
+  const auto one = nipple({0.35});
+  EXPECT_LT(
+      (one.nipple_in_lps - Eigen::Vector3d(75 + 64 * std::sin(0.35), 60 - 64 * std::cos(0.35), 0))
+          .norm(),
+      2);
+  EXPECT_LT(one.nipple_sd_mm, 5);
+  const auto two = nipple({0.35, -0.35});
+  EXPECT_NEAR(two.nipple_in_lps.x(), 75, 2) << "the most anterior point, between the two";
+  EXPECT_GT(two.nipple_sd_mm, 20);
+}
+
 TEST(SegmentLabels, TakesTheLesionsSideAndDropsTheOther) {
   const EmptyFolder folder("foreign");
   const SegmentResult result = segment(foreign_input(folder.path), {});
