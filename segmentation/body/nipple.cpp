@@ -18,7 +18,7 @@ using Eigen::Vector3d;
 using Eigen::Vector3i;
 using Mask = Volume<std::uint8_t>;
 
-constexpr double ball_mm = 9;   // a papilla is 10 to 14 mm wide
+constexpr double ball_mm = 9;     // a papilla is 10 to 14 mm wide
 constexpr double least_mm = 1.5;  // over the ball: less is the outline's own unevenness
 constexpr double least_ml = 0.08, most_ml = 3;
 constexpr double tip_mm = 1;         // the tip is the middle of what stands out as far as this

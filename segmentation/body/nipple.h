@@ -20,11 +20,11 @@ struct Nipple {
 };
 
 /// The nipple, by what papilla, areola and ducts show (skin_look.h), what stands out as an opening
-/// by a ball of 9 mm takes away (1.5 mm and more: its height) and nearness to the most anterior point
-/// (25 mm): the place of the best sum; its standard deviation weighs the other candidates, 12 mm
-/// and more apart, by the exponential of what they fall short. Retracted and flat nipples show by
-/// brightness, in the skin and below it. Where something stands out, that is the papilla and its
-/// tip the nipple.
+/// by a ball of 9 mm takes away (1.5 mm and more: its height) and nearness to the most anterior
+/// point (25 mm): the middle of the places about the best sum; its standard deviation weighs the
+/// other candidates, 12 mm and more apart, by the exponential of what they fall short. Retracted
+/// and flat nipples show by brightness, in the skin and below it. Where something stands out, that
+/// is the papilla and its tip the nipple.
 ///
 /// `look`: on the labels' grid, papilla and gland brighter than fat.
 Nipple find_nipple(const Volume<std::uint8_t>& labels, const BreastRegion& region,
