@@ -94,10 +94,7 @@ std::optional<CoilPlates> find_coil_plates(const MeshFile& imaged) {
   const double face_cm2 = std::pow(volume_of(imaged.mesh), 2.0 / 3) / kMm2PerCm2;
   if (std::min(left.area_cm2, right.area_cm2) < kLeastPatch * face_cm2) return std::nullopt;
   const Eigen::Vector3d across = (left.outward - right.outward).normalized();
-  return CoilPlates{{left.middle_in_lps, left.outward},
-                    {right.middle_in_lps, right.outward},
-                    left.area_cm2,
-                    right.area_cm2,
+  return CoilPlates{across, left.area_cm2, right.area_cm2,
                     across.dot(left.middle_in_lps - right.middle_in_lps)};
 }
 

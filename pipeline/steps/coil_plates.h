@@ -9,11 +9,7 @@ namespace mammotwin {
 /// What immobilising plates of a breast coil leave on a breast that does not hang free: skin that
 /// is plane on both sides.
 struct CoilPlates {
-  struct Plate {
-    Eigen::Vector3d point_in_lps = Eigen::Vector3d::Zero();  ///< of its plane [mm]
-    Eigen::Vector3d outward = Eigen::Vector3d::UnitX();      ///< away from the breast, unit
-  };
-  Plate left, right;
+  Eigen::Vector3d across = Eigen::Vector3d::UnitX();  ///< from one plane to the other, unit
   double left_cm2 = 0, right_cm2 = 0;  ///< of plane skin on the patient's left and right (LPS)
   double apart_mm = 0;
 };

@@ -123,9 +123,7 @@ double Roundness::of(const std::vector<HermiteMesh::Node>& shape) const {
 std::optional<PressedSides> find_pressed_sides(const MeshFile& imaged) {
   PressedSides sides;
   sides.plates = find_coil_plates(imaged);
-  sides.across = sides.plates
-                     ? (sides.plates->left.outward - sides.plates->right.outward).normalized()
-                     : facing_direction(imaged);
+  sides.across = sides.plates ? sides.plates->across : facing_direction(imaged);
   sides.roundness = Roundness(imaged, sides.across).of(imaged.mesh.nodes());
   if (!sides.plates && sides.roundness >= kFlat) return std::nullopt;
   return sides;

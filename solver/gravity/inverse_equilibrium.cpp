@@ -144,9 +144,7 @@ InverseEquilibrium::Evaluation InverseEquilibrium::evaluate(
   for (int e = 0; e < count; ++e) {
     const ElementSystem& system = systems[e];
     now.valid = now.valid && std::isfinite(system.energy);
-    for (int k = 0; k < kUnknowns; ++k)
-      if (const int equation = pattern_.equations[e][k]; equation >= 0)
-        now.residual[equation] += pattern_.factors[e][k] * system.residual[k];
+    pattern_.add(e, system.residual, 1, now.residual);
     now.pressure_residual.col(e) = system.pressure_residual;
     now.flow += system.squared_flow;
     now.largest_volume_error =
@@ -184,13 +182,11 @@ bool InverseEquilibrium::linearise(const State& reference, const Evaluation& her
 
 Eigen::VectorXd InverseEquilibrium::correction(const Evaluation& here) const {
   Eigen::VectorXd right_hand_side = -here.residual;
-  for (std::size_t e = 0; e < eliminations_.size(); ++e) {
+  for (int e = 0; e < static_cast<int>(eliminations_.size()); ++e) {
     const auto& [coupling, pressure_tangent, stiffness] = eliminations_[e];
     const Eigen::VectorXd pushed =
         coupling * (stiffness * here.pressure_residual.col(e).head(stiffness.rows()));
-    for (int k = 0; k < kUnknowns; ++k)
-      if (const int equation = pattern_.equations[e][k]; equation >= 0)
-        right_hand_side[equation] -= pattern_.factors[e][k] * pushed[k];
+    pattern_.add(e, pushed, -1, right_hand_side);
   }
   return matrix_->solve(right_hand_side);
 }
@@ -236,12 +232,8 @@ std::vector<HermiteMesh::Node> InverseEquilibrium::change_by_skin_way(const Stat
   Evaluation difference;
   difference.residual = Eigen::VectorXd::Zero(pattern_.num_columns());
   difference.pressure_residual = Eigen::MatrixXd::Zero(8, X.num_elements());
-  for (int e = 0; e < X.num_elements(); ++e) {
-    const Eigen::VectorXd residual = (without[e] - with[e]).reshaped();
-    for (int k = 0; k < kUnknowns; ++k)
-      if (const int equation = pattern_.equations[e][k]; equation >= 0)
-        difference.residual[equation] += pattern_.factors[e][k] * residual[k];
-  }
+  for (int e = 0; e < X.num_elements(); ++e)
+    pattern_.add(e, (without[e] - with[e]).reshaped(), 1, difference.residual);
   return step_of(correction(difference), difference).nodes;
 }
 

@@ -117,7 +117,7 @@ Balance Assembler::balance(const State& state) const {
   Balance sum = summarise(parts);
   sum.residual = Eigen::VectorXd::Zero(num_equations());
   if (!std::isfinite(sum.energy)) return sum;
-  for (int e = 0; e < count; ++e) add_residual(e, residuals[e], 1, sum.residual);
+  for (int e = 0; e < count; ++e) pattern_.add(e, residuals[e], 1, sum.residual);
   return sum;
 }
 
@@ -135,9 +135,9 @@ Balance Assembler::linearise(const State& state, const std::vector<HermiteMesh::
       model_.evaluate(e, state, kind, system);
       parts[e] = part_of(e, state, system);
       if (!std::isfinite(system.energy)) return;
-      add_residual(e, system.residual, 1, residual);
+      pattern_.add(e, system.residual, 1, residual);
       condense(e, pending.empty() ? Residual::Zero() : gather(e, pending), system);
-      add_residual(e, system.residual, -1, right_hand_side_);
+      pattern_.add(e, system.residual, -1, right_hand_side_);
       scatter(e, system.tangent, values_);
     });
   Balance sum = summarise(parts);
@@ -168,13 +168,6 @@ void Assembler::condense(int e, const Residual& pending, ElementSystem& system) 
   system.residual += kept.coupling.leftCols(n) * (pressure_factors_[e] * kept.residual.head(n));
   if (!pending.isZero(0))
     system.residual += system.tangent.selfadjointView<Eigen::Lower>() * pending;
-}
-
-void Assembler::add_residual(int e, const Residual& residual, double sign,
-                             Eigen::VectorXd& sum) const {
-  for (int k = 0; k < kUnknowns; ++k)
-    if (const int equation = pattern_.equations[e][k]; equation >= 0)
-      sum[equation] += sign * pattern_.factors[e][k] * residual[k];
 }
 
 void Assembler::scatter(int e, const Eigen::MatrixXd& tangent, std::vector<double>& values) const {
@@ -233,7 +226,7 @@ Eigen::VectorXd Assembler::against_swelling(const Eigen::MatrixXd& excess) const
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(num_equations());
   for (int e = 0; e < model_.num_elements(); ++e) {
     const int n = model_.element(e).num_pressures();
-    add_residual(e, eliminations_[e].coupling.leftCols(n) * excess.col(e).head(n), -1, sum);
+    pattern_.add(e, eliminations_[e].coupling.leftCols(n) * excess.col(e).head(n), -1, sum);
   }
   return sum;
 }
@@ -253,7 +246,7 @@ Eigen::VectorXd Assembler::change_of_right_hand_side(const Model& from, const Mo
                  eliminations_[e].coupling.leftCols(n) * (pressure_factors_[e] * swelling);
   });
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(num_equations());
-  for (int e = 0; e < model_.num_elements(); ++e) add_residual(e, changes[e], -1, sum);
+  for (int e = 0; e < model_.num_elements(); ++e) pattern_.add(e, changes[e], -1, sum);
   return sum;
 }
 

@@ -82,8 +82,6 @@ class Assembler {
     Eigen::Matrix<double, 8, 1> residual;
   };
   void condense(int e, const Eigen::Matrix<double, kUnknowns, 1>& pending, ElementSystem& system);
-  void add_residual(int e, const Eigen::Matrix<double, kUnknowns, 1>& residual, double sign,
-                    Eigen::VectorXd& sum) const;
   void scatter(int e, const Eigen::MatrixXd& tangent, std::vector<double>& values) const;
   Eigen::Matrix<double, kUnknowns, 1> gather(int e, const std::vector<HermiteMesh::Node>& x) const;
   Eigen::Map<const Eigen::VectorXd> pressures_of(const State& state, int e) const;

@@ -136,6 +136,13 @@ SparsePattern make_sparse_pattern(const HermiteMesh& mesh, const DofMap& dofs) {
   return pattern;
 }
 
+void SparsePattern::add(int e, const Eigen::Ref<const Eigen::VectorXd>& of_element, double scale,
+                        Eigen::VectorXd& sum) const {
+  for (std::size_t k = 0; k < equations[e].size(); ++k)
+    if (const int equation = equations[e][k]; equation >= 0)
+      sum[equation] += scale * factors[e][k] * of_element[static_cast<Eigen::Index>(k)];
+}
+
 Eigen::VectorXd multiply(const SparsePattern& pattern, const std::vector<double>& values,
                          const Eigen::VectorXd& x) {
   Eigen::VectorXd product = Eigen::VectorXd::Zero(x.size());

@@ -25,6 +25,10 @@ struct SparsePattern {
   std::vector<std::vector<int>> colours;
 
   int num_columns() const { return static_cast<int>(starts.size()) - 1; }
+
+  /// Adds `scale` times an element's vector, by unknowns, to one by equations.
+  void add(int e, const Eigen::Ref<const Eigen::VectorXd>& of_element, double scale,
+           Eigen::VectorXd& sum) const;
 };
 
 SparsePattern make_sparse_pattern(const HermiteMesh& mesh, const DofMap& dofs);
