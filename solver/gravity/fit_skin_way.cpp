@@ -38,9 +38,11 @@ SkinWayFit fit_skin_way(const BreastProblem& imaged, const ShapeFigure& figure, 
   if (!hung.complete()) return fit;
 
   Trial near{start, 0, figure(start.x)}, far = near;
+  const double first = near.figure;
   double stride = kStride_mm;
   for (int halvings = 0; far.figure < wanted && near.way_mm + stride <= kMostWay_mm;) {
-    if (progress) progress(near.way_mm / kMostWay_mm, "letting go what pressed the skin");
+    if (progress)
+      progress((near.figure - first) / (wanted - first), "letting go what pressed the skin");
     far = {near.reference, near.way_mm + stride, 0};
     if (!at(far.way_mm, far.reference)) {
       far = near;
