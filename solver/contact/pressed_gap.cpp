@@ -16,7 +16,7 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr double kFacing = 0.5;  // cosine: skin that turns away by 60 degrees looks aside
-constexpr double kPocket = 15;   // [mm], radius
+constexpr double kPocket = 15;   // [mm], radius, and depth: what is deeper is behind a fold
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Vertex = CGAL::Alpha_shape_vertex_base_2<Kernel>;
@@ -40,9 +40,10 @@ void add_facing_points(const Face& face, const SolidElement::Coefficients& x, co
                           reference = point.A1.cross(point.A2);
     const double sign = reference.dot(point.normal) > 0 ? 1 : -1;
     const Gap gap = plate.gap(y.head<3>());
-    if (sign * across.normalized().dot(gap.normal) > -kFacing) continue;
-    points.push_back({plate.to_local(y.head<3>()).head<2>(),
-                      {gap.gap, across.norm() / reference.norm() * point.area}});
+    if (sign * across.normalized().dot(gap.normal) > -kFacing || gap.gap > kPocket) continue;
+    const Eigen::Vector3d local = plate.to_local(y.head<3>());
+    if (!plate.endless && local.x() < 0) continue;
+    points.push_back({local.head<2>(), {gap.gap, across.norm() / reference.norm() * point.area}});
   }
 }
 

@@ -13,11 +13,11 @@ struct WeighedGap {
   double area = 0;  ///< [mm²]
 };
 
-/// Gaps where a plate presses: at the points of the faces that look at it and lie, seen along its
-/// normal, within the alpha shape of those that touch it (Edelsbrunner, Kirkpatrick, Seidel, 1983):
-/// no circle of 15 mm radius holds them and none that touches. So a pocket between ridges counts,
-/// and skin that leaves the plate at the border of what it presses does not. A skin that lies flat
-/// has none.
+/// Gaps where the flat face of a plate presses: at the points of the skin that look at it from 15
+/// mm and less (what is farther off is behind a fold) and lie, seen along its normal, within the
+/// alpha shape of those that touch it (Edelsbrunner, Kirkpatrick, Seidel, 1983): no circle of 15 mm
+/// radius holds them and none that touches. So a pocket between ridges counts, and skin that leaves
+/// the plate at the border of what it presses does not. A skin that lies flat has none.
 std::vector<WeighedGap> pressed_gaps(const Model& model, const State& state, const Plate& plate,
                                      const FaceList& faces, int points1d);
 

@@ -81,6 +81,12 @@ TEST(ContactFigures, MeanGapIsWeighedByPressure) {
   EXPECT_NEAR(figures.load, 7 * 10 * slope * 400, 1e-9);
 }
 
+double area_of(const std::vector<WeighedGap>& gaps) {
+  double area = 0;
+  for (const WeighedGap& g : gaps) area += g.area;
+  return area;
+}
+
 // A trough 1 mm deep across a block of 20 mm, z = 10 − c x (20 − x), that touches a plate at its
 // rims: its gap is under c (100 − t²) but in the middle 2t mm of it, and so at 95 % of the area for
 // t = 0.5. The points' areas there are 0.5 mm wide: good to 0.005 mm.
@@ -104,11 +110,9 @@ TEST(PressedGap, OfATroughIsItsDepth) {
   const Plate plate{{10, 10, 10 - into}, {0, 0, -1}, {0, 1, 0}, 0, true};
   const auto gaps = pressed_gaps(model, state, plate, faces, 12);
   EXPECT_NEAR(gap_percentile(gaps, 0.95), c * (100 - 0.25) - into, 0.005);
-  double area = 0;
-  for (const WeighedGap& g : gaps) area += g.area;
   // Its slope c (20 − 2x) has the mean square 400 c²/3, which makes it 2/3 % longer than wide; at
   // its open ends a triangle of the shape is missing.
-  EXPECT_NEAR(area, 400 * (1 + 200 * c * c / 3), 8);
+  EXPECT_NEAR(area_of(gaps), 400 * (1 + 200 * c * c / 3), 8);
 }
 
 // Rims 40 mm apart leave room for a circle that none of them is in: nothing lies between them.
@@ -128,6 +132,33 @@ TEST(PressedGap, DoesNotReachAcrossATroughThatIsTooWide) {
   const auto gaps = pressed_gaps(model, state, plate, faces_at(mesh, 2, 10), 12);
   ASSERT_FALSE(gaps.empty());
   EXPECT_LE(gap_percentile(gaps, 1), 0);
+}
+
+TEST(PressedGap, EndsWhereThePlatesFlatFaceEnds) {
+  const HermiteMesh mesh = box_mesh({40, 20, 10}, {2, 1, 1});
+  Model model(mesh, uniform(std::make_shared<NeoHookean>(1)), {});
+  const auto contact = std::make_shared<PlateContact>();
+  for (const auto& [e, face] : faces_at(mesh, 2, 10))
+    model.add_surface_potential(e, face, contact, 12);
+  const auto gaps = [&](bool endless) {
+    const Plate plate{{20, 10, 9.9}, {0, 0, -1}, {1, 0, 0}, 0, endless};
+    return pressed_gaps(model, model.rest(), plate, faces_at(mesh, 2, 10), 12);
+  };
+  EXPECT_NEAR(area_of(gaps(true)), 800, 16);
+  EXPECT_NEAR(area_of(gaps(false)), 400, 16);
+}
+
+// What lies below a fold looks at the plate, too: here the face between two blocks, 20 mm down.
+TEST(PressedGap, IsNotThatOfSkinBehindAFold) {
+  const HermiteMesh mesh = box_mesh({20, 20, 40}, {1, 1, 2});
+  Model model(mesh, uniform(std::make_shared<NeoHookean>(1)), {});
+  const auto contact = std::make_shared<PlateContact>();
+  const FaceList faces{{0, 5}, {1, 5}};
+  for (const auto& [e, face] : faces) model.add_surface_potential(e, face, contact, 12);
+  const Plate plate{{10, 10, 39.9}, {0, 0, -1}, {0, 1, 0}, 0, true};
+  const auto gaps = pressed_gaps(model, model.rest(), plate, faces, 12);
+  EXPECT_NEAR(gap_percentile(gaps, 1), -0.1, 1e-9);
+  EXPECT_NEAR(area_of(gaps), 400, 8);
 }
 
 TEST(PressedGap, OfABlockThatDoesNotTouchIsNone) {
