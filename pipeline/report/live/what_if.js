@@ -6,7 +6,9 @@
   if (!root || !mammotwin.panes) return;
   const panes = [...mammotwin.panes.values()].filter(pane => pane.view.what_if);
   if (!panes.length) return;
-  const STATES = 12, MECHANICAL = 9, TURN = 9, DEPTH = 10, LATERAL = 11;  // registration/search/view_state.h
+  // registration/search/view_state.h: mechanical numbers, then turn, depth and lateral
+  const STATES = panes[0].view.what_if.ellipse.sd.length, MECHANICAL = STATES - 3;
+  const TURN = MECHANICAL, DEPTH = MECHANICAL + 1, LATERAL = MECHANICAL + 2;
   const NINETY = Math.sqrt(8 * (Math.pow(1 - 0.9, -2 / 10) - 1));  // registration/search/search_ellipse.h
   const WORDS = {
     thickness_mm: ["Thickness", (by, view) => (view.thickness_mm + by).toFixed(1) + " mm"],
