@@ -28,12 +28,9 @@ SkinWayFit fit_skin_way(const BreastProblem& imaged, const ShapeFigure& figure, 
     return inverse.solve(state, weight, options.tolerance, options.max_iterations).converged;
   };
   State start = inverse.start();
-  const LoadSteppingReport hung = step_load(
-      start, options.load,
-      [&](double fraction, State& state) {
-        return inverse.solve(state, fraction * weight, options.tolerance, options.max_iterations);
-      },
-      [](const LoadSteppingReport&, const State&, const NewtonReport&) {});
+  const LoadSteppingReport hung =
+      inverse.raise(start, weight, 0, options.load, options.tolerance, options.max_iterations,
+                    [](const LoadSteppingReport&, const State&, const NewtonReport&) {});
   fit.reason = hung.reason;
   if (!hung.complete()) return fit;
 

@@ -210,6 +210,19 @@ InverseEquilibrium::Step InverseEquilibrium::step_of(const Eigen::VectorXd& corr
   return step;
 }
 
+LoadSteppingReport InverseEquilibrium::raise(State& reference, const Eigen::Vector3d& body_force,
+                                             double way_mm, const LoadSteppingOptions& load,
+                                             double tolerance, int max_iterations,
+                                             const StepDone& step_done) {
+  return step_load(
+      reference, load,
+      [&](double fraction, State& trial) {
+        set_skin_way(fraction * way_mm);
+        return solve(trial, fraction * body_force, tolerance, max_iterations);
+      },
+      step_done);
+}
+
 void InverseEquilibrium::linearise_at(const State& solution, const Eigen::Vector3d& body_force) {
   if (!linearise(solution, evaluate(solution, body_force), body_force))
     throw std::runtime_error("the tangent of the inverse problem is singular");

@@ -41,6 +41,12 @@ class InverseEquilibrium {
   NewtonReport solve(State& reference, const Eigen::Vector3d& body_force, double tolerance,
                      int max_iterations);
 
+  /// The same from `start()` on, body force and the pressed skin's way raised together, in steps of
+  /// at most `max_iterations` each.
+  LoadSteppingReport raise(State& reference, const Eigen::Vector3d& body_force, double way_mm,
+                           const LoadSteppingOptions& load, double tolerance, int max_iterations,
+                           const StepDone& step_done);
+
   /// Factors the tangent at a solution, for `change`. Throws std::runtime_error where it is
   /// singular.
   void linearise_at(const State& solution, const Eigen::Vector3d& body_force);

@@ -83,16 +83,12 @@ class Unloading {
 Unloading::TakenOff Unloading::take_off(double share) {
   const Eigen::Vector3d weight = share * problem_.density * problem_.gravity;
   TakenOff result{inverse_.start(), {}, 0, {}};
-  result.load = step_load(
-      result.reference, options_.load,
-      [&](double fraction, State& trial) {
-        inverse_.set_skin_way(fraction * problem_.pressed.way_mm);
-        return inverse_.solve(trial, fraction * weight, options_.tolerance,
-                              options_.max_iterations);
-      },
-      [&](const LoadSteppingReport& so_far, const State&, const NewtonReport&) {
-        say(0.5 * so_far.reached, "gravity taken off");
-      });
+  result.load =
+      inverse_.raise(result.reference, weight, problem_.pressed.way_mm, options_.load,
+                     options_.tolerance, options_.max_iterations,
+                     [&](const LoadSteppingReport& so_far, const State&, const NewtonReport&) {
+                       say(0.5 * so_far.reached, "gravity taken off");
+                     });
   if (result.load.complete()) result.margin = inverse_.stability_margin(result.reference);
   result.skin_forces = inverse_.skin_forces(result.reference);
   result.skin_force_N = inverse_.skin_force_N(result.reference);
