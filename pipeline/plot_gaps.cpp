@@ -91,13 +91,11 @@ PressedSkin read_pressed(const fs::path& path) {
   const std::optional<SolutionRecord> solution = read_solution(file, path.string());
   if (!solution) throw std::runtime_error(path.string() + ": no plates; expected compress's mesh");
   const double apart = solution->paddle_height_mm - solution->support_height_mm;
-  std::vector<ElementFace> faces = outer_faces(file);
-  std::erase_if(faces, [](const ElementFace& f) { return f.label != FaceLabel::skin; });
   PressedSkin pressed;
   pressed.title = path.parent_path().filename().string() + ", " + view.name + ", " +
                   word::number(apart, 1) + " mm between the plates" +
                   percentile_in(path.string() + ".json");
-  pressed.paddle.skin = triangulate(file.mesh, faces, kSamples);
+  pressed.paddle.skin = triangulate(file.mesh, skin_faces(file), kSamples);
   for (Eigen::Vector3d& x : pressed.paddle.skin.points) {
     x = view.frame.view_from_lps(x);
     std::swap(x.x(), x.y());
@@ -114,12 +112,7 @@ PressedSkin read_pressed(const fs::path& path) {
 
 /// Blue inside the plate, red off it, grey where no plate presses.
 Colour gap_colour(double mm) {
-  if (!is_under(mm)) return palette::grid;
-  const double t = std::clamp(mm / kEnd_mm, -1.0, 1.0), a = std::abs(t);
-  const Colour end = t < 0 ? palette::nipple : palette::lesion;
-  constexpr double white = 0.97;
-  return {white + a * (end.red - white), white + a * (end.green - white),
-          white + a * (end.blue - white), 1};
+  return is_under(mm) ? palette::inside_outside(mm / kEnd_mm) : palette::grid;
 }
 
 void draw(const SkinUnderPlate& seen, const Eigen::AlignedBox2d& window, double x, double y,

@@ -1,5 +1,6 @@
 #include "solver/gravity/fit_skin_way.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "solver/gravity/inverse_equilibrium.h"
@@ -39,7 +40,8 @@ SkinWayFit fit_skin_way(const BreastProblem& imaged, const ShapeFigure& figure, 
   double stride = kStride_mm;
   for (int halvings = 0; far.figure < wanted && near.way_mm + stride <= kMostWay_mm;) {
     if (progress)
-      progress((near.figure - first) / (wanted - first), "letting go what pressed the skin");
+      progress(std::max(0.0, (near.figure - first) / (wanted - first)),
+               "letting go what pressed the skin");
     far = {near.reference, near.way_mm + stride, 0};
     if (!at(far.way_mm, far.reference)) {
       far = near;

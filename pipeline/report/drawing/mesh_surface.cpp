@@ -52,6 +52,11 @@ std::optional<Piece> cut_triangle(const std::array<Eigen::Vector3d, 3>& x, int a
 }  // namespace
 
 std::vector<ElementFace> outer_faces(const MeshFile& file) { return faces_used(file, true); }
+std::vector<ElementFace> skin_faces(const MeshFile& file) {
+  std::vector<ElementFace> faces = outer_faces(file);
+  std::erase_if(faces, [](const ElementFace& f) { return f.label != FaceLabel::skin; });
+  return faces;
+}
 std::vector<ElementFace> all_faces(const MeshFile& file) { return faces_used(file, false); }
 
 MeshPoint point_on_face(const ElementFace& face, double s, double t) {

@@ -18,6 +18,9 @@ struct ElementFace {
 /// Faces that belong to one element only, with their labels (interior where the file has none).
 std::vector<ElementFace> outer_faces(const MeshFile& file);
 
+/// Those of them that are skin.
+std::vector<ElementFace> skin_faces(const MeshFile& file);
+
 /// Every face of the mesh once, those between two elements included.
 std::vector<ElementFace> all_faces(const MeshFile& file);
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <string>
 
@@ -49,6 +51,15 @@ inline std::string css(const Colour& c) {
 inline Colour with_alpha(Colour colour, double alpha) {
   colour.alpha *= alpha;
   return colour;
+}
+
+/// White at 0, blue at -1 and beyond, red at 1 and beyond: inside and outside of what is compared.
+inline Colour inside_outside(double share) {
+  const double t = std::clamp(share, -1.0, 1.0), a = std::abs(t);
+  const Colour end = t < 0 ? nipple : lesion;
+  constexpr double white = 0.96;
+  return {white + a * (end.red - white), white + a * (end.green - white),
+          white + a * (end.blue - white), 1};
 }
 
 /// `top` drawn over an opaque `below`.

@@ -1,7 +1,6 @@
 #include "pipeline/report/figures/fit_error.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "pipeline/report/drawing/mesh_field.h"
 #include "pipeline/report/drawing/palette.h"
@@ -24,13 +23,6 @@ struct Eye {
 };
 constexpr Eye kEyes[] = {{"From the front and the side", 0.7, 0.35},
                          {"From the middle and below", -0.7, -0.5}};
-
-/// Faces of the skin only: elsewhere the field is no error of the fit.
-std::vector<ElementFace> skin_faces(const MeshFile& file) {
-  std::vector<ElementFace> faces = outer_faces(file);
-  std::erase_if(faces, [](const ElementFace& f) { return f.label != FaceLabel::skin; });
-  return faces;
-}
 
 Picture seen(const FaceTriangles& skin, const std::vector<double>& errors,
              const Eigen::Matrix3d& axes) {
@@ -78,13 +70,7 @@ std::pair<double, double> measured_range(const std::vector<double>& errors) {
 
 }  // namespace
 
-Colour fit_error_colour(double mm) {
-  const double t = std::clamp(mm / kFitErrorEnd_mm, -1.0, 1.0), a = std::abs(t);
-  const Colour end = t < 0 ? palette::nipple : palette::lesion;
-  constexpr double white = 0.96;
-  return {white + a * (end.red - white), white + a * (end.green - white),
-          white + a * (end.blue - white), 1};
-}
+Colour fit_error_colour(double mm) { return palette::inside_outside(mm / kFitErrorEnd_mm); }
 
 std::vector<double> fit_errors(const PatientResults& results, const std::vector<ElementFace>& faces,
                                int samples) {
@@ -100,6 +86,7 @@ std::vector<double> fit_errors(const PatientResults& results, const std::vector<
 
 std::optional<Figure> fit_figure(const PatientResults& results) {
   if (!results.prone) return std::nullopt;
+  // Elsewhere the field is no error of the fit.
   const std::vector<ElementFace> faces = skin_faces(*results.prone);
   const std::vector<double> errors = fit_errors(results, faces, kSamples);
   if (errors.empty()) return std::nullopt;
