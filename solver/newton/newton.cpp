@@ -119,7 +119,7 @@ bool Newton::refresh(const State& state, Balance& balance, const NewtonOptions& 
 /// Short steps mean that the model is trusted too far: the metric is stiffened as in Levenberg's
 /// method, and let go again by full steps.
 void Newton::adapt_damping(double fraction) {
-  constexpr double poor = 0.1, good = 0.5, first = 1e-3, growth = 4;
+  constexpr double poor = 0.25, good = 0.5, first = 1e-3, growth = 4;
   if (fraction < poor)
     damping_ = std::max(first, growth * std::max(damping_, shift_));
   else if (fraction > good)
@@ -173,7 +173,8 @@ Newton::Trial Newton::at(const State& state, const Step& step, double fraction) 
   Trial trial{state, {}, 0};
   for (std::size_t i = 0; i < state.x.size(); ++i) trial.state.x[i] += fraction * step.nodes[i];
   for (std::size_t i = 0; i < state.pressure.size(); ++i)
-    trial.state.pressure[i] += fraction * (step.pressures.pressure[i] - state.pressure[i]);
+    trial.state.pressure[i] +=
+        std::min(1.0, fraction) * (step.pressures.pressure[i] - state.pressure[i]);
   trial.balance = assembler_.balance(trial.state);
   trial.merit = merit_.value(trial.balance);
   return trial;
@@ -207,12 +208,33 @@ bool Newton::settles(const Trial& trial, const State& state, const Balance& befo
          now.constraint <= std::max(most_growth * before.constraint, most_constraint);
 }
 
+/// A step whose tangent was stiffer than the energy is along it: doubled while a parabola through
+/// the merits says that its lowest place lies farther, and the merit goes down.
+double Newton::lengthened(Trial& trial, const State& state, const Step& step,
+                          const Balance& before) const {
+  constexpr double longest = 16, worth_it = 1.5;
+  const double start = merit_.value(before);
+  double length = 1;
+  while (length < longest) {
+    const double curvature = 2 * (trial.merit - start - step.slope * length) / (length * length);
+    if (-step.slope < worth_it * length * curvature) break;
+    Trial farther = at(state, step, 2 * length);
+    if (!(farther.merit < trial.merit) && std::isfinite(farther.merit))
+      farther = corrected(farther, step, before, 2 * length);
+    if (!(farther.merit < trial.merit)) break;
+    trial = std::move(farther);
+    length *= 2;
+  }
+  return length;
+}
+
 double Newton::search(State& state, const Step& step, Balance& balance,
                       const NewtonOptions& options) {
   constexpr double sufficient = 1e-4, shortest = 0.01;
   constexpr double least_cut = 0.1, most_cut = 0.5;
   const double start = merit_.value(balance), rounding = CondensedEnergy::rounding(balance);
   const bool down = step.slope < 0;
+  const bool too_stiff = indefinite_ && balance.residual.norm() < kFarFromBalance * balance.flow;
   const auto lowers = [&](const Trial& trial, double fraction) {
     if (!std::isfinite(trial.merit)) return false;
     if (!down) return true;
@@ -226,6 +248,8 @@ double Newton::search(State& state, const Step& step, Balance& balance,
     }
     const bool lower = lowers(trial, fraction);
     if (lower || settles(trial, state, balance, sufficient * fraction, options)) {
+      if (fraction == 1 && down && lower && too_stiff)
+        fraction = lengthened(trial, state, step, balance);
       if (options.watch && down && lower) options.watch(start, trial.merit);
       state = std::move(trial.state);
       balance = std::move(trial.balance);

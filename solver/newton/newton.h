@@ -101,6 +101,8 @@ class Newton {
                   double fraction) const;
   bool settles(const Trial& trial, const State& state, const Balance& before, double least,
                const NewtonOptions& options) const;
+  double lengthened(Trial& trial, const State& state, const Step& step,
+                    const Balance& before) const;
   double search(State& state, const Step& step, Balance& balance, const NewtonOptions& options);
 
   Assembler assembler_;

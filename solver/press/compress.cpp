@@ -47,6 +47,7 @@ class Compression {
  private:
   bool begin(State& state);
   bool settle(State& state);
+  bool lies_as_imaged(State& state);
   void place(double fraction);
   NewtonReport balance_tilt(NewtonReport report, State& state);
   NewtonReport equilibrate(double fraction, State& state);
@@ -83,7 +84,18 @@ Compression::Compression(const CompressionProblem& problem, const CompressionOpt
   report_.dof = press_.breast().dofs->num_equations();
 }
 
-void Compression::place(double fraction) { press_.put(way_.at(fraction, good_.tilt)); }
+/// At the end of the way the paddle goes farther by how much tissue stood inside the plates in the
+/// last step: contact that closes then thickens the breast by about as much.
+void Compression::place(double fraction) {
+  constexpr double most = 2;  // [mm]
+  press_.put(way_.at(fraction, good_.tilt));
+  const auto& last = good_.reached.fraction < 1 ? good_.reached : good_.before;
+  if (fraction < 1 || last.fraction == 0) return;
+  const PlacedPlates placed = way_.at(last.fraction, good_.tilt);
+  const double apart = placed.paddle_height - placed.support_height;
+  const double inside = std::clamp(press_.thickness(last.state) - apart, 0.0, most);
+  press_.move_paddle(press_.placed().paddle_height - inside, good_.tilt);
+}
 
 /// Turns the paddle by the secant method until its spring and the breast are in balance.
 NewtonReport Compression::balance_tilt(NewtonReport report, State& state) {
@@ -185,13 +197,28 @@ void Compression::stop_by_force(const LoadSteppingReport& pressed, State& state)
   stop_.reset();
 }
 
+/// A breast that its weight draws forward lies as it was imaged, and only its pressures are to be
+/// found: but for one that a coil's plates pressed then, and no longer do.
+bool Compression::lies_as_imaged(State& state) {
+  constexpr int most_iterations = 4;
+  if (problem_.pull.isZero() || problem_.prone.empty()) return false;
+  NewtonOptions balance;
+  balance.max_iterations = most_iterations;
+  State imaged = state;
+  imaged.x = problem_.prone;
+  const NewtonReport newton = press_.newton().solve(imaged, balance);
+  count(newton);
+  if (newton.usable()) state = std::move(imaged);
+  return newton.usable();
+}
+
 /// Brings the breast to rest under gravity and pull, the plates away; false where it does not come
 /// to rest.
 bool Compression::settle(State& state) {
   press_.put(way_.start());
   press_.take_plates_away();
   const Eigen::Vector3d force = problem_.body_force();
-  if (force.isZero()) return true;
+  if (force.isZero() || lies_as_imaged(state)) return true;
   const LoadSteppingReport load =
       raise_body_force(press_.breast(), press_.newton(), force, {}, state);
   report_.newton_iterations += load.iterations;
