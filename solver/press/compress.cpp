@@ -8,10 +8,10 @@
 #include <utility>
 #include <vector>
 
-#include "solver/gravity/hang.h"
 #include "solver/load/load_stepping.h"
 #include "solver/press/check_shape.h"
 #include "solver/press/checkpoint.h"
+#include "solver/press/come_to_rest.h"
 #include "solver/press/compression_figures.h"
 #include "solver/press/finish.h"
 #include "solver/press/judge_compressed.h"
@@ -47,7 +47,6 @@ class Compression {
  private:
   bool begin(State& state);
   bool settle(State& state);
-  bool lies_as_imaged(State& state);
   void place(double fraction);
   NewtonReport balance_tilt(NewtonReport report, State& state);
   NewtonReport equilibrate(double fraction, State& state);
@@ -197,30 +196,11 @@ void Compression::stop_by_force(const LoadSteppingReport& pressed, State& state)
   stop_.reset();
 }
 
-/// A breast that its weight draws forward lies as it was imaged, and only its pressures are to be
-/// found: but for one that a coil's plates pressed then, and no longer do.
-bool Compression::lies_as_imaged(State& state) {
-  constexpr int most_iterations = 4;
-  if (problem_.pull.isZero() || problem_.prone.empty()) return false;
-  NewtonOptions balance;
-  balance.max_iterations = most_iterations;
-  State imaged = state;
-  imaged.x = problem_.prone;
-  const NewtonReport newton = press_.newton().solve(imaged, balance);
-  count(newton);
-  if (newton.usable()) state = std::move(imaged);
-  return newton.usable();
-}
-
-/// Brings the breast to rest under gravity and pull, the plates away; false where it does not come
-/// to rest.
+/// Brings the breast to rest, the plates away; false where it does not come to rest.
 bool Compression::settle(State& state) {
   press_.put(way_.start());
   press_.take_plates_away();
-  const Eigen::Vector3d force = problem_.body_force();
-  if (force.isZero() || lies_as_imaged(state)) return true;
-  const LoadSteppingReport load =
-      raise_body_force(press_.breast(), press_.newton(), force, {}, state);
+  const LoadSteppingReport load = come_to_rest(problem_, press_.breast(), press_.newton(), state);
   report_.newton_iterations += load.iterations;
   report_.indefinite_matrices += load.indefinite;
   if (!load.complete()) report_.reason = "does not come to rest under gravity: " + load.reason;

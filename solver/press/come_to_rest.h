@@ -1,0 +1,17 @@
+#pragma once
+
+#include "solver/load/load_stepping.h"
+#include "solver/newton/newton.h"
+#include "solver/press/compression_problem.h"
+
+namespace mammotwin {
+
+struct BreastModel;
+
+/// Brings the breast to rest under its weight and pull, from the state on, with no plates. One that
+/// its weight draws forward lies as it was imaged, and only its pressures are to be found: but for
+/// one that a coil's plates pressed then, and no longer do. Iterations are those of both tries.
+LoadSteppingReport come_to_rest(const CompressionProblem& problem, BreastModel& breast,
+                                Newton& newton, State& state);
+
+}  // namespace mammotwin
