@@ -48,13 +48,13 @@ struct NewtonReport {
 /// Newton's method on the mixed system: pressures are unknowns of the linearisation. The step in
 /// the shape is then one down the condensed energy, which every accepted step lowers (Armijo), at
 /// full length or, where the volume errs, bent back to the volume that it was to have (second-order
-/// correction, Nocedal and Wright, section 18.3), else cut. With friction, which has no energy, a
-/// step is also taken that lowers the norm of the residual; where many come no nearer to balance,
-/// or lead back to an unstable state that was left, pressures of friction are held until the rest
-/// is in balance and then follow by a half, and where that comes no nearer either, a solve ends in
-/// its nearest state. Far from balance, and where the matrix is not positive definite, it is that
-/// of the energy's convex parts (convex_part.h), and shifted by the μ-weighted Laplacian where
-/// steps stay short.
+/// correction, Nocedal and Wright, section 18.3), else cut, or doubled where the energy curves
+/// down. With friction, which has no energy, a step is also taken that lowers the norm of the
+/// residual; where many come no nearer to balance, or lead back to an unstable state that was left,
+/// pressures of friction are held until the rest is in balance and then follow by a half, and where
+/// that comes no nearer either, a solve ends in its nearest state. Far from balance, and where the
+/// matrix is not positive definite, it is that of the energy's convex parts (convex_part.h), and
+/// shifted by the μ-weighted Laplacian where steps stay short.
 class Newton {
  public:
   Newton(const Model& model, const DofMap& dofs);

@@ -84,7 +84,7 @@ Compression::Compression(const CompressionProblem& problem, const CompressionOpt
 }
 
 /// At the end of the way the paddle goes farther by how much tissue stood inside the plates in the
-/// last step: contact that closes then thickens the breast by about as much.
+/// last step: the breast is to be so thick, not the plates so far apart.
 void Compression::place(double fraction) {
   constexpr double most = 2;  // [mm]
   press_.put(way_.at(fraction, good_.tilt));

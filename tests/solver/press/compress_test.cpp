@@ -256,7 +256,7 @@ TEST(Compress, APullOfItsWeightHoldsTheBreastAsItHung) {
   EXPECT_LT(largest_distance(result.found, problem.prone), 1e-3);
 }
 
-// Contact that closes afterwards thickens it by what still stands inside the plates.
+// The breast is to be so thick, not the plates so far apart: tissue stands inside them.
 TEST(Compress, LoadStepsEndNearTheThicknessAsked) {
   CompressionProblem problem = drawn_forward();
   problem.friction.coefficient = 0.3;
