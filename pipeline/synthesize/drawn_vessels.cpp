@@ -33,7 +33,7 @@ class VesselBed {
   }
 
   void grow(CounterRandom random) {
-    Vector3d x = position(
+    Vector3d x = cover_.position(
         fat_[static_cast<std::size_t>(random.uniform(0, static_cast<double>(fat_.size())))]);
     Vector3d along = random.direction();
     const double radius = random.uniform(least_radius_mm, most_radius_mm);
@@ -51,13 +51,6 @@ class VesselBed {
   const Volume<float>& covered() const { return cover_; }
 
  private:
-  Vector3d position(std::size_t v) const {
-    const auto nx = static_cast<std::size_t>(cover_.size.x()),
-               ny = static_cast<std::size_t>(cover_.size.y());
-    return cover_.position(static_cast<int>(v % nx), static_cast<int>(v / nx % ny),
-                           static_cast<int>(v / nx / ny));
-  }
-
   bool is_open(const Vector3d& x) const {
     const Eigen::Vector3i v = cover_.index(x).array().round().cast<int>();
     if (!cover_.contains(v.x(), v.y(), v.z())) return false;

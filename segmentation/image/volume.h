@@ -43,6 +43,12 @@ struct Volume {
   Eigen::Vector3d position(int i, int j, int k) const {
     return origin + spacing.cwiseProduct(Eigen::Vector3d(i, j, k));
   }
+  /// Of the voxel at `values[at]`.
+  Eigen::Vector3d position(std::size_t at) const {
+    const std::size_t row = at / size.x();
+    return position(static_cast<int>(at % size.x()), static_cast<int>(row % size.y()),
+                    static_cast<int>(row / size.y()));
+  }
   /// Continuous voxel index of a point in LPS.
   Eigen::Vector3d index(const Eigen::Vector3d& x_in_lps) const {
     return (x_in_lps - origin).cwiseQuotient(spacing);

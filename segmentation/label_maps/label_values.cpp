@@ -4,6 +4,7 @@
 #include <array>
 #include <numeric>
 #include <stdexcept>
+#include <utility>
 
 #include "segmentation/image/components.h"
 
@@ -18,7 +19,7 @@ constexpr std::array<Word, 7> words{{{ForeignTissue::air, "air"},
                                      {ForeignTissue::transition, "transition"},
                                      {ForeignTissue::muscle, "muscle"},
                                      {ForeignTissue::lesion, "lesion"}}};
-constexpr int most_lesions = 256 - label::lesion;
+constexpr double least_lesion_ml = 0.02, focus_ml = 0.0654;  // the latter a ball of 5 mm
 
 ForeignTissue tissue_of(const LabelValues& values, std::uint16_t value) {
   if (const auto found = values.find(value); found != values.end()) return found->second;
@@ -66,20 +67,54 @@ void settle_transition(const Volume<std::uint8_t>& transition, Volume<std::uint8
       }
 }
 
+/// Whether each part of lesion labels counts as a lesion.
+std::vector<bool> lesions_among(const Components& parts, const Volume<std::uint16_t>& foreign,
+                                const std::vector<Eigen::Vector3d>& named) {
+  std::vector<double> least_ml(parts.sizes.size(), focus_ml);
+  std::map<std::uint16_t, std::map<std::int32_t, std::size_t>> voxels_of;
+  for (std::size_t v = 0; v < foreign.values.size(); ++v)
+    if (const std::int32_t part = parts.ids.values[v]) ++voxels_of[foreign.values[v]][part];
+  for (const auto& [value, voxels] : voxels_of) {
+    const auto fewer = [](const auto& a, const auto& b) { return a.second < b.second; };
+    least_ml[std::max_element(voxels.begin(), voxels.end(), fewer)->first] = least_lesion_ml;
+  }
+  for (std::size_t v = 0; v < foreign.values.size(); ++v)
+    if (const std::int32_t part = parts.ids.values[v])
+      for (const Eigen::Vector3d& x : named)
+        if ((foreign.position(v) - x).norm() <= nearest_lesion_mm) least_ml[part] = 0;
+  std::vector<bool> is_lesion;
+  for (std::size_t part = 0; part < parts.sizes.size(); ++part)
+    is_lesion.push_back(parts.sizes[part] * foreign.voxel_volume() / 1000 >= least_ml[part]);
+  return is_lesion;
+}
+
 /// Numbers the lesions, largest first.
-void label_lesions(const Volume<std::uint8_t>& lesion, double least_ml,
-                   Volume<std::uint8_t>& labels) {
+void label_lesions(const Volume<std::uint8_t>& lesion, const Volume<std::uint16_t>& foreign,
+                   const std::vector<Eigen::Vector3d>& named, MappedLabels& out) {
   const Components parts = connected_components(lesion);
+  const std::vector<bool> is_lesion = lesions_among(parts, foreign, named);
   std::vector<std::int32_t> order(parts.sizes.size() - 1);
   std::iota(order.begin(), order.end(), 1);
   std::stable_sort(order.begin(), order.end(),
                    [&](auto a, auto b) { return parts.sizes[a] > parts.sizes[b]; });
   std::vector<std::uint8_t> label_of(parts.sizes.size(), label::fibroglandular);
-  for (std::size_t n = 0; n < order.size() && n < most_lesions; ++n)
-    if (parts.sizes[order[n]] * labels.voxel_volume() / 1000 >= least_ml)
-      label_of[order[n]] = static_cast<std::uint8_t>(label::lesion + n);
-  for (std::size_t v = 0; v < labels.values.size(); ++v)
-    if (lesion.values[v]) labels.values[v] = label_of[parts.ids.values[v]];
+  int next = label::lesion;
+  std::int32_t largest_crumb = 0;
+  for (const std::int32_t part : order) {
+    if (is_lesion[part] && next < 256) {
+      label_of[part] = static_cast<std::uint8_t>(next++);
+    } else if (++out.crumbs.parts == 1) {
+      largest_crumb = part;
+      out.crumbs.largest_ml = parts.sizes[part] * foreign.voxel_volume() / 1000;
+    }
+  }
+  bool found = false;
+  for (std::size_t v = 0; v < lesion.values.size(); ++v)
+    if (const std::int32_t part = parts.ids.values[v]) {
+      out.labels.values[v] = label_of[part];
+      if (part == largest_crumb && !std::exchange(found, true))
+        out.crumbs.largest_in_lps = foreign.position(v);
+    }
 }
 
 }  // namespace
@@ -111,8 +146,8 @@ LabelValues own_label_values() {
 }
 
 MappedLabels map_labels(const Volume<std::uint16_t>& foreign, const LabelValues& values,
-                        double least_lesion_ml) {
-  MappedLabels out{foreign.like<std::uint8_t>(0), foreign.like<Fractions>()};
+                        const std::vector<Eigen::Vector3d>& named) {
+  MappedLabels out{foreign.like<std::uint8_t>(0), foreign.like<Fractions>(), {}};
   auto transition = foreign.like<std::uint8_t>(0), lesion = transition;
   std::array<int, 65536> cache;
   cache.fill(-1);
@@ -125,7 +160,7 @@ MappedLabels map_labels(const Volume<std::uint16_t>& foreign, const LabelValues&
     lesion.values[v] = tissue == ForeignTissue::lesion;
   }
   settle_transition(transition, out.labels);
-  label_lesions(lesion, least_lesion_ml, out.labels);
+  label_lesions(lesion, foreign, named, out);
   for (std::size_t v = 0; v < foreign.values.size(); ++v)
     out.fractions.values[v] =
         transition.values[v] ? Fractions{0.5F, 0.5F, 0} : pure_fractions(out.labels.values[v]);

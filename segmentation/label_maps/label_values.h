@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "segmentation/image/volume.h"
 #include "segmentation/segmentation.h"
@@ -25,17 +26,30 @@ using LabelValues = std::map<std::uint16_t, ForeignTissue>;
 /// Values of the project's own maps (segmentation.h).
 LabelValues own_label_values();
 
+/// Parts of lesion labels that count as no lesion: scattered voxels beside what was marked.
+struct LesionCrumbs {
+  std::size_t parts = 0;
+  double largest_ml = 0;
+  Eigen::Vector3d largest_in_lps = Eigen::Vector3d::Zero();  ///< its first voxel's centre
+};
+
 /// Labels as in segmentation.h, and fractions, from a foreign map.
 struct MappedLabels {
   Volume<std::uint8_t> labels;
   Volume<Fractions> fractions;
+  LesionCrumbs crumbs;
 };
 
-/// Lesion parts of at least `least_lesion_ml` get labels from `label::lesion` up, the largest
-/// first; smaller ones become fibroglandular. Transition voxels are labelled fibroglandular where
-/// most neighbours that are not transition are, else fat, and have the fraction one half.
+/// A part of lesion labels is a lesion if it is as large as a ball of 5 mm (less is a focus: ACR
+/// BI-RADS MRI, 2013), or is the largest of a value and of 0.02 ml or more, or lies within 10 mm of
+/// a point in `named`. Lesions get labels from `label::lesion` up, the largest first; other parts
+/// become fibroglandular. Transition voxels are labelled fibroglandular where most neighbours that
+/// are not transition are, else fat, and have the fraction one half.
 /// Throws std::invalid_argument if the map holds a value that is not named.
 MappedLabels map_labels(const Volume<std::uint16_t>& foreign, const LabelValues& values,
-                        double least_lesion_ml = 0.02);
+                        const std::vector<Eigen::Vector3d>& named = {});
+
+/// A seed names a lesion that a label map has within this distance of it.
+constexpr double nearest_lesion_mm = 10;
 
 }  // namespace mammotwin

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
 #include <limits>
 #include <map>
+#include <sstream>
 #include <stdexcept>
 
 #include "segmentation/body/midline.h"
@@ -15,8 +17,6 @@
 
 namespace mammotwin {
 namespace {
-
-constexpr double nearest_lesion_mm = 10;  // a seed names the lesion within this distance
 
 /// The lesions' side, where all are on one.
 Side side_of_lesions(const std::vector<Eigen::Vector3d>& places, std::optional<double> midline,
@@ -139,19 +139,35 @@ std::vector<std::pair<std::uint8_t, std::string>> names_by_segment(
   return names;
 }
 
+std::string sentence(const LesionCrumbs& crumbs) {
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(3) << crumbs.parts
+       << (crumbs.parts == 1 ? " part" : " parts") << " of lesion labels, "
+       << (crumbs.parts == 1 ? "of " : "the largest of ") << crumbs.largest_ml << " ml at ("
+       << std::setprecision(0) << crumbs.largest_in_lps.x() << ", " << crumbs.largest_in_lps.y()
+       << ", " << crumbs.largest_in_lps.z()
+       << ") mm LPS, counted as fibroglandular tissue: smaller than a ball of 5 mm beside a larger "
+          "part of their label, or than 0.02 ml (to keep one, name it in [[lesions]] by "
+          "point_lps_mm)";
+  return text.str();
+}
+
 }  // namespace
 
 SegmentResult segment_labels(const SegmentInput& input) {
   const std::string file = input.label_map->string();
   const NamedSegments named = segments_of(input);
   const Volume<std::uint16_t> foreign = read_labels(*input.label_map);
-  MappedLabels mapped = map_labels(foreign, named.values);
   std::vector<PlacedSeed> seeds;
   for (const LesionSeed& seed : input.lesions) seeds.push_back(place_seed(seed));
+  std::vector<Eigen::Vector3d> places, named_by_point;
+  for (const PlacedSeed& seed : seeds) {
+    places.push_back(seed.point_in_lps);
+    if (!seed.radius_mm && !seed.mask) named_by_point.push_back(seed.point_in_lps);
+  }
+  MappedLabels mapped = map_labels(foreign, named.values, named_by_point);
 
   const std::optional<double> midline = find_midline(mapped.labels);
-  std::vector<Eigen::Vector3d> places;
-  for (const PlacedSeed& seed : seeds) places.push_back(seed.point_in_lps);
   if (places.empty())
     for (const Lesion& lesion : measure_lesions(mapped.labels))
       places.push_back(lesion.centroid_in_lps);
@@ -172,6 +188,7 @@ SegmentResult segment_labels(const SegmentInput& input) {
   for (const auto& [value, id] : names) s.lesions[new_value[value] - label::lesion].id = id;
   result.files = {*input.label_map};
   result.quality.contrast = "labels";
+  if (mapped.crumbs.parts > 0) result.quality.notes.push_back(sentence(mapped.crumbs));
   return result;
 }
 

@@ -148,7 +148,7 @@ Mask HalfMaximum::lobes_of(const Mask& mask, const Mask& kept, double most_gap_m
 
 double HalfMaximum::deepest_near_core(const Volume<float>& depth) {
   for (int step = 0; step < 50; ++step) {
-    const Eigen::Vector3d centre = position(core_);
+    const Eigen::Vector3d centre = image_.position(core_);
     const double radius = std::max<double>(depth.values[core_], 1.5 * depth.spacing.maxCoeff());
     const std::size_t next =
         argmax(depth, where(allowed_, [&](const Eigen::Vector3d& x, std::size_t) {
@@ -164,12 +164,6 @@ void HalfMaximum::measure(const Mask& mask, FoundLesion& lesion) const {
   const LesionRegion region(mask, allowed_);
   lesion.brightness = region.brightness(image_, opening_of(lesion));
   lesion.background = region.background(image_).value_or(lesion.background);
-}
-
-Eigen::Vector3d HalfMaximum::position(std::size_t v) const {
-  const std::size_t nx = image_.size.x(), nxy = nx * image_.size.y();
-  return image_.position(static_cast<int>(v % nx), static_cast<int>(v % nxy / nx),
-                         static_cast<int>(v / nxy));
 }
 
 }  // namespace mammotwin

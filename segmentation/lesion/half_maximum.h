@@ -30,7 +30,6 @@ class HalfMaximum {
   /// Climbs from the core to the deepest place within its own depth, and moves the core there.
   double deepest_near_core(const Volume<float>& depth);
   void measure(const Volume<std::uint8_t>& mask, FoundLesion& lesion) const;
-  Eigen::Vector3d position(std::size_t v) const;
 
   const Volume<float>& image_;
   const Volume<std::uint8_t>& allowed_;

@@ -32,15 +32,44 @@ TEST(LabelValues, TransitionIsHalfFatHalfFibroglandular) {
   EXPECT_EQ(mapped.labels(4, 4, 4), label::fat) << "most neighbours are fat";
 }
 
-TEST(LabelValues, LesionsAreConnectedPartsLargestFirst) {
+/// Voxels of 0.008 ml: three parts of one value, of 6, 3 and 1 voxels, and one of another, of 3.
+Volume<std::uint16_t> map_of_parts() {
   auto map = map_of(1);
-  map(1, 1, 1) = map(1, 1, 2) = map(1, 1, 3) = 5;
-  for (int k = 4; k < 7; ++k) map(5, 5, k) = map(5, 6, k) = 5;
-  map(7, 0, 0) = 5;  // one voxel of 0.008 ml is noise
-  const auto labels = map_labels(map, foreign).labels;
-  EXPECT_EQ(labels(5, 5, 5), label::lesion);
-  EXPECT_EQ(labels(1, 1, 2), label::lesion + 1);
-  EXPECT_EQ(labels(7, 0, 0), label::fibroglandular);
+  for (int k = 4; k < 7; ++k) map(5, 5, k) = map(5, 6, k) = map(1, 1, k - 3) = 5;
+  map(7, 0, 0) = 5;
+  map(0, 7, 5) = map(0, 7, 6) = map(0, 7, 7) = 6;
+  return map;
+}
+
+LabelValues two_lesion_values() {
+  LabelValues values = foreign;
+  values[6] = ForeignTissue::lesion;
+  return values;
+}
+
+TEST(LabelValues, LesionsAreConnectedPartsLargestFirst) {
+  auto map = map_of_parts();
+  for (int k = 0; k < 8; ++k) map(3, 3, k) = map(3, 2, k) = 5;
+  const auto labels = map_labels(map, two_lesion_values()).labels;
+  EXPECT_EQ(labels(3, 3, 3), label::lesion);
+  EXPECT_EQ(labels(0, 7, 6), label::lesion + 1) << "the largest of its value, if small";
+  EXPECT_EQ(labels(5, 5, 5), label::fibroglandular) << "0.048 ml, smaller than a ball of 5 mm";
+}
+
+TEST(LabelValues, CrumbsOfALesionAreCountedAndNoLesions) {
+  const MappedLabels mapped = map_labels(map_of_parts(), two_lesion_values());
+  EXPECT_EQ(mapped.labels(5, 5, 5), label::lesion);
+  EXPECT_EQ(mapped.labels(1, 1, 2), label::fibroglandular);
+  EXPECT_EQ(mapped.fractions(1, 1, 2).lesion, 0);
+  EXPECT_EQ(mapped.crumbs.parts, 2U);
+  EXPECT_DOUBLE_EQ(mapped.crumbs.largest_ml, 0.024);
+  EXPECT_EQ(mapped.crumbs.largest_in_lps, Eigen::Vector3d(2, 2, 2));
+}
+
+TEST(LabelValues, ACrumbThatIsNamedIsALesion) {
+  const auto labels = map_labels(map_of_parts(), two_lesion_values(), {{14, 0, 2}}).labels;
+  EXPECT_EQ(labels(7, 0, 0), label::lesion + 2) << "2 mm from the point named";
+  EXPECT_EQ(labels(1, 1, 2), label::fibroglandular) << "12 mm from it";
 }
 
 TEST(LabelValues, AValueWithoutANameIsAnError) {
