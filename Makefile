@@ -79,7 +79,8 @@ help:
 	@echo '                       both views: RESULTS/evaluation/compression.json; JOBS=2 at a time; UNLOADED=1: free of gravity'
 	@echo 'make evaluate-stability  presses label maps and MRI of CASES again with their input changed in ways that must'
 	@echo '                       not matter: RESULTS/evaluation/stability.json; ONLY="Exam_02-left Exam_04",'
-	@echo '                       CHANGES="turn_5 mirror", VIEWS=cc, UNLOADED=1, TABLE=name (hours for all)'
+	@echo '                       CHANGES="turn_5 mirror", VIEWS=cc, UNLOADED=1, TABLE=name (hours for all);'
+	@echo '                       OTHER_PRESET=neo_hookean_2026: how far they move with the tissue of that name'
 	@echo 'make evaluate-refinement  presses 042 and the real cases of CASES with coarser and finer meshes:'
 	@echo '                       RESULTS/evaluation/refinement.json; ONLY=Exam_02-left; MESHES="16x16x3 9x9x2"'
 	@echo 'make evaluate-stabilisation  presses 042 and the real cases of CASES with more and less of the term'
@@ -174,7 +175,8 @@ evaluate-compression: mammotwin-evaluate-compression
 
 evaluate-stability: mammotwin-evaluate-stability
 	@"$$BIN/mammotwin-evaluate-stability" "$$CASES" "$$RESULTS/evaluation/$${TABLE:-stability}.json" \
-	  $${ONLY:+--only $$ONLY} $${UNLOADED:+--unloaded} $${CHANGES:+--changes $$CHANGES} $${VIEWS:+--views $$VIEWS} $${JOBS:+--jobs "$$JOBS"}
+	  $${ONLY:+--only $$ONLY} $${UNLOADED:+--unloaded} $${CHANGES:+--changes $$CHANGES} $${OTHER_PRESET:+--other-preset "$$OTHER_PRESET"} \
+	  $${VIEWS:+--views $$VIEWS} $${JOBS:+--jobs "$$JOBS"}
 
 evaluate-refinement: mammotwin-evaluate-refinement
 	@"$$BIN/mammotwin-evaluate-refinement" sample_data/042/patient.toml "$$CASES" \

@@ -8,7 +8,8 @@
 
 namespace mammotwin {
 
-/// A change of what goes into a compression that must not change what comes out of it.
+/// A change of what goes into a compression: of a kind that must not change what comes out of it,
+/// or other tissue, which does.
 struct InputChange {
   std::string name;         ///< "turn_5"
   double turn_deg = 0;      ///< the image turned about the body's long axis, and back
@@ -16,6 +17,7 @@ struct InputChange {
   bool half_voxel = false;  ///< resampled on a grid that stands half a voxel off
   int more_elements = 0;    ///< of the mesh in each direction
   double thicker_mm = 0;
+  std::string preset = {};  ///< materials.preset of the tissue; default as it is
   bool of_image() const { return turn_deg != 0 || mirror || half_voxel; }
 };
 

@@ -16,6 +16,7 @@ namespace fs = std::filesystem;
 struct Arguments {
   fs::path cases, table;
   std::vector<std::string> only, changes, views;
+  std::string other_preset;
   int jobs = 2;
   bool unload = false;
 };
@@ -26,12 +27,19 @@ void declare(CommandLine& command, Arguments& args) {
   declare_only(command, args.only);
   command.option("--changes", args.changes,
                  "turn_1, turn_3, turn_5, mirror, half_voxel, elements, thickness (default: all)");
+  command.option("--other-preset", args.other_preset,
+                 "instead: with the tissue of this materials.preset, a change that does matter");
   command.option("--views", args.views, "cc, mlo (default: both)");
   declare_unloaded(command, args.unload);
   declare_jobs(command, args.jobs);
 }
 
 std::vector<InputChange> changes_asked(const Arguments& args) {
+  if (!args.other_preset.empty()) {
+    if (!args.changes.empty())
+      throw std::runtime_error("--changes and --other-preset are both given; expected one of them");
+    return {{.name = args.other_preset, .preset = args.other_preset}};
+  }
   std::vector<InputChange> changes = input_changes();
   for (const std::string& name : args.changes)
     if (std::none_of(changes.begin(), changes.end(), [&](auto& c) { return c.name == name; }))

@@ -77,7 +77,7 @@ double run_stage(const std::string& stage, std::vector<std::string> arguments,
       {stage, std::move(arguments), product, inputs.folder / "patient.toml", {}, most_seconds});
 }
 
-void write_patient(const StabilityInputs& inputs, double thickness_mm,
+void write_patient(const StabilityInputs& inputs, const InputChange& change,
                    const std::optional<Eigen::Vector3i>& elements) {
   std::ostringstream toml;
   toml << patient_toml_of(inputs.breast);
@@ -85,17 +85,22 @@ void write_patient(const StabilityInputs& inputs, double thickness_mm,
     toml << "[fit]\nelements = [" << elements->x() << ", " << elements->y() << ", " << elements->z()
          << "]\n";
   for (const char* view : {"cc", "mlo"})
-    toml << "[views." << view << "]\nthickness_mm = " << thickness_mm << "\n";
+    toml << "[views." << view << "]\nthickness_mm = " << kPressedTo_mm + change.thicker_mm << "\n";
   write_text_atomically(inputs.folder / "patient.toml", toml.str());
 }
 
-/// Fits, and unloads where that is asked.
-void make_mesh(const StabilityInputs& inputs) {
-  const std::vector<std::string> tissue = {inputs.segmentation.string(),
-                                           fractions_beside(inputs.segmentation).string()};
-  run_stage("fit", tissue, inputs, inputs.prone, kMostStageCpuSeconds);
+std::vector<std::string> tissue_of(const StabilityInputs& inputs) {
+  return {inputs.segmentation.string(), fractions_beside(inputs.segmentation).string()};
+}
+
+void fit(const StabilityInputs& inputs) {
+  run_stage("fit", tissue_of(inputs), inputs, inputs.prone, kMostStageCpuSeconds);
+}
+
+/// Where that is asked.
+void unload(const StabilityInputs& inputs) {
   if (inputs.unloaded.empty()) return;
-  std::vector<std::string> of_mesh = tissue;
+  std::vector<std::string> of_mesh = tissue_of(inputs);
   of_mesh.push_back(inputs.prone.string());
   run_stage("unload", of_mesh, inputs, inputs.unloaded, kMostStageCpuSeconds);
 }
@@ -115,9 +120,10 @@ StabilityInputs base_inputs(const StabilityCase& asked, const BreastImage& image
   fs::create_directories(folder);
   if (!asked.breast.is_label_map) image.write(inputs.breast.image = folder / "image.nrrd", {});
   if (asked.unload) inputs.unloaded = folder / "unloaded.vtu";
-  write_patient(inputs, kPressedTo_mm, {});
+  write_patient(inputs, {}, {});
   run_stage("segment", {}, inputs, inputs.segmentation, kMostStageCpuSeconds);
-  make_mesh(inputs);
+  fit(inputs);
+  unload(inputs);
   return inputs;
 }
 
@@ -127,6 +133,7 @@ StabilityInputs changed_inputs(const StabilityInputs& base, const InputChange& c
   StabilityInputs inputs = base;
   inputs.folder = base.folder.parent_path() / change.name;
   fs::create_directories(inputs.folder);
+  if (!change.preset.empty()) inputs.breast.preset = change.preset;
   if (change.mirror) inputs.breast = mirrored(inputs.breast, image.mirror_plane());
   if (change.of_image()) {
     image.write(inputs.breast.image = inputs.folder / "image.nrrd", change);
@@ -137,13 +144,18 @@ StabilityInputs changed_inputs(const StabilityInputs& base, const InputChange& c
     const std::array<int, 3> n = stage_sidecar(base.prone).at("quality").at("elements");
     elements = Eigen::Vector3i(n[0], n[1], n[2]).array() + change.more_elements;
   }
-  write_patient(inputs, kPressedTo_mm + change.thicker_mm, elements);
-  if (!change.of_image() && !elements) return inputs;
-  inputs.prone = inputs.folder / "prone.vtu";
-  if (!inputs.unloaded.empty()) inputs.unloaded = inputs.folder / "unloaded.vtu";
+  write_patient(inputs, change, elements);
+  const bool other_mesh = change.of_image() || elements;
   if (change.of_image())
     run_stage("segment", {}, inputs, inputs.segmentation, kMostStageCpuSeconds);
-  make_mesh(inputs);
+  if (other_mesh) {
+    inputs.prone = inputs.folder / "prone.vtu";
+    fit(inputs);
+  }
+  if (!inputs.unloaded.empty() && (other_mesh || !change.preset.empty())) {
+    inputs.unloaded = inputs.folder / "unloaded.vtu";
+    unload(inputs);
+  }
   return inputs;
 }
 

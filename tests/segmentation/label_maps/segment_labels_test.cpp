@@ -13,8 +13,9 @@ namespace {
 namespace fs = std::filesystem;
 
 /// A label map with other numbers: two half-ball breasts of 50 mm at x = -75 and 75, z = 0, on a
-/// chest with its front at y = 60; fat 11, skin 12 (3 mm), muscle 13, a lesion 14 on the left.
-fs::path write_foreign_map(const fs::path& folder) {
+/// chest with its front at y = 60; fat 11, skin 12 (3 mm), muscle 13, a lesion 14 on the left, and
+/// where that is asked for a voxel of it on the right.
+fs::path write_foreign_map(const fs::path& folder, bool speck = false) {
   Volume<float> map({110, 60, 70}, Eigen::Vector3d::Constant(3), {-163.5, -10, -103.5}, 0);
   for (int k = 0; k < map.size.z(); ++k)
     for (int j = 0; j < map.size.y(); ++j)
@@ -28,13 +29,14 @@ fs::path write_foreign_map(const fs::path& folder) {
         if ((x - Eigen::Vector3d(80, 40, 5)).norm() < 8) map(i, j, k) = 14;
         if (x.y() > 75) map(i, j, k) = 0;
       }
+  if (speck) map(30, 17, 35) = 14;
   write_image(folder / "map.nrrd", map);
   return folder / "map.nrrd";
 }
 
-SegmentInput foreign_input(const fs::path& folder) {
+SegmentInput foreign_input(const fs::path& folder, bool speck = false) {
   SegmentInput input;
-  input.label_map = write_foreign_map(folder);
+  input.label_map = write_foreign_map(folder, speck);
   input.label_values = {{11, ForeignTissue::fat},
                         {12, ForeignTissue::skin},
                         {13, ForeignTissue::muscle},
@@ -97,6 +99,16 @@ TEST(SegmentLabels, TakesTheLesionsSideAndDropsTheOther) {
   const double in_tissues =
       result.quality.fat_ml + result.quality.skin_ml + result.quality.lesions[0].volume_ml;
   EXPECT_NEAR(in_tissues, result.quality.breast_volume_ml, 1e-6);
+}
+
+TEST(SegmentLabels, ASpeckOfALesionsLabelOnTheOtherSideIsNoLesionAndIsSaid) {
+  const EmptyFolder folder("speck");
+  const SegmentResult result = segment(foreign_input(folder.path, true), {});
+  EXPECT_EQ(result.segmentation.region.side, Side::left);
+  EXPECT_EQ(result.segmentation.lesions.size(), 1U);
+  ASSERT_EQ(result.quality.notes.size(), 1U);
+  expect_mentions(result.quality.notes[0],
+                  {"1 part of lesion labels", "0.027 ml at (-74, 41, 2) mm LPS", "name it"});
 }
 
 TEST(SegmentLabels, FillsTheThoraxBehindTheMuscle) {
