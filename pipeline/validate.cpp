@@ -63,6 +63,7 @@ int run(const Arguments& args) {
     const GelCase experiment = read_gel_case(args.cases / (name + ".toml"));
     const GelResult result = run_gel_case(experiment, say);
     document[name] = to_json(result);
+    for (const nlohmann::json& row : mesh_rows(result)) document["cases"].push_back(row);
     std::cout << gel_table(result) << std::endl;
     write_pictures(result, products);
     for (const std::string& sentence : missed_targets(result)) missed.push_back(sentence);

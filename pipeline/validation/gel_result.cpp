@@ -130,6 +130,31 @@ nlohmann::json to_json(const GelResult& r) {
   return entry;
 }
 
+nlohmann::json mesh_rows(const GelResult& r) {
+  const GelCase& c = r.experiment;
+  nlohmann::json rows = nlohmann::json::array();
+  const auto add = [&](const std::string& mesh, const CylinderFigures& f) {
+    const auto off = [&](const char* key, double error, const Expected& expected) {
+      rows.back()[key] = expected ? nlohmann::json(error) : nlohmann::json();
+    };
+    rows.push_back({{"case", c.name},
+                    {"mesh", mesh},
+                    {"unknowns", f.dof},
+                    {"force_N", f.force_N},
+                    {"newton_iterations", f.iterations},
+                    {"cpu_seconds", f.cpu_seconds}});
+    const Expected& width = c.half_width_middle_mm;
+    off("force_off_percent", 100 * relative_error(f.force_N, c.force_N), c.force_N);
+    off("half_width_off_mm", f.half_width_middle_mm - width.value_or(0), width);
+    off("radial_strain_off_percent",
+        100 * (f.half_width_middle_mm - width.value_or(0)) / (width.value_or(0) - c.radius_mm()),
+        width);
+  };
+  for (const CylinderFigures& f : r.study) add("study", f);
+  add("recommended", r.figures);
+  return rows;
+}
+
 std::vector<std::string> missed_targets(const GelResult& r) {
   const GelCase& c = r.experiment;
   if (!r.figures.usable) return {c.name + ": did not converge: " + r.figures.reason};

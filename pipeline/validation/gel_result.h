@@ -23,6 +23,12 @@ GelResult run_gel_case(const GelCase& experiment,
 /// An entry of validation.json. Numbers that do not exist are null.
 nlohmann::json to_json(const GelResult& result);
 
+/// A line a mesh, coarse to fine, the recommended one last: `case`, `mesh`, `unknowns`, `force_N`,
+/// `newton_iterations`, `cpu_seconds`, and how far off the other codes it is
+/// (`force_off_percent`, `half_width_off_mm`, `radial_strain_off_percent`; null where they have no
+/// such figure).
+nlohmann::json mesh_rows(const GelResult& result);
+
 /// A sentence for each target that the recommended mesh misses, or that did not converge.
 std::vector<std::string> missed_targets(const GelResult& result);
 

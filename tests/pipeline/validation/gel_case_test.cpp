@@ -49,6 +49,11 @@ TEST(GelResult, HasTheKeysOfTheDesignAndSaysWhatItMisses) {
   EXPECT_TRUE(entry.at("seconds").is_number());
   EXPECT_EQ(entry.at("dof"), result.figures.dof);
   EXPECT_NEAR(entry.at("relative_error").at("force_N").get<double>(), -0.5, 1e-4);
+  const nlohmann::json rows = mesh_rows(result);
+  ASSERT_EQ(rows.size(), result.study.size() + 1);
+  EXPECT_EQ(rows.back().at("mesh"), "recommended");
+  EXPECT_NEAR(rows.back().at("force_off_percent").get<double>(), -50, 1e-2);
+  EXPECT_NEAR(rows.back().at("half_width_off_mm").get<double>(), 0, 1e-3);
   ASSERT_EQ(missed_targets(result).size(), 1u);
   EXPECT_EQ(missed_targets(result)[0].rfind("axial: force is off by -50", 0), 0u)
       << missed_targets(result)[0];
