@@ -138,7 +138,7 @@ cohort:
 
 evaluate-segmentation: mammotwin-evaluate-segmentation
 	@"$$BIN/mammotwin-evaluate-segmentation" "$$RESULTS/evaluation/segmentation.json" --cases "$$CASES" \
-	  $${SYNTHETIC:+--synthetic "$$SYNTHETIC"} $${JOBS:+--jobs "$$JOBS"} $${ONLY:+--only "$$ONLY"}
+	  $${SYNTHETIC:+--synthetic "$$SYNTHETIC"} $${JOBS:+--jobs "$$JOBS"} $${ONLY:+--only $$ONLY}
 
 evaluate-segmentation-changes: mammotwin-evaluate-segmentation-changes
 	@"$$BIN/mammotwin-evaluate-segmentation-changes" "$$CASES" "$$RESULTS/evaluation/segmentation_changes.json" \
@@ -170,7 +170,7 @@ calibrate-tissue: mammotwin-calibrate-tissue
 
 evaluate-compression: mammotwin-evaluate-compression
 	@"$$BIN/mammotwin-evaluate-compression" "$$RESULTS/evaluation/$${TABLE:-compression}.json" --cases "$$CASES" \
-	  $${SYNTHETIC:+--synthetic "$$SYNTHETIC"} $${JOBS:+--jobs "$$JOBS"} $${ONLY:+--only "$$ONLY"} \
+	  $${SYNTHETIC:+--synthetic "$$SYNTHETIC"} $${JOBS:+--jobs "$$JOBS"} $${ONLY:+--only $$ONLY} \
 	  $${PRESET:+--preset "$$PRESET"} $${UNLOADED:+--unloaded}
 
 evaluate-stability: mammotwin-evaluate-stability

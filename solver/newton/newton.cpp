@@ -194,6 +194,16 @@ Newton::Trial Newton::corrected(const Trial& trial, const Step& step, const Bala
   return better;
 }
 
+/// The trial at a fraction of the step; where it is not `good`, with its volume corrected if the
+/// merit is lower so.
+Newton::Trial Newton::tried(const State& state, const Step& step, const Balance& before,
+                            double fraction, const std::function<bool(const Trial&)>& good) const {
+  Trial trial = at(state, step, fraction);
+  if (good(trial) || !std::isfinite(trial.merit)) return trial;
+  Trial better = corrected(trial, step, before, fraction);
+  return better.merit < trial.merit ? better : trial;
+}
+
 /// Friction has no merit of its own: what lowers the energy with the pressures of the step's start
 /// need not come nearer to a balance with those of its end, nor the reverse. So a step may also
 /// bring the whole residual down.
@@ -218,10 +228,9 @@ double Newton::lengthened(Trial& trial, const State& state, const Step& step,
   while (length < longest) {
     const double curvature = 2 * (trial.merit - start - step.slope * length) / (length * length);
     if (-step.slope < worth_it * length * curvature) break;
-    Trial farther = at(state, step, 2 * length);
-    if (!(farther.merit < trial.merit) && std::isfinite(farther.merit))
-      farther = corrected(farther, step, before, 2 * length);
-    if (!(farther.merit < trial.merit)) break;
+    const auto lower = [&](const Trial& other) { return other.merit < trial.merit; };
+    Trial farther = tried(state, step, before, 2 * length, lower);
+    if (!lower(farther)) break;
     trial = std::move(farther);
     length *= 2;
   }
@@ -235,18 +244,14 @@ double Newton::search(State& state, const Step& step, Balance& balance,
   const double start = merit_.value(balance), rounding = CondensedEnergy::rounding(balance);
   const bool down = step.slope < 0;
   const bool too_stiff = indefinite_ && balance.residual.norm() < kFarFromBalance * balance.flow;
-  const auto lowers = [&](const Trial& trial, double fraction) {
-    if (!std::isfinite(trial.merit)) return false;
-    if (!down) return true;
-    return trial.merit <= start + sufficient * fraction * step.slope + rounding;
-  };
   for (double fraction = 1; fraction > shortest;) {
-    Trial trial = at(state, step, fraction);
-    if (!lowers(trial, fraction) && std::isfinite(trial.merit)) {
-      Trial better = corrected(trial, step, balance, fraction);
-      if (better.merit < trial.merit) trial = std::move(better);
-    }
-    const bool lower = lowers(trial, fraction);
+    const auto lowers = [&](const Trial& trial) {
+      if (!std::isfinite(trial.merit)) return false;
+      if (!down) return true;
+      return trial.merit <= start + sufficient * fraction * step.slope + rounding;
+    };
+    Trial trial = tried(state, step, balance, fraction, lowers);
+    const bool lower = lowers(trial);
     if (lower || settles(trial, state, balance, sufficient * fraction, options)) {
       if (fraction == 1 && down && lower && too_stiff)
         fraction = lengthened(trial, state, step, balance);

@@ -99,6 +99,8 @@ class Newton {
   Trial at(const State& state, const Step& step, double fraction) const;
   Trial corrected(const Trial& trial, const Step& step, const Balance& before,
                   double fraction) const;
+  Trial tried(const State& state, const Step& step, const Balance& before, double fraction,
+              const std::function<bool(const Trial&)>& good) const;
   bool settles(const Trial& trial, const State& state, const Balance& before, double least,
                const NewtonOptions& options) const;
   double lengthened(Trial& trial, const State& state, const Step& step,

@@ -1,5 +1,6 @@
 #include "pipeline/evaluate/cases/breasts_to_press.h"
 
+#include "pipeline/evaluate/cases/case_arguments.h"
 #include "pipeline/evaluate/cases/real_breasts.h"
 #include "pipeline/frame/products.h"
 

@@ -1,5 +1,7 @@
 #include "pipeline/evaluate/cases/case_arguments.h"
 
+#include <algorithm>
+
 namespace mammotwin {
 
 namespace fs = std::filesystem;
@@ -23,7 +25,13 @@ void declare_table(CommandLine& command, fs::path& table, const std::string& nam
 }
 
 void declare_only(CommandLine& command, std::vector<std::string>& only) {
-  command.option("--only", only, "breasts whose name-side contains one of these (texts)");
+  command.option("--only", only, "cases whose name (name-side) contains one of these (texts)");
+}
+
+bool is_asked(const std::string& name, const std::vector<std::string>& only) {
+  return only.empty() || std::any_of(only.begin(), only.end(), [&](const std::string& part) {
+           return name.find(part) != std::string::npos;
+         });
 }
 
 void declare_unloaded(CommandLine& command, bool& unload) {

@@ -16,6 +16,8 @@ void declare_cases(CommandLine& command, std::filesystem::path& cases);
 void declare_table(CommandLine& command, std::filesystem::path& table, const std::string& name,
                    const std::string& whose = "each breast's");
 void declare_only(CommandLine& command, std::vector<std::string>& only);
+/// Is it one of those that --only names, by parts of their names? All are where it names none.
+bool is_asked(const std::string& name, const std::vector<std::string>& only);
 void declare_unloaded(CommandLine& command, bool& unload);
 /// How many run at once, as many as `jobs` says where it is not given.
 void declare_jobs(CommandLine& command, int& jobs, const std::string& what = "breasts at a time");

@@ -1,6 +1,5 @@
 #include "pipeline/evaluate/cases/real_breasts.h"
 
-#include <algorithm>
 #include <array>
 #include <fstream>
 #include <map>
@@ -8,6 +7,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "pipeline/evaluate/cases/case_arguments.h"
 #include "pipeline/synthesize/option_table.h"
 
 namespace mammotwin {
@@ -57,12 +57,6 @@ std::string patient_toml_of(const RealBreast& breast) {
 
 std::string name_and_side(const RealBreast& breast) {
   return breast.name + "-" + name_of(breast.side);
-}
-
-bool is_asked(const std::string& name, const std::vector<std::string>& only) {
-  return only.empty() || std::any_of(only.begin(), only.end(), [&](const std::string& part) {
-           return name.find(part) != std::string::npos;
-         });
 }
 
 std::vector<RealBreast> real_breasts(const fs::path& cases) {

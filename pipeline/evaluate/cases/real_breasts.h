@@ -30,8 +30,6 @@ std::string patient_toml_of(const RealBreast& breast);
 
 /// "Exam_02-left".
 std::string name_and_side(const RealBreast& breast);
-/// Is it one of those that --only names, by parts of their names? All are where it names none.
-bool is_asked(const std::string& name, const std::vector<std::string>& only);
 
 /// label_maps/*_labels.nii.gz, both sides of each, then mri/ of each folder that holds a
 /// radiologist's contours, lesions_radiologist.json.

@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 struct Arguments {
   fs::path table, cases;
   int synthetic = 200, first = 0, jobs = 1, most_cpu_seconds = 3600;
-  std::string only;
+  std::vector<std::string> only;
   std::string preset = kDefaultTissue;
   bool unload = false, refit = false;
 };
@@ -34,7 +34,7 @@ void declare(CommandLine& command, Arguments& args) {
       .with_default();
   command.option("--first", args.first, "the first of them").between(0, 10000).with_default();
   command.option("--cases", args.cases, "folder with label_maps/*.nii.gz (none: no patients)");
-  command.option("--only", args.only, "breasts whose name contains this (text)");
+  declare_only(command, args.only);
   declare_jobs(command, args.jobs, "breasts at a time, each on all cores");
   command
       .option("--limit", args.most_cpu_seconds, "a compression is given up after this [s of CPU]")
@@ -58,7 +58,7 @@ std::vector<EvaluatedBreast> breasts_of(const Arguments& args) {
                    breast,
                    args.preset,
                    args.unload});
-  std::erase_if(all, [&](const auto& b) { return b.name.find(args.only) == std::string::npos; });
+  std::erase_if(all, [&](const auto& breast) { return !is_asked(breast.name, args.only); });
   for (EvaluatedBreast& breast : all)
     breast.folder = fs::absolute(args.table).parent_path() / "compression" / breast.name;
   return all;

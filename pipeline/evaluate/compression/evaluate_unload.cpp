@@ -20,7 +20,7 @@ constexpr int kMostCpuSeconds = 3600;  // a segmentation or fit takes some 30
 
 struct Arguments {
   fs::path table, cases;
-  std::string only;
+  std::vector<std::string> only;
   bool views = false;
 };
 
@@ -31,7 +31,7 @@ void declare(CommandLine& command, Arguments& args) {
               "unload.json to write; inputs of each breast go to the folder compression beside it, "
               "shared with evaluate-compression")
       .required();
-  command.option("--only", args.only, "breasts whose name contains this (text)");
+  declare_only(command, args.only);
   command.flag("--views", args.views, "compress with and without unloading, too");
 }
 
@@ -94,7 +94,7 @@ int run(const Arguments& args) {
   EvaluationTable table(args.table);
   std::size_t breasts = 0;
   for (const Breast& breast : breasts_of(args)) {
-    if (breast.name.find(args.only) == std::string::npos) continue;
+    if (!is_asked(breast.name, args.only)) continue;
     table.add(breasts++,
               evaluate(breast, table.folder() / "compression" / breast.name, args.views));
   }

@@ -1,6 +1,5 @@
 // evaluate-segmentation: segments breasts whose truth is known -> one table.
 
-#include <algorithm>
 #include <iostream>
 
 #include "pipeline/evaluate/cases/case_arguments.h"
@@ -24,7 +23,7 @@ void declare(CommandLine& command, Arguments& args) {
       .with_default();
   command.option("--cases", args.cases,
                  "folder with label_maps/*_labels.nii.gz: MRI is simulated from them, too");
-  command.option("--only", args.only, "cases whose name contains one of these (texts)");
+  declare_only(command, args.only);
   command.option("--keep", args.keep, "folder for each case's image, true and found labels");
   declare_jobs(command, args.jobs, "cases at a time, about 1 GB each");
 }
@@ -33,12 +32,7 @@ std::vector<SegmentationCase> chosen_cases(const Arguments& args) {
   std::vector<SegmentationCase> cases = drawn_cases(args.synthetic);
   for (SegmentationCase& c : label_map_cases(args.cases)) cases.push_back(std::move(c));
   for (SegmentationCase& c : varied_cases(args.cases)) cases.push_back(std::move(c));
-  const auto is_wanted = [&](const SegmentationCase& c) {
-    return std::any_of(args.only.begin(), args.only.end(), [&](const std::string& text) {
-      return c.name.find(text) != std::string::npos;
-    });
-  };
-  if (!args.only.empty()) std::erase_if(cases, [&](const auto& c) { return !is_wanted(c); });
+  std::erase_if(cases, [&](const auto& c) { return !is_asked(c.name, args.only); });
   return cases;
 }
 

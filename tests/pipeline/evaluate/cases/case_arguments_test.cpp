@@ -1,11 +1,13 @@
-#include "pipeline/evaluate/cases/real_breasts.h"
+#include "pipeline/evaluate/cases/case_arguments.h"
 
 #include <gtest/gtest.h>
+
+#include "pipeline/evaluate/cases/real_breasts.h"
 
 namespace mammotwin {
 namespace {
 
-TEST(RealBreasts, AreAskedForByAnyPartOfNameAndSide) {
+TEST(CaseArguments, BreastsAreAskedForByAnyPartOfNameAndSide) {
   const std::string name = name_and_side({"Exam_02", Side::left, ""});
   EXPECT_EQ(name, "Exam_02-left");
   EXPECT_TRUE(is_asked(name, {}));
