@@ -3,16 +3,17 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <memory>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <sstream>
 #include <stdexcept>
+#include <string>
 #include <type_traits>
 #include <variant>
 
 #include "pipeline/evaluate/cases/sorted_figures.h"
 #include "pipeline/evaluate/cases/stage_command.h"
-#include "pipeline/evaluate/compression/pressed_places.h"
+#include "pipeline/evaluate/compression/breast_stages.h"
 #include "pipeline/frame/products.h"
 #include "segmentation/files/read_labels.h"
 #include "segmentation/files/write_image_file.h"
@@ -25,15 +26,6 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 
 constexpr double kPressedTo_mm = 55;
-constexpr int kMostPressCpuSeconds = 1800;
-
-/// What one compression needs, and where its products go.
-struct StabilityInputs {
-  fs::path folder;
-  RealBreast breast;
-  fs::path segmentation, prone;
-  fs::path unloaded = {};  ///< empty: the prone shape is pressed
-};
 
 /// A label map or an MRI, whichever the breast has.
 class BreastImage {
@@ -70,39 +62,15 @@ class BreastImage {
   std::variant<Volume<std::uint16_t>, Volume<float>> image_;
 };
 
-/// CPU seconds.
-double run_stage(const std::string& stage, std::vector<std::string> arguments,
-                 const StabilityInputs& inputs, const fs::path& product, int most_seconds) {
-  return run_to_product(
-      {stage, std::move(arguments), product, inputs.folder / "patient.toml", {}, most_seconds});
-}
-
-void write_patient(const StabilityInputs& inputs, const InputChange& change,
-                   const std::optional<Eigen::Vector3i>& elements) {
+/// The breast's patient.toml in a folder that is made.
+fs::path write_patient(const fs::path& folder, const RealBreast& breast) {
   std::ostringstream toml;
-  toml << patient_toml_of(inputs.breast);
-  if (elements)
-    toml << "[fit]\nelements = [" << elements->x() << ", " << elements->y() << ", " << elements->z()
-         << "]\n";
+  toml << patient_toml_of(breast);
   for (const char* view : {"cc", "mlo"})
-    toml << "[views." << view << "]\nthickness_mm = " << kPressedTo_mm + change.thicker_mm << "\n";
-  write_text_atomically(inputs.folder / "patient.toml", toml.str());
-}
-
-std::vector<std::string> tissue_of(const StabilityInputs& inputs) {
-  return {inputs.segmentation.string(), fractions_beside(inputs.segmentation).string()};
-}
-
-void fit(const StabilityInputs& inputs) {
-  run_stage("fit", tissue_of(inputs), inputs, inputs.prone, kMostStageCpuSeconds);
-}
-
-/// Where that is asked.
-void unload(const StabilityInputs& inputs) {
-  if (inputs.unloaded.empty()) return;
-  std::vector<std::string> of_mesh = tissue_of(inputs);
-  of_mesh.push_back(inputs.prone.string());
-  run_stage("unload", of_mesh, inputs, inputs.unloaded, kMostStageCpuSeconds);
+    toml << "[views." << view << "]\nthickness_mm = " << kPressedTo_mm << "\n";
+  fs::create_directories(folder);
+  write_text_atomically(folder / "patient.toml", toml.str());
+  return folder / "patient.toml";
 }
 
 RealBreast mirrored(RealBreast breast, double plane) {
@@ -111,63 +79,22 @@ RealBreast mirrored(RealBreast breast, double plane) {
   return breast;
 }
 
-/// An MRI's base, too, is read from the file that is written here: what its headers said is lost to
-/// all alike.
-StabilityInputs base_inputs(const StabilityCase& asked, const BreastImage& image) {
-  const fs::path folder = asked.folder / "base";
-  StabilityInputs inputs{folder, asked.breast, folder / "segmentation.seg.nrrd",
-                         folder / "prone.vtu"};
-  fs::create_directories(folder);
-  if (!asked.breast.is_label_map) image.write(inputs.breast.image = folder / "image.nrrd", {});
-  if (asked.unload) inputs.unloaded = folder / "unloaded.vtu";
-  write_patient(inputs, {}, {});
-  run_stage("segment", {}, inputs, inputs.segmentation, kMostStageCpuSeconds);
-  fit(inputs);
-  unload(inputs);
-  return inputs;
-}
+/// A breast as it is or with its image changed, segmented.
+struct ImagedBreast {
+  BreastToPress files;
+  BreastStages stages;
 
-/// What the change leaves as it is stays the base's.
-StabilityInputs changed_inputs(const StabilityInputs& base, const InputChange& change,
-                               const BreastImage& image) {
-  StabilityInputs inputs = base;
-  inputs.folder = base.folder.parent_path() / change.name;
-  fs::create_directories(inputs.folder);
-  if (!change.preset.empty()) inputs.breast.preset = change.preset;
-  if (change.mirror) inputs.breast = mirrored(inputs.breast, image.mirror_plane());
-  if (change.of_image()) {
-    image.write(inputs.breast.image = inputs.folder / "image.nrrd", change);
-    inputs.segmentation = inputs.folder / "segmentation.seg.nrrd";
-  }
-  std::optional<Eigen::Vector3i> elements;
-  if (change.more_elements != 0) {
-    const std::array<int, 3> n = stage_sidecar(base.prone).at("quality").at("elements");
-    elements = Eigen::Vector3i(n[0], n[1], n[2]).array() + change.more_elements;
-  }
-  write_patient(inputs, change, elements);
-  const bool other_mesh = change.of_image() || elements;
-  if (change.of_image())
-    run_stage("segment", {}, inputs, inputs.segmentation, kMostStageCpuSeconds);
-  if (other_mesh) {
-    inputs.prone = inputs.folder / "prone.vtu";
-    fit(inputs);
-  }
-  if (!inputs.unloaded.empty() && (other_mesh || !change.preset.empty())) {
-    inputs.unloaded = inputs.folder / "unloaded.vtu";
-    unload(inputs);
-  }
-  return inputs;
-}
+  ImagedBreast(const fs::path& folder, const RealBreast& breast)
+      : files{name_and_side(breast), write_patient(folder, breast), folder}, stages(files) {}
+  ImagedBreast(const ImagedBreast&) = delete;
+};
 
-json press_view(const StabilityInputs& inputs, const std::string& view, double& cpu_seconds) {
-  const fs::path product = inputs.folder / (view + ".vtu");
-  const fs::path& mesh = inputs.unloaded.empty() ? inputs.prone : inputs.unloaded;
-  cpu_seconds = run_stage("compress",
-                          {view, inputs.segmentation.string(),
-                           fractions_beside(inputs.segmentation).string(), mesh.string()},
-                          inputs, product, kMostPressCpuSeconds);
-  return stage_sidecar(product).at("quality");
-}
+/// A breast to press, and where that goes.
+struct ReadyBreast {
+  std::shared_ptr<const ImagedBreast> imaged;
+  fs::path folder, prone, mesh;
+  std::vector<std::string> options = {};
+};
 
 json new_stability_row(const StabilityCase& asked, const std::string& view,
                        const std::string& change) {
@@ -184,8 +111,8 @@ class StabilityRun {
   StabilityRun(const StabilityCase& asked)
       : asked_(asked),
         image_(asked.breast),
-        base_(base_inputs(asked, image_)),
-        followed_(base_.segmentation, base_.prone) {}
+        base_(base()),
+        followed_(base_.imaged->stages.segmentation(), base_.prone) {}
 
   json base_row(const std::string& view) {
     json row = new_stability_row(asked_, view, "none");
@@ -201,25 +128,78 @@ class StabilityRun {
       return row;
     }
     try {
-      if (!changed_.contains(change.name))
-        changed_.emplace(change.name, changed_inputs(base_, change, image_));
+      if (!changed_.contains(change.name)) changed_.emplace(change.name, changed(change));
     } catch (const std::exception& error) {
       row["reason"] = error.what();
       return row;
     }
-    const StabilityInputs& inputs = changed_.at(change.name);
-    if (press_into(row, inputs, view)) compare_into(row, inputs, view, change.mirror);
+    const ReadyBreast& breast = changed_.at(change.name);
+    if (press_into(row, breast, view)) compare_into(row, breast, view, change.mirror);
     return row;
   }
 
  private:
-  bool press_into(json& row, const StabilityInputs& inputs, const std::string& view) {
+  /// An MRI's base, too, is read from the file that is written here: what its headers said is lost
+  /// to all alike.
+  ReadyBreast base() const {
+    ReadyBreast ready{{}, asked_.folder / "base", {}, {}};
+    RealBreast breast = asked_.breast;
+    fs::create_directories(ready.folder);
+    if (!breast.is_label_map) image_.write(breast.image = ready.folder / "image.nrrd", {});
+    ready.imaged = std::make_shared<ImagedBreast>(ready.folder, breast);
+    fit(ready, {});
+    unload(ready);
+    return ready;
+  }
+
+  /// What the change leaves as it is stays the base's.
+  ReadyBreast changed(const InputChange& change) const {
+    ReadyBreast ready = base_;
+    ready.folder = asked_.folder / change.name;
+    if (!change.preset.empty()) ready.options = {"--materials-preset", change.preset};
+    if (change.of_image()) {
+      RealBreast breast = asked_.breast;
+      if (change.mirror) breast = mirrored(breast, image_.mirror_plane());
+      fs::create_directories(ready.folder);
+      image_.write(breast.image = ready.folder / "image.nrrd", change);
+      ready.imaged = std::make_shared<ImagedBreast>(ready.folder, breast);
+      fit(ready, {});
+    } else if (change.more_elements != 0) {
+      const std::array<int, 3> n = stage_sidecar(base_.prone).at("quality").at("elements");
+      std::string elements;
+      for (const int along : n)
+        elements += (elements.empty() ? "" : "x") + std::to_string(along + change.more_elements);
+      fit(ready, elements_options(elements));
+    }
+    if (ready.prone != base_.prone || !change.preset.empty()) unload(ready);
+    if (change.thicker_mm != 0)
+      for (const std::string& view : asked_.views)
+        ready.options.insert(ready.options.end(),
+                             {"--views-" + view + "-thickness-mm",
+                              std::to_string(kPressedTo_mm + change.thicker_mm)});
+    return ready;
+  }
+
+  void fit(ReadyBreast& ready, std::vector<std::string> options) const {
+    ready.prone = ready.mesh = ready.folder / "prone.vtu";
+    ready.imaged->stages.fit(ready.prone, std::move(options));
+  }
+
+  /// Where that is asked.
+  void unload(ReadyBreast& ready) const {
+    if (!asked_.unload) return;
+    fs::create_directories(ready.folder);
+    ready.mesh = ready.folder / "unloaded.vtu";
+    ready.imaged->stages.unload(ready.prone, ready.mesh, ready.options);
+  }
+
+  bool press_into(json& row, const ReadyBreast& breast, const std::string& view) {
     try {
-      double cpu_seconds = 0;
-      const json quality = press_view(inputs, view, cpu_seconds);
+      const fs::path product = breast.folder / (view + ".vtu");
+      row["cpu_seconds"] = breast.imaged->stages.press(view, breast.mesh, product, breast.options);
+      const json quality = stage_sidecar(product).at("quality");
       for (const char* key : {"swing_mm", "roll_deg", "newton_iterations", "force_N"})
         row[key] = quality.at(key);
-      row["cpu_seconds"] = cpu_seconds;
       return true;
     } catch (const std::exception& error) {
       row["reason"] = error.what();
@@ -227,17 +207,17 @@ class StabilityRun {
     }
   }
 
-  void compare_into(json& row, const StabilityInputs& inputs, const std::string& view,
+  void compare_into(json& row, const ReadyBreast& breast, const std::string& view,
                     bool mirror) const {
     const double plane = image_.mirror_plane();
     const auto counterpart = [&](Eigen::Vector3d x) {
       if (mirror) x.x() = 2 * plane - x.x();
       return x;
     };
-    const auto places = [&](const StabilityInputs& of) {
-      return PressedPlaces(of.folder / (view + ".vtu"), view, of.segmentation);
+    const auto places = [&](const ReadyBreast& of) {
+      return PressedPlaces(of.folder / (view + ".vtu"), view, of.imaged->stages.segmentation());
     };
-    const PressedPlaces base = places(base_), changed = places(inputs);
+    const PressedPlaces base = places(base_), changed = places(breast);
     const auto tissue = moves(followed_.tissue, base, changed, counterpart);
     const auto lesions = moves(followed_.lesions, base, changed, counterpart);
     if (!lesions.empty()) row["lesion_mm"] = lesions.back();
@@ -248,10 +228,10 @@ class StabilityRun {
 
   const StabilityCase& asked_;
   const BreastImage image_;
-  const StabilityInputs base_;
+  const ReadyBreast base_;
   const FollowedPoints followed_;
-  std::map<std::string, json> base_force_;          ///< by view; null: it was not pressed
-  std::map<std::string, StabilityInputs> changed_;  ///< by change
+  std::map<std::string, json> base_force_;      ///< by view; null: it was not pressed
+  std::map<std::string, ReadyBreast> changed_;  ///< by change
 };
 
 }  // namespace
