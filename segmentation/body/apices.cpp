@@ -31,6 +31,12 @@ Second second_apex(const std::vector<double>& front, int first, int direction, d
   return best;
 }
 
+/// Between two columns that of the one in front.
+double height_at(const std::vector<double>& front, double column) {
+  return std::max(front[static_cast<std::size_t>(std::floor(column))],
+                  front[static_cast<std::size_t>(std::ceil(column))]);
+}
+
 }  // namespace
 
 std::vector<double> front_profile(const std::vector<double>& fronts, int nx, int low, int high) {
@@ -55,7 +61,7 @@ std::optional<Apices> find_apices(const std::vector<double>& front, double step)
   Apices apices;
   apices.right = std::min(first, best.at);
   apices.left = std::max(first, best.at);
-  apices.valley = valley_between(front, apices.right, apices.left);
+  apices.valley = cleft_between(front, apices.right, apices.left);
   const auto in_middle_third = [&](double column) {
     const double along = (column - begin + 0.5) / static_cast<double>(end - begin);
     return along > 1.0 / 3 && along < 2.0 / 3;
@@ -63,6 +69,14 @@ std::optional<Apices> find_apices(const std::vector<double>& front, double step)
   if (!in_middle_third(apices.valley) && !in_middle_third((apices.right + apices.left) / 2.0))
     return std::nullopt;  // a breast and an arm
   return apices;
+}
+
+double cleft_between(const std::vector<double>& front, int right, int left) {
+  const double valley = valley_between(front, right, left), middle = (right + left) / 2.0;
+  const double most = (left - right) / 6.0, aside = std::abs(valley - middle);
+  const double halfway = (height_at(front, valley) + std::min(front[right], front[left])) / 2;
+  if (aside <= most || height_at(front, middle) > halfway) return valley;
+  return middle + std::copysign(std::max(0.0, 2 * most - aside), valley - middle);
 }
 
 double valley_between(const std::vector<double>& front, int low, int high) {

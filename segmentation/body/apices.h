@@ -30,7 +30,7 @@ std::vector<double> front_profile(const std::vector<double>& fronts, int nx, int
 /// The two most anterior places of a front profile, and the valley between them, as indices.
 struct Apices {
   int right = 0, left = 0;  ///< the patient's: x grows to the left
-  double valley = 0;        ///< middle of the plateau between them
+  double valley = 0;        ///< cleft_between them
 };
 
 /// `front[i]` is how far forward [mm] the skin reaches at the i-th column of x (-infinity: no
@@ -39,6 +39,12 @@ struct Apices {
 /// mm), or neither the valley nor the middle between the two is in the middle third of the skin's
 /// width (a breast and an arm).
 std::optional<Apices> find_apices(const std::vector<double>& front, double step);
+
+/// The valley between two apices (valley_between). One that is not in the middle third between them
+/// lies at the foot of a breast that a coil pressed: where the skin in the middle is nearer to the
+/// valley than to the lower apex, a place stands for it that is as much nearer to the middle than
+/// the third's end as the valley is farther from it, or the middle itself.
+double cleft_between(const std::vector<double>& front, int right, int left);
 
 /// Middle of the columns between two, both included, that lie within 2 mm of the lowest of them: as
 /// an index, which may lie between two columns. Columns without skin do not count; `low` if none

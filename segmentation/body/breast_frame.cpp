@@ -46,7 +46,7 @@ double valley_x(const Volume<std::uint8_t>& body, const std::vector<double>& fro
   const double height = (frame.left_apex.z() + frame.right_apex.z()) / 2;
   const std::vector<double> front =
       front_profile(fronts, body.size.x(), slice(height - reach_mm), slice(height + reach_mm));
-  const double valley = valley_between(front, column(frame.right_apex), column(frame.left_apex));
+  const double valley = cleft_between(front, column(frame.right_apex), column(frame.left_apex));
   return body.origin.x() + valley * body.spacing.x();
 }
 

@@ -45,16 +45,44 @@ TEST(Apices, OfAMirroredProfileAreTheMirrorImages) {
 }
 
 /// As where a coil's plates pressed one breast and not the other: the skin falls towards it.
-TEST(Apices, MayHaveTheirValleyBesideOneOfThem) {
+TEST(Apices, HaveAPlaceNearTheMiddleForAValleyAtTheFootOfOneOfThem) {
   std::vector<double> front;
   for (int i = 0; i <= 150; ++i)
     front.push_back(std::max(
         {40 - 0.05 * (i - 40) * (i - 40), 30 - 0.2 * (i - 125) * (i - 125), 0.2 * (110 - i), 0.0}));
+  EXPECT_GT(valley_between(front, 40, 125), 101) << "beyond two thirds";
   const auto apices = find_apices(front, 2);
   ASSERT_TRUE(apices);
-  EXPECT_GT(apices->valley, 101) << "beyond two thirds";
   EXPECT_EQ(apices->right, 40);
   EXPECT_EQ(apices->left, 125);
+  EXPECT_LT(apices->valley, 95);
+  EXPECT_GE(apices->valley, 82.5);
+}
+
+/// The cleft comes back from where it is a third's end as the valley goes on from there.
+TEST(Apices, HaveACleftThatDoesNotLeap) {
+  const auto cleft_of = [](int valley) {
+    std::vector<double> front(121, 10);
+    front[0] = front[120] = 60;
+    front[valley] = 0;
+    return cleft_between(front, 0, 120);
+  };
+  EXPECT_EQ(cleft_of(75), 75);
+  EXPECT_EQ(cleft_of(80), 80);
+  EXPECT_EQ(cleft_of(81), 79);
+  EXPECT_EQ(cleft_of(95), 65);
+  EXPECT_EQ(cleft_of(115), 60);
+  EXPECT_EQ(cleft_of(39), 41);
+}
+
+TEST(Apices, KeepTheirValleyWhereTheMiddleIsBreast) {
+  std::vector<double> front;
+  for (int i = 0; i <= 150; ++i)
+    front.push_back(
+        std::max({40 - 0.008 * (i - 40) * (i - 40), 30 - 0.2 * (i - 125) * (i - 125), 0.0}));
+  const auto apices = find_apices(front, 2);
+  ASSERT_TRUE(apices);
+  EXPECT_GT(apices->valley, 105);
 }
 
 TEST(Apices, OfABreastAndAnArmAreNone) {
