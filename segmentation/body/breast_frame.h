@@ -9,7 +9,7 @@ namespace mammotwin {
 
 /// Where the two breasts are, from the outline of the body alone.
 struct BreastFrame {
-  double midline_x = 0;                   ///< valley at the height of the apices [mm, LPS]
+  double midline_x = 0;                   ///< cleft (cleft_between) at the height of the apices [mm, LPS]
   double sternal_y = 0;                   ///< skin between the breasts [mm, LPS]
   double front_y = 0;                     ///< most anterior skin [mm, LPS]
   double z_low = 0, z_high = 0;           ///< slices in which a breast stands out [mm, LPS]

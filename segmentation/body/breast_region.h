@@ -25,7 +25,7 @@ struct FoundRegion {
 /// breasts or of one half of the body.
 ///
 /// It is bounded
-///   medially   by the valley of the skin between the two apices; with one side in the labels,
+///   medially   by the cleft between the two apices (cleft_between); with one side in the labels,
 ///              by the end of the labels;
 ///   laterally  35 mm beyond what hangs (but for 1 % of it), and as below;
 ///   elsewhere  15 mm beyond the part around the apex where tissue is thicker than 0.35 of the
