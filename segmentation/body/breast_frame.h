@@ -9,10 +9,10 @@ namespace mammotwin {
 
 /// Where the two breasts are, from the outline of the body alone.
 struct BreastFrame {
-  double midline_x = 0;                   ///< cleft (cleft_between) at the height of the apices [mm, LPS]
-  double sternal_y = 0;                   ///< skin between the breasts [mm, LPS]
-  double front_y = 0;                     ///< most anterior skin [mm, LPS]
-  double z_low = 0, z_high = 0;           ///< slices in which a breast stands out [mm, LPS]
+  double midline_x = 0;          ///< cleft (cleft_between) at the height of the apices [mm, LPS]
+  double sternal_y = 0;          ///< skin between the breasts [mm, LPS]
+  double front_y = 0;            ///< most anterior skin [mm, LPS]
+  double z_low = 0, z_high = 0;  ///< slices in which a breast stands out [mm, LPS]
   Eigen::Vector3d left_apex, right_apex;  ///< most anterior skin of each [mm, LPS]
 
   const Eigen::Vector3d& apex(Side side) const {
