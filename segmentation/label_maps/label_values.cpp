@@ -4,7 +4,6 @@
 #include <array>
 #include <numeric>
 #include <stdexcept>
-#include <utility>
 
 #include "segmentation/image/components.h"
 
@@ -78,13 +77,21 @@ std::vector<bool> lesions_among(const Components& parts, const Volume<std::uint1
     const auto fewer = [](const auto& a, const auto& b) { return a.second < b.second; };
     least_ml[std::max_element(voxels.begin(), voxels.end(), fewer)->first] = least_lesion_ml;
   }
-  for (std::size_t v = 0; v < foreign.values.size(); ++v)
-    if (const std::int32_t part = parts.ids.values[v])
-      for (const Eigen::Vector3d& x : named)
-        if ((foreign.position(v) - x).norm() <= nearest_lesion_mm) least_ml[part] = 0;
   std::vector<bool> is_lesion;
   for (std::size_t part = 0; part < parts.sizes.size(); ++part)
     is_lesion.push_back(parts.sizes[part] * foreign.voxel_volume() / 1000 >= least_ml[part]);
+  for (const Eigen::Vector3d& x : named) {
+    double nearest_mm = nearest_lesion_mm;
+    std::int32_t nearest = 0;
+    bool has_lesion = false;
+    for (std::size_t v = 0; v < foreign.values.size(); ++v)
+      if (const std::int32_t part = parts.ids.values[v])
+        if (const double mm = (foreign.position(v) - x).norm(); mm <= nearest_lesion_mm) {
+          has_lesion = has_lesion || is_lesion[part];
+          if (mm <= nearest_mm) nearest_mm = mm, nearest = part;
+        }
+    if (nearest != 0 && !has_lesion) is_lesion[nearest] = true;
+  }
   return is_lesion;
 }
 
@@ -99,22 +106,21 @@ void label_lesions(const Volume<std::uint8_t>& lesion, const Volume<std::uint16_
                    [&](auto a, auto b) { return parts.sizes[a] > parts.sizes[b]; });
   std::vector<std::uint8_t> label_of(parts.sizes.size(), label::fibroglandular);
   int next = label::lesion;
-  std::int32_t largest_crumb = 0;
+  std::int32_t largest_speck = 0;
   for (const std::int32_t part : order) {
     if (is_lesion[part] && next < 256) {
       label_of[part] = static_cast<std::uint8_t>(next++);
-    } else if (++out.crumbs.parts == 1) {
-      largest_crumb = part;
-      out.crumbs.largest_ml = parts.sizes[part] * foreign.voxel_volume() / 1000;
+    } else if (++out.specks.parts == 1) {
+      largest_speck = part;
+      out.specks.largest_ml = parts.sizes[part] * foreign.voxel_volume() / 1000;
     }
   }
-  bool found = false;
   for (std::size_t v = 0; v < lesion.values.size(); ++v)
-    if (const std::int32_t part = parts.ids.values[v]) {
-      out.labels.values[v] = label_of[part];
-      if (part == largest_crumb && !std::exchange(found, true))
-        out.crumbs.largest_in_lps = foreign.position(v);
-    }
+    if (lesion.values[v]) out.labels.values[v] = label_of[parts.ids.values[v]];
+  const auto& ids = parts.ids.values;
+  if (largest_speck != 0)
+    out.specks.largest_in_lps = foreign.position(
+        static_cast<std::size_t>(std::find(ids.begin(), ids.end(), largest_speck) - ids.begin()));
 }
 
 }  // namespace

@@ -27,7 +27,7 @@ using LabelValues = std::map<std::uint16_t, ForeignTissue>;
 LabelValues own_label_values();
 
 /// Parts of lesion labels that count as no lesion: scattered voxels beside what was marked.
-struct LesionCrumbs {
+struct LesionSpecks {
   std::size_t parts = 0;
   double largest_ml = 0;
   Eigen::Vector3d largest_in_lps = Eigen::Vector3d::Zero();  ///< its first voxel's centre
@@ -37,15 +37,16 @@ struct LesionCrumbs {
 struct MappedLabels {
   Volume<std::uint8_t> labels;
   Volume<Fractions> fractions;
-  LesionCrumbs crumbs;
+  LesionSpecks specks;
 };
 
 /// A part of lesion labels is a lesion if it is as large as a ball of 5 mm (less is a focus: ACR
-/// BI-RADS MRI, 2013), or is the largest of a value and of 0.02 ml or more, or lies within 10 mm of
-/// a point in `named`. Lesions get labels from `label::lesion` up, the largest first; other parts
-/// become fibroglandular. Transition voxels are labelled fibroglandular where most neighbours that
-/// are not transition are, else fat, and have the fraction one half.
-/// Throws std::invalid_argument if the map holds a value that is not named.
+/// BI-RADS MRI, 2013), or is the largest of a value and of 0.02 ml or more, or the nearest to a
+/// point in `named` that has no such lesion within 10 mm, if it is within that itself. Lesions get
+/// labels from `label::lesion` up, the largest first; other parts become fibroglandular. Transition
+/// voxels are labelled fibroglandular where most neighbours that are not transition are, else fat,
+/// and have the fraction one half. Throws std::invalid_argument if the map holds a value that is
+/// not named.
 MappedLabels map_labels(const Volume<std::uint16_t>& foreign, const LabelValues& values,
                         const std::vector<Eigen::Vector3d>& named = {});
 

@@ -139,16 +139,16 @@ std::vector<std::pair<std::uint8_t, std::string>> names_by_segment(
   return names;
 }
 
-std::string sentence(const LesionCrumbs& crumbs) {
+std::string sentence(const LesionSpecks& specks) {
   std::ostringstream text;
-  text << std::fixed << std::setprecision(3) << crumbs.parts
-       << (crumbs.parts == 1 ? " part" : " parts") << " of lesion labels, "
-       << (crumbs.parts == 1 ? "of " : "the largest of ") << crumbs.largest_ml << " ml at ("
-       << std::setprecision(0) << crumbs.largest_in_lps.x() << ", " << crumbs.largest_in_lps.y()
-       << ", " << crumbs.largest_in_lps.z()
+  text << std::fixed << std::setprecision(3) << specks.parts
+       << (specks.parts == 1 ? " part" : " parts") << " of lesion labels, "
+       << (specks.parts == 1 ? "of " : "the largest of ") << specks.largest_ml << " ml at ("
+       << std::setprecision(0) << specks.largest_in_lps.x() << ", " << specks.largest_in_lps.y()
+       << ", " << specks.largest_in_lps.z()
        << ") mm LPS, counted as fibroglandular tissue: smaller than a ball of 5 mm beside a larger "
-          "part of their label, or than 0.02 ml (to keep one, name it in [[lesions]] by "
-          "point_lps_mm)";
+          "part of their label, or than 0.02 ml (to keep one, give it in [[lesions]] by "
+          "point_lps_mm and radius_mm)";
   return text.str();
 }
 
@@ -188,7 +188,7 @@ SegmentResult segment_labels(const SegmentInput& input) {
   for (const auto& [value, id] : names) s.lesions[new_value[value] - label::lesion].id = id;
   result.files = {*input.label_map};
   result.quality.contrast = "labels";
-  if (mapped.crumbs.parts > 0) result.quality.notes.push_back(sentence(mapped.crumbs));
+  if (mapped.specks.parts > 0) result.quality.notes.push_back(sentence(mapped.specks));
   return result;
 }
 

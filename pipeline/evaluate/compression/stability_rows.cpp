@@ -99,8 +99,9 @@ struct ReadyBreast {
 json new_stability_row(const StabilityCase& asked, const std::string& view,
                        const std::string& change) {
   json row{{"name", name_and_side(asked.breast)}, {"view", view}, {"change", change}};
-  for (const char* key : {"lesion_mm", "tissue_median_mm", "tissue_p95_mm", "force_change",
-                          "swing_mm", "roll_deg", "newton_iterations", "cpu_seconds", "reason"})
+  for (const char* key :
+       {"lesion_mm", "tissue_median_mm", "tissue_p95_mm", "force_N", "force_change", "swing_mm",
+        "roll_deg", "newton_iterations", "cpu_seconds", "reason"})
     row[key] = nullptr;
   return row;
 }

@@ -56,20 +56,28 @@ TEST(LabelValues, LesionsAreConnectedPartsLargestFirst) {
   EXPECT_EQ(labels(5, 5, 5), label::fibroglandular) << "0.048 ml, smaller than a ball of 5 mm";
 }
 
-TEST(LabelValues, CrumbsOfALesionAreCountedAndNoLesions) {
+TEST(LabelValues, SpecksOfALesionAreCountedAndNoLesions) {
   const MappedLabels mapped = map_labels(map_of_parts(), two_lesion_values());
   EXPECT_EQ(mapped.labels(5, 5, 5), label::lesion);
   EXPECT_EQ(mapped.labels(1, 1, 2), label::fibroglandular);
   EXPECT_EQ(mapped.fractions(1, 1, 2).lesion, 0);
-  EXPECT_EQ(mapped.crumbs.parts, 2U);
-  EXPECT_DOUBLE_EQ(mapped.crumbs.largest_ml, 0.024);
-  EXPECT_EQ(mapped.crumbs.largest_in_lps, Eigen::Vector3d(2, 2, 2));
+  EXPECT_EQ(mapped.specks.parts, 2U);
+  EXPECT_DOUBLE_EQ(mapped.specks.largest_ml, 0.024);
+  EXPECT_EQ(mapped.specks.largest_in_lps, Eigen::Vector3d(2, 2, 2));
 }
 
-TEST(LabelValues, ACrumbThatIsNamedIsALesion) {
+TEST(LabelValues, ASpeckThatIsNamedIsALesion) {
   const auto labels = map_labels(map_of_parts(), two_lesion_values(), {{14, 0, 2}}).labels;
   EXPECT_EQ(labels(7, 0, 0), label::lesion + 2) << "2 mm from the point named";
   EXPECT_EQ(labels(1, 1, 2), label::fibroglandular) << "12 mm from it";
+}
+
+TEST(LabelValues, ASpeckNearANamedLesionIsNone) {
+  auto map = map_of_parts();
+  map(7, 5, 4) = 5;  // 2 mm from the point, the lesion 4 mm
+  const MappedLabels mapped = map_labels(map, two_lesion_values(), {{14, 10, 10}});
+  EXPECT_EQ(mapped.labels(7, 5, 4), label::fibroglandular);
+  EXPECT_EQ(mapped.labels(5, 5, 5), label::lesion);
 }
 
 TEST(LabelValues, AValueWithoutANameIsAnError) {

@@ -108,7 +108,7 @@ TEST(SegmentLabels, ASpeckOfALesionsLabelOnTheOtherSideIsNoLesionAndIsSaid) {
   EXPECT_EQ(result.segmentation.lesions.size(), 1U);
   ASSERT_EQ(result.quality.notes.size(), 1U);
   expect_mentions(result.quality.notes[0],
-                  {"1 part of lesion labels", "0.027 ml at (-74, 41, 2) mm LPS", "name it"});
+                  {"1 part of lesion labels", "0.027 ml at (-74, 41, 2) mm LPS", "radius_mm"});
 }
 
 TEST(SegmentLabels, FillsTheThoraxBehindTheMuscle) {
