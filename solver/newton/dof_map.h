@@ -21,7 +21,7 @@ class DofMap {
   /// (ParameterTie of a mesh file). factor is not 0.
   void tie(int follower, int leader, double factor);
 
-  /// Numbers the equations: nested dissection (METIS) on the nodes, all unknowns of a node
+  /// Numbers the equations: nested dissection on the nodes, all unknowns of a node
   /// together.
   void number(const HermiteMesh& mesh);
 
