@@ -14,15 +14,18 @@ namespace {
 constexpr double kTaskFlops = 2e6;  // a smaller branch is not worth a task of its own
 constexpr double kMostKept = 1e8;   // doubles, 0.8 GB: up to some 40,000 unknowns
 
-using ConstMap = Eigen::Map<const Eigen::MatrixXd>;
+void add(const double* from, int count, double* to) {
+  for (int i = 0; i < count; ++i) to[i] += from[i];
+}
 
-/// Adds column j of a child's update (a lower triangle of `n` rows) to a column of its parent that
-/// begins at its row 0; both ascend, so lower stays lower.
-void add_column(const Eigen::VectorXd& update, const std::vector<int>& to_parent, int j,
-                double* target) {
-  const int n = static_cast<int>(to_parent.size());
-  const double* source = update.data() + static_cast<std::ptrdiff_t>(j) * n;
-  for (int i = j; i < n; ++i) target[to_parent[i]] += source[i];
+/// Adds column j of a child's update (a lower triangle) to a column of its parent that begins at
+/// its row 0; both ascend, so lower stays lower.
+void add_column(const Eigen::VectorXd& update, const Front& child, int j, double* target) {
+  const double* source = update.data() + j * static_cast<std::ptrdiff_t>(child.to_parent.size());
+  for (const auto& [first, end, place] : child.stretches) {
+    const int from = std::max(first, j);
+    add(source + from, end - from, target + place + (from - first));
+  }
 }
 
 }  // namespace
@@ -59,87 +62,70 @@ void Cholesky::factor_subtree(int index, const std::vector<double>& values) {
     if (subtree_flops_[child] <= kTaskFlops) factor_subtree(child, values);
   tasks.wait();
   if (!definite_) return;
-  std::vector<int> next(front.children.size(), 0);  // column of each child that comes next
-  fill_panel(index, values, next);
-  if (!eliminate(index)) {
-    definite_ = false;
-    return;
-  }
-  add_updates(index, next);
+  gather(index, values);
+  if (!eliminate(index)) definite_ = false;
 }
 
 /// Each column is cleared just before it is added to, while it is in the cache.
-void Cholesky::fill_panel(int index, const std::vector<double>& values, std::vector<int>& next) {
+void Cholesky::gather(int index, const std::vector<double>& values) {
   const Front& front = tree_.fronts[index];
-  const Eigen::Index size = front.size();
-  panels_[index].resize(size * front.num_pivots);
-  for (int p = 0; p < front.num_pivots; ++p) {
+  const std::ptrdiff_t size = front.size(), pivots = front.num_pivots, rest = size - pivots;
+  std::vector<int> next(front.children.size(), 0);  // column of each child that comes next
+  const auto add_children = [&](int j, double* column) {
+    for (std::size_t c = 0; c < next.size(); ++c) {
+      const Front& child = tree_.fronts[front.children[c]];
+      if (next[c] < static_cast<int>(child.to_parent.size()) && child.to_parent[next[c]] == j)
+        add_column(updates_[front.children[c]], child, next[c]++, column);
+    }
+  };
+  panels_[index].resize(size * pivots);
+  for (int p = 0; p < pivots; ++p) {
     double* column = panels_[index].data() + p * size;
     std::fill(column + p, column + size, 0.0);
     for (int k = front.starts[p]; k < front.starts[p + 1]; ++k)
-      column[front.rows[k]] += values[front.sources[k]];
-    for (std::size_t c = 0; c < next.size(); ++c) {
-      const auto& to_parent = tree_.fronts[front.children[c]].to_parent;
-      if (next[c] == static_cast<int>(to_parent.size()) || to_parent[next[c]] != p) continue;
-      add_column(updates_[front.children[c]], to_parent, next[c]++, column);
-    }
+      add(values.data() + front.entries[k].source, front.entries[k].count,
+          column + front.entries[k].row);
+    add_children(p, column);
   }
+  updates_[index].resize(rest * rest);
+  if (front.children.empty()) return;
+  for (int j = front.num_pivots; j < size; ++j) {
+    double* column = updates_[index].data() + (j - pivots) * rest - pivots;
+    std::fill(column + j, column + size, 0.0);
+    add_children(j, column);
+  }
+  if (!keep_updates_)
+    for (int child : front.children) updates_[child].resize(0);
 }
 
-/// The pivots' columns, and what they leave for the parent: written over the last factorisation's.
+/// The pivots' columns, and what is left for the parent.
 bool Cholesky::eliminate(int index) {
   const Front& front = tree_.fronts[index];
-  double* panel = panels_[index].data();
-  if (!factor_panel(panel, front.size(), front.num_pivots)) return false;
-  const Eigen::Index rest = front.size() - front.num_pivots;
-  updates_[index].resize(rest * rest);
-  if (rest > 0)
-    negative_outer_product(panel + front.num_pivots, front.size(), static_cast<int>(rest),
-                           front.num_pivots, updates_[index].data());
+  const Panel panel{panels_[index].data(), front.size(), front.num_pivots};
+  if (!factor_panel(panel)) return false;
+  const bool gathered = !front.children.empty();
+  if (front.size() > front.num_pivots)
+    subtract_outer_product(panel, gathered ? 1 : 0, updates_[index].data());
   return true;
 }
 
-/// The children's columns from `next` on, which no pivot of this front has.
-void Cholesky::add_updates(int index, const std::vector<int>& next) {
-  const Front& front = tree_.fronts[index];
-  const std::ptrdiff_t rest = front.size() - front.num_pivots;
-  for (std::size_t c = 0; c < next.size(); ++c) {
-    const int child = front.children[c];
-    const auto& to_parent = tree_.fronts[child].to_parent;
-    for (int j = next[c]; j < static_cast<int>(to_parent.size()); ++j)
-      add_column(
-          updates_[child], to_parent, j,
-          updates_[index].data() + (to_parent[j] - front.num_pivots) * rest - front.num_pivots);
-    if (!keep_updates_) updates_[child].resize(0);
-  }
-}
-
 Eigen::VectorXd Cholesky::solve(const Eigen::VectorXd& b) const {
-  Eigen::VectorXd x = b;
-  Eigen::VectorXd pivots;
+  Eigen::VectorXd x = b, here;  // of a front's equations: pivots first
+  const auto take = [&](const Front& front) {
+    here.resize(front.size());
+    for (int i = 0; i < front.size(); ++i) here[i] = x[front.equations[i]];
+  };
   for (std::size_t f = 0; f < tree_.fronts.size(); ++f) {
     const Front& front = tree_.fronts[f];
-    const int k = front.num_pivots, rest = front.size() - k;
-    const ConstMap panel(panels_[f].data(), front.size(), k);
-    pivots.resize(k);
-    for (int i = 0; i < k; ++i) pivots[i] = x[front.equations[i]];
-    solve_lower(panel.data(), front.size(), k, pivots.data());
-    const Eigen::VectorXd passed_on = panel.bottomRows(rest) * pivots;
-    for (int i = 0; i < k; ++i) x[front.equations[i]] = pivots[i];
-    for (int i = 0; i < rest; ++i) x[front.equations[k + i]] -= passed_on[i];
+    take(front);
+    solve_lower({panels_[f].data(), front.size(), front.num_pivots}, here.data());
+    for (int i = 0; i < front.size(); ++i) x[front.equations[i]] = here[i];
   }
-  Eigen::VectorXd later;
   for (std::size_t f = tree_.fronts.size(); f-- > 0;) {
     const Front& front = tree_.fronts[f];
-    const int k = front.num_pivots, rest = front.size() - k;
-    const ConstMap panel(panels_[f].data(), front.size(), k);
-    later.resize(rest);
-    for (int i = 0; i < rest; ++i) later[i] = x[front.equations[k + i]];
-    pivots.resize(k);
-    for (int i = 0; i < k; ++i) pivots[i] = x[front.equations[i]];
-    pivots.noalias() -= panel.bottomRows(rest).transpose() * later;
-    solve_lower_transposed(panel.data(), front.size(), k, pivots.data());
-    for (int i = 0; i < k; ++i) x[front.equations[i]] = pivots[i];
+    take(front);
+    solve_lower_transposed({panels_[f].data(), front.size(), front.num_pivots}, here.data());
+    for (int i = 0; i < front.num_pivots; ++i) x[front.equations[i]] = here[i];
   }
   return x;
 }

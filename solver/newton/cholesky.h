@@ -28,9 +28,8 @@ class Cholesky {
 
  private:
   void factor_subtree(int front, const std::vector<double>& values);
-  void fill_panel(int front, const std::vector<double>& values, std::vector<int>& next);
+  void gather(int front, const std::vector<double>& values);
   bool eliminate(int front);
-  void add_updates(int front, const std::vector<int>& next);
 
   FrontTree tree_;
   std::vector<double> subtree_flops_;

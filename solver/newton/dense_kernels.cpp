@@ -13,6 +13,8 @@ void dtrsm_(const char*, const char*, const char*, const char*, const int*, cons
             const double*, const double*, const int*, double*, const int*);
 void dtrsv_(const char*, const char*, const char*, const int*, const double*, const int*, double*,
             const int*);
+void dgemv_(const char*, const int*, const int*, const double*, const double*, const int*,
+            const double*, const int*, const double*, double*, const int*);
 void dgemm_(const char*, const char*, const int*, const int*, const int*, const double*,
             const double*, const int*, const double*, const int*, const double*, double*,
             const int*);
@@ -72,10 +74,11 @@ void subtract_tiles(const double* A, int stride, int rows, int columns, int dept
 
 }  // namespace
 
-bool factor_panel(double* panel, int rows, int pivots) {
+bool factor_panel(const Panel& panel) {
+  const auto [values, rows, pivots] = panel;
   for (int first = 0; first < pivots; first += kTile) {
     const int width = std::min(kTile, pivots - first);
-    double* block = panel + first + static_cast<std::ptrdiff_t>(first) * rows;
+    double* block = values + first + static_cast<std::ptrdiff_t>(first) * rows;
     int info = 0;
     dpotrf_("L", &width, block, &rows, &info);
     if (info != 0) return false;
@@ -90,18 +93,28 @@ bool factor_panel(double* panel, int rows, int pivots) {
   return true;
 }
 
-void negative_outer_product(const double* L2, int stride, int size, int pivots, double* update) {
-  subtract_tiles(L2, stride, size, size, pivots, update, size, 0);
+void subtract_outer_product(const Panel& factored, double kept, double* update) {
+  const auto [values, rows, pivots] = factored;
+  subtract_tiles(values + pivots, rows, rows - pivots, rows - pivots, pivots, update, rows - pivots,
+                 kept);
 }
 
-void solve_lower(const double* panel, int rows, int pivots, double* x) {
-  const int one = 1;
-  dtrsv_("L", "N", "N", &pivots, panel, &rows, x, &one);
+void solve_lower(const ConstPanel& factored, double* x) {
+  const auto [values, rows, pivots] = factored;
+  const int one = 1, rest = rows - pivots;
+  const double minus = -1, plus = 1;
+  dtrsv_("L", "N", "N", &pivots, values, &rows, x, &one);
+  if (rest > 0)
+    dgemv_("N", &rest, &pivots, &minus, values + pivots, &rows, x, &one, &plus, x + pivots, &one);
 }
 
-void solve_lower_transposed(const double* panel, int rows, int pivots, double* x) {
-  const int one = 1;
-  dtrsv_("L", "T", "N", &pivots, panel, &rows, x, &one);
+void solve_lower_transposed(const ConstPanel& factored, double* x) {
+  const auto [values, rows, pivots] = factored;
+  const int one = 1, rest = rows - pivots;
+  const double minus = -1, plus = 1;
+  if (rest > 0)
+    dgemv_("T", &rest, &pivots, &minus, values + pivots, &rows, x + pivots, &one, &plus, x, &one);
+  dtrsv_("L", "T", "N", &pivots, values, &rows, x, &one);
 }
 
 }  // namespace mammotwin

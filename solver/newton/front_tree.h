@@ -12,11 +12,23 @@ struct Front {
   int num_pivots = 0;
   std::vector<int> equations;  ///< pivots first; in elimination order
   std::vector<int> children;   ///< fronts whose update this one adds, in this order
-  std::vector<int> to_parent;  ///< place in the parent's equations of each non-pivot
 
-  /// Entries of the matrix that start here, pivot by pivot: position in the values, row in the
-  /// panel; those of pivot p are [starts[p], starts[p + 1]).
-  std::vector<int> starts, sources, rows;
+  /// Place in the parent's equations of each non-pivot, and again of stretches that follow one
+  /// another there, too: from `first` on they stand at `place` on.
+  std::vector<int> to_parent;
+  struct Stretch {
+    int first, end, place;
+  };
+  std::vector<Stretch> stretches;
+
+  /// Entries of the matrix that start here, pivot by pivot, in stretches that follow one another
+  /// both in the values, from `source` on, and in the panel's rows; those of pivot p are
+  /// [starts[p], starts[p + 1]).
+  struct Entries {
+    int source, row, count;
+  };
+  std::vector<int> starts;
+  std::vector<Entries> entries;
 
   int size() const { return static_cast<int>(equations.size()); }
 };
