@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
+#include <limits>
 #include <map>
 #include <stdexcept>
 
@@ -175,6 +175,7 @@ WallSurface::WallSurface(const HermiteMesh& mesh, const std::vector<std::pair<in
         if (at_rim[n][1][other]) add_patch(straight_on(beside, 1, other, ahead), -outward);
     }
   }
+  find_boxes();
 }
 
 void WallSurface::add_patch(const Coefficients& coefficients, double orientation) {
@@ -185,8 +186,18 @@ void WallSurface::add_patch(const Coefficients& coefficients, double orientation
     patch.samples.col(k) = position(coefficients, xi / (kSamples1d - 1.0));
   }
   patch.orientation = orientation;
-  patch.box = bezier_box(coefficients);
   patches_.push_back(patch);
+}
+
+void WallSurface::find_boxes() {
+  const auto count = static_cast<Eigen::Index>(patches_.size());
+  low_.resize(count, 3);
+  high_.resize(count, 3);
+  for (Eigen::Index n = 0; n < count; ++n) {
+    const Eigen::AlignedBox3d box = bezier_box(patches_[n].coefficients);
+    low_.row(n) = box.min().transpose();
+    high_.row(n) = box.max().transpose();
+  }
 }
 
 WallSurface::Foot WallSurface::project_from(const Patch& patch, Eigen::Vector2d xi,
@@ -210,17 +221,36 @@ WallSurface::Foot WallSurface::project_from(const Patch& patch, Eigen::Vector2d 
           (xi - clamped).cwiseAbs().maxCoeff() <= kRimTolerance};
 }
 
+namespace {
+
+/// The least of each entry and its up to eight neighbours.
+template <class Grid>
+Grid least_around(const Grid& grid) {
+  constexpr int n = Grid::RowsAtCompileTime, all_but_one = n - 1;
+  Grid in_column = grid;
+  in_column.template topRows<all_but_one>() =
+      grid.template topRows<all_but_one>().min(grid.template bottomRows<all_but_one>());
+  in_column.template bottomRows<all_but_one>() =
+      in_column.template bottomRows<all_but_one>().min(grid.template topRows<all_but_one>());
+  Grid least = in_column;
+  least.template leftCols<all_but_one>() =
+      in_column.template leftCols<all_but_one>().min(in_column.template rightCols<all_but_one>());
+  least.template rightCols<all_but_one>() =
+      least.template rightCols<all_but_one>().min(in_column.template leftCols<all_but_one>());
+  return least;
+}
+
+}  // namespace
+
 /// From every sample that is nearer than its neighbours.
 WallSurface::Foot WallSurface::project(const Patch& patch, const Eigen::Vector3d& x) const {
-  const Eigen::Array<double, 1, kSamples1d* kSamples1d> flat =
-      (patch.samples.colwise() - x).colwise().squaredNorm();
-  const Eigen::Map<const Eigen::Array<double, kSamples1d, kSamples1d>> grid(flat.data());
+  Eigen::Array<double, kSamples1d, kSamples1d> distance;  // squared
+  distance.reshaped() = (patch.samples.colwise() - x).colwise().squaredNorm().transpose();
+  const auto least = least_around(distance);
   Foot best{nullptr, {}, 0, false};
   for (int j = 0; j < kSamples1d; ++j)
     for (int i = 0; i < kSamples1d; ++i) {
-      const int i0 = std::max(i - 1, 0), i1 = std::min(i + 1, kSamples1d - 1);
-      const int j0 = std::max(j - 1, 0), j1 = std::min(j + 1, kSamples1d - 1);
-      if (grid(i, j) > grid.block(i0, j0, i1 - i0 + 1, j1 - j0 + 1).minCoeff()) continue;
+      if (distance(i, j) > least(i, j)) continue;
       const Foot foot = project_from(patch, Eigen::Vector2d(i, j) / (kSamples1d - 1.0), x);
       if (!best.patch || foot.distance < best.distance) best = foot;
     }
@@ -229,17 +259,17 @@ WallSurface::Foot WallSurface::project(const Patch& patch, const Eigen::Vector3d
 
 /// Patches are asked in the order of their boxes' distance, until no box is nearer than a foot.
 WallSurface::Foot WallSurface::nearest_foot(const Eigen::Vector3d& x) const {
-  static thread_local std::vector<std::pair<double, const Patch*>> queue;
-  queue.clear();
-  for (const Patch& patch : patches_) queue.push_back({patch.box.exteriorDistance(x), &patch});
-  std::make_heap(queue.begin(), queue.end(), std::greater<>());
+  static thread_local Eigen::ArrayXd away;  // squared, of each box
+  away.setZero(low_.rows());
+  for (int i = 0; i < 3; ++i)
+    away += (low_.col(i) - x[i]).max(x[i] - high_.col(i)).max(0.0).square();
   Foot best{nullptr, {}, 0, false};
-  while (!queue.empty()) {
-    std::pop_heap(queue.begin(), queue.end(), std::greater<>());
-    const auto [at_least, patch] = queue.back();
-    queue.pop_back();
+  for (std::size_t asked = 0; asked < patches_.size(); ++asked) {
+    Eigen::Index next;
+    const double at_least = std::sqrt(away.minCoeff(&next));
     if (best.patch && at_least > best.distance + kRimTolerance) break;
-    const Foot foot = project(*patch, x);
+    away[next] = std::numeric_limits<double>::infinity();
+    const Foot foot = project(patches_[next], x);
     const double lead = best.distance - foot.distance;
     const bool better = !best.patch || lead > kRimTolerance ||
                         (std::abs(lead) <= kRimTolerance && foot.inside && !best.inside);

@@ -36,7 +36,6 @@ class WallSurface {
     Eigen::Matrix<double, 3, 16> coefficients;
     double orientation;  ///< +1 where s₁ x s₂ points into the tissue
     Eigen::Matrix<double, 3, kSamples1d * kSamples1d> samples;
-    Eigen::AlignedBox3d box;  ///< it lies in there
   };
   struct Foot {
     const Patch* patch;
@@ -45,11 +44,13 @@ class WallSurface {
     bool inside;
   };
   void add_patch(const Eigen::Matrix<double, 3, 16>& coefficients, double orientation);
+  void find_boxes();
   Foot project_from(const Patch& patch, Eigen::Vector2d xi, const Eigen::Vector3d& x) const;
   Foot project(const Patch& patch, const Eigen::Vector3d& x) const;
   Foot nearest_foot(const Eigen::Vector3d& x) const;
 
   std::vector<Patch> patches_;
+  Eigen::ArrayX3d low_, high_;  ///< corners of a box round each patch
 };
 
 /// Where a point stands off the wall when nothing pulls at it.
