@@ -4,6 +4,7 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -171,12 +172,22 @@ void Assembler::condense(int e, const Residual& pending, ElementSystem& system) 
 }
 
 void Assembler::scatter(int e, const Eigen::MatrixXd& tangent, std::vector<double>& values) const {
-  const auto& factors = pattern_.factors[e];
-  const int* position = pattern_.positions[e].data();
-  for (int c = 0; c < kUnknowns; ++c) {
-    const double* column = tangent.data() + kUnknowns * c;
-    for (int r = c; r < kUnknowns; ++r, ++position)
-      if (*position >= 0) values[*position] += factors[r] * factors[c] * column[r];
+  const auto& unknowns = pattern_.unknowns[e];
+  const int count = static_cast<int>(unknowns.size());
+  const SparsePattern::Stretch* stretch = pattern_.stretches[e].data();
+  std::array<double, kUnknowns> factors, column;
+  for (int k = 0; k < count; ++k) factors[k] = pattern_.factors[e][unknowns[k]];
+  for (int k = 0; k < count; ++k) {
+    const int c = unknowns[k];
+    for (int i = k; i < count; ++i) {
+      const int r = unknowns[i];
+      const int at = std::max(r, c) + kUnknowns * std::min(r, c);
+      column[i] = factors[i] * factors[k] * tangent.data()[at];
+    }
+    for (int i = k; i < count; i += stretch->count, ++stretch) {
+      double* target = values.data() + stretch->position;
+      for (int n = 0; n < stretch->count; ++n) target[n] += column[i + n];
+    }
   }
 }
 

@@ -76,32 +76,28 @@ void list_rows(const Neighbours& neighbours, SparsePattern& pattern) {
   }
 }
 
-std::vector<int> element_positions(const SparsePattern& pattern, const Neighbours& neighbours,
-                                   const std::vector<int>& equations) {
+void list_stretches(const Neighbours& neighbours, const std::vector<int>& equations,
+                    SparsePattern& pattern) {
+  std::vector<int>& unknowns = pattern.unknowns.emplace_back();
+  for (int k = 0; k < kUnknowns; ++k)
+    if (equations[k] >= 0) unknowns.push_back(k);
+  std::stable_sort(unknowns.begin(), unknowns.end(),
+                   [&](int a, int b) { return equations[a] < equations[b]; });
   // Where the element's equations stand among those that each of its columns meets.
   std::map<int, std::vector<int>> by_group;
-  std::vector<const std::vector<int>*> places(kUnknowns, nullptr);
-  for (int c = 0; c < kUnknowns; ++c) {
-    if (equations[c] < 0) continue;
-    const int group = neighbours.group[equations[c]];
+  std::vector<SparsePattern::Stretch>& stretches = pattern.stretches.emplace_back();
+  for (std::size_t c = 0; c < unknowns.size(); ++c) {
+    const int column = equations[unknowns[c]], group = neighbours.group[column];
     std::vector<int>& place = by_group[group];
-    places[c] = &place;
-    if (!place.empty()) continue;
-    for (int equation : equations) place.push_back(place_of(equation, neighbours.equations[group]));
-  }
-  std::vector<int> positions;
-  positions.reserve(kUnknowns * (kUnknowns + 1) / 2);
-  for (int c = 0; c < kUnknowns; ++c)
-    for (int r = c; r < kUnknowns; ++r) {
-      const auto [column, row] = equations[r] < equations[c] ? std::pair(r, c) : std::pair(c, r);
-      if (equations[column] < 0) {
-        positions.push_back(-1);
-        continue;
-      }
-      const std::vector<int>& place = *places[column];
-      positions.push_back(pattern.starts[equations[column]] + place[row] - place[column]);
+    if (place.empty())
+      for (int k : unknowns) place.push_back(place_of(equations[k], neighbours.equations[group]));
+    for (std::size_t r = c; r < unknowns.size(); ++r) {
+      const int position = pattern.starts[column] + place[r] - place[c];
+      if (r == c || position != stretches.back().position + stretches.back().count)
+        stretches.push_back({position, 0});
+      ++stretches.back().count;
     }
-  return positions;
+  }
 }
 
 /// Greedy colouring in element order.
@@ -130,8 +126,7 @@ SparsePattern make_sparse_pattern(const HermiteMesh& mesh, const DofMap& dofs) {
   const auto elements = elements_of_equations(pattern, dofs.num_equations());
   const Neighbours neighbours = find_neighbours(elements, pattern);
   list_rows(neighbours, pattern);
-  for (const auto& equations : pattern.equations)
-    pattern.positions.push_back(element_positions(pattern, neighbours, equations));
+  for (const auto& equations : pattern.equations) list_stretches(neighbours, equations, pattern);
   colour(elements, pattern);
   return pattern;
 }

@@ -16,9 +16,13 @@ struct SparsePattern {
   std::vector<std::vector<int>> equations;
   std::vector<std::vector<double>> factors;
 
-  /// Per element: position in the values of each entry of its lower triangle, column by column;
-  /// -1 where a prescribed dof takes part.
-  std::vector<std::vector<int>> positions;
+  /// Per element: its unknowns that have an equation, in the equations' order, and where the lower
+  /// triangle of its matrix goes, so ordered: column by column in stretches of neighbours.
+  struct Stretch {
+    int position, count;  ///< of the values
+  };
+  std::vector<std::vector<int>> unknowns;
+  std::vector<std::vector<Stretch>> stretches;
 
   /// Elements of one colour share no equation, so they can be added at the same time and the sum's
   /// order does not depend on threads.
