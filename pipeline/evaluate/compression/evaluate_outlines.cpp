@@ -1,8 +1,10 @@
 // evaluate-outlines: compressed CC breasts -> how their outlines compare with real patients'.
 
+#include <algorithm>
 #include <cstdio>
 
 #include "pipeline/evaluate/cases/evaluation_table.h"
+#include "pipeline/evaluate/cases/stage_command.h"
 #include "pipeline/evaluate/compression/outline_row.h"
 #include "pipeline/evaluate/compression/typical_press.h"
 #include "pipeline/frame/command_line.h"
@@ -39,7 +41,7 @@ std::string line_of(const json& row) {
   if (row["within_2_sd"].is_null()) return row["name"].get<std::string>() + ": none";
   char line[240];
   std::snprintf(line, sizeof line,
-                "%-24s %5.1f mm (typical %.0f)  within 2 sd %3.0f %%, mean %+.1f, worst %+.1f sd; "
+                "%-30s %5.1f mm (typical %.0f)  within 2 sd %3.0f %%, mean %+.1f, worst %+.1f sd; "
                 "depth %.0f (%.0f), "
                 "width %.0f (%.0f) mm, %.0f (%.0f) ml",
                 row["name"].get<std::string>().c_str(), row["thickness_mm"].get<double>(),
@@ -51,18 +53,39 @@ std::string line_of(const json& row) {
   return line;
 }
 
+/// The deepest folder that has all of these below it.
+fs::path common_folder(const std::vector<fs::path>& folders) {
+  fs::path common = folders.front().parent_path();
+  for (const fs::path& folder : folders) {
+    const fs::path above = folder.parent_path();
+    while (std::mismatch(common.begin(), common.end(), above.begin(), above.end()).first !=
+           common.end())
+      common = common.parent_path();
+  }
+  return common;
+}
+
+json tissue_of_view(const fs::path& view) {
+  const json sidecar = stage_sidecar(view);
+  return sidecar.is_null() ? json() : sidecar.at("parameters").at("materials.preset").at("value");
+}
+
 int run(const Arguments& args) {
   const OutlinePopulation population(args.population);
   EvaluationTable table(args.table);
   const fs::path beside = table.folder() / "outlines";
+  std::vector<fs::path> folders;
+  for (const std::string& view : args.views)
+    folders.push_back(fs::absolute(view).lexically_normal().parent_path());
+  const fs::path common = common_folder(folders);
   for (std::size_t n = 0; n < args.views.size(); ++n) {
     const std::string& view = args.views[n];
-    const fs::path from = fs::absolute(view).parent_path();
-    const fs::path path = args.press
-                              ? press_typically(view, from, population, beside / from.filename())
-                              : fs::path(view);
+    const fs::path name = folders[n].lexically_relative(common);
+    const fs::path path =
+        args.press ? press_typically(view, folders[n], population, beside / name) : fs::path(view);
     json row = outline_row(read_mesh_file(path), population);
-    row["name"] = fs::absolute(path).parent_path().filename().string();
+    row["name"] = name.string();
+    row["tissue"] = tissue_of_view(path);
     const std::string line = line_of(row);
     table.add(n, std::move(row), line);
   }

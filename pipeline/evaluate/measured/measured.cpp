@@ -25,7 +25,7 @@ void declare(CommandLine& command, Arguments& args) {
       .required()
       .existing_folder();
   command.option("--evaluation", args.evaluation,
-                 "folder whose *.json (RESULTS/evaluation) replace those of data/ first");
+                 "RESULTS/evaluation: figures there replace those of data/ first");
 }
 
 json read_json(const fs::path& path) {
@@ -39,7 +39,7 @@ json read_json(const fs::path& path) {
 
 /// Brings the newest figures of each page, so that a page never shows what its data does not hold.
 void take_figures(const MeasuredPage& page, const Arguments& args) {
-  const fs::path newest = args.evaluation / (page.name + ".json");
+  const fs::path newest = args.evaluation / page.figures;
   if (args.evaluation.empty() || !fs::exists(newest)) return;
   write_text_atomically(args.folder / "data" / (page.name + ".json"),
                         read_json(newest).dump(1) + "\n");

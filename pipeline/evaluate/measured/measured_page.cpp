@@ -41,12 +41,13 @@ MeasuredPage page_of(const json& table) {
   page.name = text_at(table, "name", "[[page]]");
   const std::string where = "[[page]] " + page.name;
   check_keys(table,
-             {"name", "title", "about", "command", "case_name", "group_by", "summary", "every_case",
-              "columns"},
+             {"name", "title", "about", "command", "figures", "case_name", "group_by", "summary",
+              "every_case", "columns"},
              where);
   page.title = text_at(table, "title", where);
   page.about = text_at(table, "about", where);
   page.command = text_at(table, "command", where);
+  page.figures = table.value("figures", page.name + ".json");
   page.case_name = table.value("case_name", std::vector<std::string>{"name"});
   if (table.contains("group_by")) page.group_by = text_at(table, "group_by", where);
   page.summary = table.value("summary", true);

@@ -22,6 +22,7 @@ struct MeasuredPage {
   std::string title;  ///< of the page
   std::string about;  ///< what was done on which cases, Markdown
   std::string command;
+  std::string figures;  ///< that the command writes, from RESULTS/evaluation; else NAME.json there
   std::vector<std::string> case_name;   ///< keys that together name a case
   std::optional<std::string> group_by;  ///< the summary has a line for each value of this key
   bool summary = true;                  ///< where its cases are of one kind

@@ -21,6 +21,7 @@ MeasuredPage small_page() {
           "Small",
           "Three breasts.",
           "make small",
+          "small.json",
           {"name", "side"},
           std::nullopt,
           true,
