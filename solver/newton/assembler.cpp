@@ -174,7 +174,7 @@ void Assembler::condense(int e, const Residual& pending, ElementSystem& system) 
 void Assembler::scatter(int e, const Eigen::MatrixXd& tangent, std::vector<double>& values) const {
   const auto& unknowns = pattern_.unknowns[e];
   const int count = static_cast<int>(unknowns.size());
-  const SparsePattern::Stretch* stretch = pattern_.stretches[e].data();
+  const Stretch* stretch = pattern_.stretches[e].data();
   std::array<double, kUnknowns> factors, column;
   for (int k = 0; k < count; ++k) factors[k] = pattern_.factors[e][unknowns[k]];
   for (int k = 0; k < count; ++k) {
@@ -184,10 +184,8 @@ void Assembler::scatter(int e, const Eigen::MatrixXd& tangent, std::vector<doubl
       const int at = std::max(r, c) + kUnknowns * std::min(r, c);
       column[i] = factors[i] * factors[k] * tangent.data()[at];
     }
-    for (int i = k; i < count; i += stretch->count, ++stretch) {
-      double* target = values.data() + stretch->position;
-      for (int n = 0; n < stretch->count; ++n) target[n] += column[i + n];
-    }
+    for (int i = k; i < count; i += stretch->count, ++stretch)
+      add(*stretch, column.data(), values.data());
   }
 }
 

@@ -14,17 +14,13 @@ namespace {
 constexpr double kTaskFlops = 2e6;  // a smaller branch is not worth a task of its own
 constexpr double kMostKept = 1e8;   // doubles, 0.8 GB: up to some 40,000 unknowns
 
-void add(const double* from, int count, double* to) {
-  for (int i = 0; i < count; ++i) to[i] += from[i];
-}
-
 /// Adds column j of a child's update (a lower triangle) to a column of its parent that begins at
 /// its row 0; both ascend, so lower stays lower.
 void add_column(const Eigen::VectorXd& update, const Front& child, int j, double* target) {
   const double* source = update.data() + j * static_cast<std::ptrdiff_t>(child.to_parent.size());
-  for (const auto& [first, end, place] : child.stretches) {
-    const int from = std::max(first, j);
-    add(source + from, end - from, target + place + (from - first));
+  for (const auto& [from, to, count] : child.stretches_to_parent) {
+    const int above = std::max(0, j - from);
+    add({from + above, to + above, count - above}, source, target);
   }
 }
 
@@ -83,8 +79,7 @@ void Cholesky::gather(int index, const std::vector<double>& values) {
     double* column = panels_[index].data() + p * size;
     std::fill(column + p, column + size, 0.0);
     for (int k = front.starts[p]; k < front.starts[p + 1]; ++k)
-      add(values.data() + front.entries[k].source, front.entries[k].count,
-          column + front.entries[k].row);
+      add(front.entries[k], values.data(), column);
     add_children(p, column);
   }
   updates_[index].resize(rest * rest);

@@ -134,15 +134,6 @@ void sort_rest(FrontTree& tree, const std::vector<int>& position) {
               [&](int a, int b) { return position[a] < position[b]; });
 }
 
-std::vector<Front::Stretch> stretches_of(const std::vector<int>& places) {
-  std::vector<Front::Stretch> stretches;
-  for (int k = 0; k < static_cast<int>(places.size()); ++k) {
-    if (k == 0 || places[k] != places[k - 1] + 1) stretches.push_back({k, k, places[k]});
-    stretches.back().end = k + 1;
-  }
-  return stretches;
-}
-
 /// Where each front's entries of the matrix go, and its update in the parent.
 void link_front(const SparsePattern& pattern, const std::vector<std::vector<int>>& transposed,
                 FrontTree& tree, Front& front, std::vector<int>& place,
@@ -150,19 +141,13 @@ void link_front(const SparsePattern& pattern, const std::vector<std::vector<int>
   for (int k = 0; k < front.size(); ++k) place[front.equations[k]] = k;
   for (int child : front.children) {
     Front& c = tree.fronts[child];
-    for (int k = c.num_pivots; k < c.size(); ++k) c.to_parent.push_back(place[c.equations[k]]);
-    c.stretches = stretches_of(c.to_parent);
+    for (int k = c.num_pivots; k < c.size(); ++k) {
+      c.to_parent.push_back(place[c.equations[k]]);
+      append(k - c.num_pivots, c.to_parent.back(), 0, c.stretches_to_parent);
+    }
   }
   const auto add = [&](int source, int row) {
-    const int first = front.starts.back();
-    if (static_cast<int>(front.entries.size()) > first) {
-      auto& last = front.entries.back();
-      if (source == last.source + last.count && place[row] == last.row + last.count) {
-        ++last.count;
-        return;
-      }
-    }
-    front.entries.push_back({source, place[row], 1});
+    append(source, place[row], front.starts.back(), front.entries);
   };
   for (int p = 0; p < front.num_pivots; ++p) {
     const int pivot = front.equations[p];

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "solver/newton/sparse_pattern.h"
+#include "solver/newton/stretch.h"
 
 namespace mammotwin {
 
@@ -13,22 +14,13 @@ struct Front {
   std::vector<int> equations;  ///< pivots first; in elimination order
   std::vector<int> children;   ///< fronts whose update this one adds, in this order
 
-  /// Place in the parent's equations of each non-pivot, and again of stretches that follow one
-  /// another there, too: from `first` on they stand at `place` on.
-  std::vector<int> to_parent;
-  struct Stretch {
-    int first, end, place;
-  };
-  std::vector<Stretch> stretches;
+  std::vector<int> to_parent;                ///< place in the parent's equations of each non-pivot
+  std::vector<Stretch> stretches_to_parent;  ///< the same
 
-  /// Entries of the matrix that start here, pivot by pivot, in stretches that follow one another
-  /// both in the values, from `source` on, and in the panel's rows; those of pivot p are
-  /// [starts[p], starts[p + 1]).
-  struct Entries {
-    int source, row, count;
-  };
+  /// Entries of the matrix that start here, pivot by pivot: from the values to rows of the panel;
+  /// those of pivot p are [starts[p], starts[p + 1]).
   std::vector<int> starts;
-  std::vector<Entries> entries;
+  std::vector<Stretch> entries;
 
   int size() const { return static_cast<int>(equations.size()); }
 };

@@ -85,18 +85,15 @@ void list_stretches(const Neighbours& neighbours, const std::vector<int>& equati
                    [&](int a, int b) { return equations[a] < equations[b]; });
   // Where the element's equations stand among those that each of its columns meets.
   std::map<int, std::vector<int>> by_group;
-  std::vector<SparsePattern::Stretch>& stretches = pattern.stretches.emplace_back();
+  std::vector<Stretch>& stretches = pattern.stretches.emplace_back();
   for (std::size_t c = 0; c < unknowns.size(); ++c) {
     const int column = equations[unknowns[c]], group = neighbours.group[column];
     std::vector<int>& place = by_group[group];
     if (place.empty())
       for (int k : unknowns) place.push_back(place_of(equations[k], neighbours.equations[group]));
-    for (std::size_t r = c; r < unknowns.size(); ++r) {
-      const int position = pattern.starts[column] + place[r] - place[c];
-      if (r == c || position != stretches.back().position + stretches.back().count)
-        stretches.push_back({position, 0});
-      ++stretches.back().count;
-    }
+    const std::size_t first = stretches.size();
+    for (std::size_t r = c; r < unknowns.size(); ++r)
+      append(static_cast<int>(r), pattern.starts[column] + place[r] - place[c], first, stretches);
   }
 }
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "solver/newton/dof_map.h"
+#include "solver/newton/stretch.h"
 
 namespace mammotwin {
 
@@ -17,10 +18,7 @@ struct SparsePattern {
   std::vector<std::vector<double>> factors;
 
   /// Per element: its unknowns that have an equation, in the equations' order, and where the lower
-  /// triangle of its matrix goes, so ordered: column by column in stretches of neighbours.
-  struct Stretch {
-    int position, count;  ///< of the values
-  };
+  /// triangle of its matrix goes, so ordered: column by column, from its rows to the values.
   std::vector<std::vector<int>> unknowns;
   std::vector<std::vector<Stretch>> stretches;
 

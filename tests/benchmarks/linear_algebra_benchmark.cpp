@@ -62,8 +62,8 @@ void Factorisation(benchmark::State& state) {
   state.counters["of_dgemm"] = rate / dgemm_rate();  // both a core
 }
 
-/// CHOLMOD on the same matrix, as it is fastest: supernodes, of METIS's order and its own nested
-/// dissection the one with the sparser factor.
+/// CHOLMOD on the same matrix: supernodes, of METIS's order and its own nested dissection the one
+/// with the sparser factor.
 class Cholmod {
  public:
   Cholmod(const SparsePattern& pattern, const std::vector<double>& values) {
