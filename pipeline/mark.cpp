@@ -163,9 +163,7 @@ int run(const Arguments& args) {
   if (args.cc.empty() && args.mlo.empty())
     throw std::runtime_error("no mark: give --cc COLUMN ROW, --mlo COLUMN ROW, or both");
   Patient patient;
-  Settings settings;
-  patient.declare(settings);
-  if (!args.patient.empty()) patient.read(args.patient, settings);
+  if (!args.patient.empty()) patient.read(args.patient);
   const MarkedView cc = read_view("cc", args, patient, args.cc);
   const MarkedView mlo = read_view("mlo", args, patient, args.mlo);
   const auto start = std::chrono::steady_clock::now();

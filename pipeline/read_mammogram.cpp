@@ -51,9 +51,7 @@ int run(const Arguments& args) {
     throw std::runtime_error(args.mammogram.string() +
                              ": no header says whether it is CC or MLO; give --view");
   Patient patient;
-  Settings table;
-  patient.declare(table);
-  if (!args.patient.empty()) patient.read(args.patient, table);
+  if (!args.patient.empty()) patient.read(args.patient);
   const ViewSettings& settings = patient.view(view);
   json document{{"file", args.mammogram.filename().string()}, {"view", view}};
   double pixel_mm = settings.pixel_spacing_mm.value_or(args.pixel_mm);

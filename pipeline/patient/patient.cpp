@@ -170,6 +170,12 @@ void Patient::read(const fs::path& file, Settings& settings) {
   }
 }
 
+void Patient::read(const fs::path& file) {
+  Settings settings;
+  declare(settings);
+  read(file, settings);
+}
+
 void Patient::read_lesions(const std::string& file, const json& list) {
   if (!list.is_array()) throw std::runtime_error(file + ": lesions: expected tables [[lesions]]");
   for (const json& table : list) {

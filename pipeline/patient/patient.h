@@ -36,6 +36,9 @@ class Patient : public SettingsFile {
   /// is not TOML, has an unknown key (the nearest known one is named) or a value out of range.
   void read(const std::filesystem::path& file, Settings& settings) override;
 
+  /// The same, for who needs no table of settings afterwards.
+  void read(const std::filesystem::path& file);
+
   /// The patient's folder, as its name: "042"; empty without a patient.toml.
   std::string name() const;
 

@@ -70,9 +70,7 @@ struct CalibratedBreast::Solved {
 
 CalibratedBreast::CalibratedBreast(const std::filesystem::path& folder)
     : name_(folder.filename().string()), loaded_(std::make_unique<Loaded>()) {
-  Settings settings;
-  loaded_->patient.declare(settings);
-  loaded_->patient.read(folder / "patient.toml", settings);
+  loaded_->patient.read(folder / "patient.toml");
   const std::filesystem::path labels = folder / "segmentation.seg.nrrd";
   const Segmentation segmentation = read_segmentation(labels, fractions_beside(labels));
   loaded_->side = segmentation.region.side;

@@ -72,9 +72,7 @@ CoilTruth make_truth(const CoilCase& asked, const BreastToPress& breast) {
   const Segmentation segmentation =
       read_segmentation(stages.segmentation(), fractions_beside(stages.segmentation()));
   Patient settings;
-  Settings table;
-  settings.declare(table);
-  settings.read(breast.patient_toml, table);
+  settings.read(breast.patient_toml);
   CompressionProblem hanging{
       breast_problem(file, tissue_of(file, segmentation.fractions), settings.compression,
                      stiffness_factor_of(file, settings.compression)),

@@ -22,9 +22,7 @@ struct Stabilisation {
 /// What the breast's own settings say, tissue's among them.
 Stabilisation own_stabilisation(const BreastToPress& breast) {
   Patient patient;
-  Settings table;
-  patient.declare(table);
-  patient.read(breast.patient_toml, table);
+  patient.read(breast.patient_toml);
   const SolidOptions& solid = patient.compression.options.solid;
   return {solid.grad_div, solid.quartic};
 }

@@ -97,9 +97,7 @@ json judged_mark(const RealMark& mark, const PlacedMark& place, const LesionRow&
 
 json real_pair_rows(const fs::path& patient_folder, const fs::path& results) {
   Patient patient;
-  Settings settings;
-  patient.declare(settings);
-  patient.read(patient_folder / "patient.toml", settings);
+  patient.read(patient_folder / "patient.toml");
   const std::vector<LesionRow> table = read_lesion_table(results / "lesions.csv");
   json rows = json::array();
   for (const RealMark& mark : read_real_marks(patient_folder / "marks.csv")) {

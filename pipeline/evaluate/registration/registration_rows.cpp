@@ -101,9 +101,7 @@ json registration_row(const fs::path& folder) {
   if (said.is_object() && said.at("status") == name_of(Status::refused))
     throw std::runtime_error("register: " + said.at("reasons").at(0).get<std::string>());
   Patient patient;
-  Settings settings;
-  patient.declare(settings);
-  patient.read(folder / "patient.toml", settings);
+  patient.read(folder / "patient.toml");
   const std::vector<LandmarkPair> pairs = read_landmark_pairs(folder / "landmarks.csv");
   json row = empty_registration_row();
   add_errors("before_search_", Views(folder, ".vtu", patient).errors(pairs), true, row);

@@ -148,9 +148,7 @@ class WhatIfRun {
  public:
   explicit WhatIfRun(const WhatIfCase& asked)
       : asked_(asked), product_(pressed(asked)), file_(read_mesh_file(product_)) {
-    Settings settings;
-    patient_.declare(settings);
-    patient_.read(asked.patient_toml, settings);
+    patient_.read(asked.patient_toml);
     const fs::path labels = asked.folder / "segmentation.seg.nrrd";
     const Segmentation segmentation = read_segmentation(labels, fractions_beside(labels));
     view_ = compressed_view(asked.view, product_.filename(), file_.metadata);

@@ -29,9 +29,7 @@ constexpr double kWallMoved_mm = 5, kNippleMoved_mm = 8, kLesionMoved_mm = 3, kL
 
 RealBreast breast_of(const fs::path& toml) {
   Patient patient;
-  Settings settings;
-  patient.declare(settings);
-  patient.read(toml, settings);
+  patient.read(toml);
   const SegmentInput input = patient.segment_input();
   if (!input.mri || !input.side || input.nipple_in_lps || input.wall_markups || input.pre)
     throw std::runtime_error(toml.string() +

@@ -25,10 +25,7 @@ class PatientTest : public ScratchFolder {
   /// The same for a patient of whom nothing has been read before.
   void expect_message_of_another(const std::string& toml, const std::string& part) {
     Patient patient;
-    Settings settings;
-    patient.declare(settings);
-    const std::string message =
-        message_of([&] { patient.read(write("patient.toml", toml), settings); });
+    const std::string message = message_of([&] { patient.read(write("patient.toml", toml)); });
     EXPECT_NE(message.find(part), std::string::npos) << toml << message;
   }
 
@@ -59,9 +56,7 @@ TEST_F(PatientTest, ALesionsNameIsTextThatCanStandAnywhere) {
     expect_message_of_another(toml(id), "lesions[0].id");
   expect_message_of_another(toml(std::string(65, 'a')), "longer than 64");
   Patient patient;
-  Settings settings;
-  patient.declare(settings);
-  patient.read(write("patient.toml", toml("L 1, upper <outer> \\u00fc")), settings);
+  patient.read(write("patient.toml", toml("L 1, upper <outer> \\u00fc")));
 }
 
 TEST_F(PatientTest, ADetachedDataFileIsAnInputToo) {
@@ -95,9 +90,7 @@ TEST_F(PatientTest, NamesEveryPathThatLeadsNowhere) {
   for (const Setting& setting : settings_.all()) {
     if (setting.type != "path") continue;
     Patient patient;
-    Settings settings;
-    patient.declare(settings);
-    patient.read(write("patient.toml", setting.key + " = \"absent.file\"\n"), settings);
+    patient.read(write("patient.toml", setting.key + " = \"absent.file\"\n"));
     const std::string message = message_of([&] { patient.require_files(); });
     EXPECT_NE(message.find(setting.key + ": absent.file: no such file"), std::string::npos)
         << setting.key << message;
