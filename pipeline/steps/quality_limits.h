@@ -22,7 +22,8 @@ inline constexpr double retained_fraction = 0.6;
 /// Hanging. With tissue that goes as far as women's from prone to supine, ten breasts have 1.35
 /// to 1.7.
 inline constexpr double stretch_p95 = 1.75;
-inline constexpr double stiffened = 1.25;  ///< of the tissue as set, so that the breast hangs
+inline constexpr double round_trip_mm = 5;  ///< of a node that is unloaded and loaded again
+inline constexpr double stiffened = 1.25;   ///< of the tissue as set, so that the breast hangs
 /// From where a breast was imaged to another pose. Of 64 women's nipples 95 % go less than 172 mm.
 inline constexpr double pose_move_mm = 200;
 

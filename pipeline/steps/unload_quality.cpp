@@ -67,6 +67,7 @@ json quality_of(const UnloadingRecord& record) {
                   {"stiffened", record.stiffened},
                   {"sag_max_mm", r.sag_max_mm},
                   {"round_trip_max_mm", r.round_trip_max_mm},
+                  {"round_trip_rms_mm", r.round_trip_rms_mm},
                   {"naive_reversal_error_mm", optional_number(r.naive_reversal_error_mm)},
                   {"stretch_p95", r.stretch_p95},
                   {"stretch_max", r.stretch_max},
@@ -140,6 +141,11 @@ Outcome judge_unloading(const UnloadingRecord& record) {
         sentence("the tissue was taken %.2f times as stiff as set: no softer breast hangs as this "
                  "one does (is the chest wall right, and is skin where the mesh has it?)",
                  record.stiffened));
+  doubt(
+      record.report.round_trip_max_mm > limits::round_trip_mm,
+      sentence("loaded again, tissue comes to rest up to %.0f mm from where it was imaged (%.1f mm "
+               "in the root mean square): it is not stable there (is the chest wall right?)",
+               record.report.round_trip_max_mm, record.report.round_trip_rms_mm));
   if (record.coil) doubt(true, coil_sentence(record));
   for (const auto& [name, pose] : record.poses) {
     const HangReport& r = pose.result.report;

@@ -39,6 +39,13 @@ double largest_distance(const std::vector<HermiteMesh::Node>& a,
   return largest;
 }
 
+double rms_distance(const std::vector<HermiteMesh::Node>& a,
+                    const std::vector<HermiteMesh::Node>& b) {
+  double sum = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) sum += (a[i].col(0) - b[i].col(0)).squaredNorm();
+  return a.empty() ? 0 : std::sqrt(sum / a.size());
+}
+
 HangResult hang(const BreastProblem& problem, const HangOptions& options) {
   BreastModel breast = make_breast_model(problem, options.solid);
   Newton newton(*breast.model, *breast.dofs);

@@ -44,8 +44,10 @@ LoadSteppingReport raise_body_force(BreastModel& breast, Newton& newton,
                                     const Eigen::Vector3d& body_force, const HangOptions& options,
                                     State& state);
 
-/// Largest distance between nodes of the same number [mm].
+/// Distance between nodes of the same number [mm]: the largest, and the root mean square.
 double largest_distance(const std::vector<HermiteMesh::Node>& a,
                         const std::vector<HermiteMesh::Node>& b);
+double rms_distance(const std::vector<HermiteMesh::Node>& a,
+                    const std::vector<HermiteMesh::Node>& b);
 
 }  // namespace mammotwin

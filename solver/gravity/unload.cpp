@@ -3,7 +3,6 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include "solver/gravity/inverse_equilibrium.h"
@@ -54,20 +53,21 @@ class Unloading {
     double margin = 0;  ///< 0 where the load is not complete
     DeadForces skin_forces;
     double skin_force_N = 0;
+    double rest_max_mm = 0, rest_rms_mm = 0;  ///< loaded again, off the imaged shape
   };
   TakenOff take_off(double share);
   void take(TakenOff found, UnloadResult& result);
   HangOptions reload_options() const;
-  struct Reload {
-    std::optional<double> error_mm;  ///< empty where the breast does not come to rest
+  struct Rest {  ///< of a shape that was loaded again, against the imaged one
+    bool found = false;
+    double max_mm = 0, rms_mm = 0;
     std::string reason;
-    bool back_within(double tolerance) const { return error_mm && *error_mm < tolerance; }
   };
-  Reload reload(const Nodes& unloaded, double share, const DeadForces& skin_forces,
-                const HangOptions& options) const;
+  Rest reload(const Nodes& unloaded, double share, const DeadForces& skin_forces,
+              const HangOptions& options) const;
+  bool rests_as_imaged(TakenOff& tried, double share, std::string& reason) const;
   std::optional<double> naive_error() const;
-  void find_largest_share(UnloadResult& result, bool reloaded);
-  void check(UnloadResult& result);
+  void find_largest_share(UnloadResult& result);
   void say(double fraction, const std::string& what) const {
     if (progress_) progress_(fraction, what);
   }
@@ -76,7 +76,6 @@ class Unloading {
   const UnloadOptions& options_;
   const Progress& progress_;
   InverseEquilibrium inverse_;
-  DeadForces skin_forces_;  ///< of the result
 };
 
 /// Solves for a share of the gravity, from the prone shape on.
@@ -104,18 +103,36 @@ HangOptions Unloading::reload_options() const {
   return options;
 }
 
-/// Where an unloaded shape hangs to, beside the prone one.
-Unloading::Reload Unloading::reload(const Nodes& unloaded, double share,
-                                    const DeadForces& skin_forces,
-                                    const HangOptions& options) const {
+Unloading::Rest Unloading::reload(const Nodes& unloaded, double share,
+                                  const DeadForces& skin_forces, const HangOptions& options) const {
   BreastProblem hanging = from_unloaded(problem_, unloaded);
   hanging.gravity *= share;
   hanging.skin_forces = skin_forces;
   const HangResult again = hang(hanging, options);
   if (!again.report.usable())
-    return {std::nullopt, "it stops at " + percent(again.report.gravity_fraction) +
-                              " of the gravity: " + again.report.reason};
-  return {largest_distance(again.deformed, hanging.prone), "it comes to rest elsewhere"};
+    return {false, 0, 0,
+            "it stops at " + percent(again.report.gravity_fraction) +
+                " of the gravity: " + again.report.reason};
+  return {true, largest_distance(again.deformed, hanging.prone),
+          rms_distance(again.deformed, hanging.prone), ""};
+}
+
+/// A stable shape that balances may yet be one of several, and one that is not stable may lie
+/// beside one that is: the breast is loaded again, unless the shape is stable and nobody asks.
+bool Unloading::rests_as_imaged(TakenOff& tried, double share, std::string& reason) const {
+  if (!tried.load.complete()) {
+    reason = tried.load.reason;
+    return false;
+  }
+  const bool stable = tried.margin > 0;
+  if (stable && (!options_.check || problem_.gravity.isZero())) return true;
+  const Rest rest = reload(tried.reference.x, share, tried.skin_forces, reload_options());
+  tried.rest_max_mm = rest.max_mm;
+  tried.rest_rms_mm = rest.rms_mm;
+  if (rest.found && rest.rms_mm <= options_.rest_tolerance) return true;
+  reason = "the unloaded shape, loaded again, does not come to rest in the imaged one; " +
+           (rest.found ? "it comes to rest elsewhere" : rest.reason);
+  return false;
 }
 
 /// What many do: solve the prone shape with gravity reversed and call that unloaded.
@@ -130,81 +147,62 @@ std::optional<double> Unloading::naive_error() const {
   options.step_iterations = 12;
   const HangResult naive = hang(reversed, options);
   if (!naive.report.usable()) return std::nullopt;
-  return reload(naive.deformed, 1, {}, options).error_mm;
+  const Rest rest = reload(naive.deformed, 1, {}, options);
+  return rest.found ? std::optional(rest.max_mm) : std::nullopt;
 }
 
-/// Bisection for the share of the gravity up to which the imaged shape is stable and, if
-/// `reloaded`, the unloaded one hangs back to it.
-void Unloading::find_largest_share(UnloadResult& result, bool reloaded) {
+/// Bisection for the share of the gravity up to which the breast rests where it was imaged.
+void Unloading::find_largest_share(UnloadResult& result) {
   constexpr int trials = 5;  // to a thirty-second
   UnloadReport& report = result.report;
   double low = 0, high = 1;
   TakenOff best{inverse_.start(), {}, 1, {}};
+  std::string reason;
   for (int trial = 0; trial < trials; ++trial) {
     const double share = (low + high) / 2;
     say(0.5 + 0.08 * trial, "looking for the largest gravity that works");
     TakenOff tried = take_off(share);
     report.newton_iterations += tried.load.iterations;
-    const bool works =
-        tried.margin > 0 &&
-        (!reloaded || reload(tried.reference.x, share, tried.skin_forces, reload_options())
-                          .back_within(options_.round_trip_tolerance));
+    const bool works = rests_as_imaged(tried, share, reason);
     (works ? low : high) = share;
     if (works) best = std::move(tried);
   }
   report.gravity_fraction = low;
-  report.stability_margin = best.margin;
   take(std::move(best), result);
 }
 
-/// What pressed, for tissue so much stiffer that all of the gravity acts.
 void Unloading::take(TakenOff found, UnloadResult& result) {
+  UnloadReport& report = result.report;
+  report.stability_margin = found.margin;
+  report.round_trip_max_mm = found.rest_max_mm;
+  report.round_trip_rms_mm = found.rest_rms_mm;
+  // For tissue so much stiffer that all of the gravity acts.
+  const double share = report.gravity_fraction;
+  report.skin_force_N = share > 0 ? found.skin_force_N / share : 0;
   result.unloaded = std::move(found.reference.x);
   result.pressure = std::move(found.reference.pressure);
-  skin_forces_ = std::move(found.skin_forces);
-  const double share = result.report.gravity_fraction;
-  result.report.skin_force_N = share > 0 ? found.skin_force_N / share : 0;
-}
-
-/// Loads the result again. A stable shape that balances may yet be one of several.
-void Unloading::check(UnloadResult& result) {
-  UnloadReport& report = result.report;
-  say(0.9, "loading again");
-  const Reload again =
-      reload(result.unloaded, report.gravity_fraction, skin_forces_, reload_options());
-  if (again.back_within(options_.round_trip_tolerance)) {
-    report.round_trip_max_mm = *again.error_mm;
-    if (report.usable()) report.naive_reversal_error_mm = naive_error();
-    return;
-  }
-  report.converged = false;
-  report.reason =
-      "the unloaded shape, loaded again, does not come to rest in the imaged one; " + again.reason;
-  find_largest_share(result, true);
 }
 
 UnloadResult Unloading::run() {
-  const auto begin = std::chrono::steady_clock::now();
   UnloadResult result;
   UnloadReport& report = result.report;
   TakenOff all = take_off(1);
-  report.converged = all.margin > 0;
-  report.gravity_fraction = all.load.reached;
-  report.stability_margin = all.margin;
   report.steps = all.load.steps;
   report.cutbacks = all.load.cutbacks;
   report.newton_iterations = all.load.iterations;
   report.dof = inverse_.num_equations();
-  take(std::move(all), result);
-  if (!report.converged) {
-    report.reason = all.load.complete() ? "the imaged shape is not stable under its weight: "
-                                          "unloaded and loaded again, it would fall elsewhere"
-                                        : all.load.reason;
-    find_largest_share(result, false);
+  say(0.5, "loading again");
+  report.converged = rests_as_imaged(all, 1, report.reason);
+  if (report.converged) {
+    report.gravity_fraction = 1;
+    take(std::move(all), result);
+  } else {
+    find_largest_share(result);
   }
-  report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  const bool loaded = !problem_.gravity.isZero() && report.gravity_fraction > 0;
-  if (options_.check && loaded) check(result);
+  if (options_.check && report.usable() && !problem_.gravity.isZero()) {
+    say(0.9, "reversing gravity, to compare");
+    report.naive_reversal_error_mm = naive_error();
+  }
   report.sag_max_mm = largest_distance(result.unloaded, problem_.mesh.mesh.nodes());
   measure_strain(from_unloaded(problem_, result.unloaded), options_.solid, report);
   say(1, "unloaded");

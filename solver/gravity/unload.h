@@ -9,32 +9,33 @@ namespace mammotwin {
 
 struct UnloadOptions {
   SolidOptions solid;
-  double tolerance = 1e-10;            ///< of both balances, relative: 1e-7 mm in position
-  LoadSteppingOptions load;            ///< parts of the gravity
-  int max_iterations = 12;             ///< Newton iterations a step: a good step needs 4 to 6
-  bool check = true;                   ///< loads the result again, and the naive reversal beside it
-  double round_trip_tolerance = 1e-3;  ///< farther off [mm], the breast fell elsewhere
+  double tolerance = 1e-10;   ///< of both balances, relative: 1e-7 mm in position
+  LoadSteppingOptions load;   ///< parts of the gravity
+  int max_iterations = 12;    ///< Newton iterations a step: a good step needs 4 to 6
+  bool check = true;          ///< loads the result again, and the naive reversal beside it
+  double rest_tolerance = 1;  ///< farther off [mm, RMS of the nodes], the breast fell elsewhere
 };
 
 struct UnloadReport {
   bool converged = false;
   std::string reason;  ///< why not
-  /// Largest part of the gravity that could be taken off in a stable way and, where
-  /// checked, put on again.
+  /// Largest part of the gravity that could be taken off so that, put on again, the breast rests
+  /// about where it was imaged.
   double gravity_fraction = 0;
   /// Of the imaged shape under that part of the gravity: how much of its stiffness against the
-  /// softest deformation is left, 1 without load (InverseEquilibrium::stability_margin).
+  /// softest deformation is left, 1 without load (InverseEquilibrium::stability_margin). 0 where
+  /// the imaged shape itself is not stable, but one beside it is.
   double stability_margin = 0;
   int steps = 0, cutbacks = 0, newton_iterations = 0;
   double skin_force_N = 0;                  ///< of what pressed, on each side (PressingSprings)
   double sag_max_mm = 0;                    ///< largest way of a node from unloaded to prone
   double stretch_p95 = 1, stretch_max = 1;  ///< largest principal stretch at quadrature points
   double min_J = 1, max_J = 1;
-  double round_trip_max_mm = 0;  ///< nodes: unloaded, loaded again, against prone
+  /// Of nodes: unloaded, loaded again, against prone; 0 where that was not needed and not checked.
+  double round_trip_max_mm = 0, round_trip_rms_mm = 0;
   /// The same for the prone shape solved with gravity reversed; empty where that or its reload does
   /// not converge in 12 iterations.
   std::optional<double> naive_reversal_error_mm;
-  double seconds = 0;  ///< without the checks
   int dof = 0;
   bool usable() const { return converged; }
 
@@ -57,6 +58,11 @@ struct UnloadResult {
 ///
 /// Springs are taken to be relaxed, and the skin unstressed, in the unloaded shape; the chest wall
 /// stands where the prone one does, and tissue slides on it.
+///
+/// The imaged shape balances, but it may be no minimum of the energy. Where a shape beside it is,
+/// within the rest tolerance, it is that which the breast was imaged in, as well as fit and image
+/// show: tissue that a wall bears on an edge rolls off it by millimetres and stays there. Where
+/// none is, the largest part of the gravity is sought for which there is one.
 /// Throws std::invalid_argument as make_breast_model does.
 UnloadResult unload(const BreastProblem& problem, const UnloadOptions& options,
                     const Progress& progress = {});

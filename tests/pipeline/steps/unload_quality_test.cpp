@@ -40,6 +40,20 @@ TEST(UnloadQuality, TissueFarTooSoftIsDoubted) {
       << outcome.reasons[0];
 }
 
+TEST(UnloadQuality, TissueThatRestsFarFromWhereItWasImagedIsDoubted) {
+  UnloadingRecord record = taken_off(1);
+  record.report.round_trip_max_mm = 4.4;
+  record.report.round_trip_rms_mm = 0.4;
+  EXPECT_EQ(judge_unloading(record).status, Status::ok);
+  record.report.round_trip_max_mm = 7.2;
+  const Outcome outcome = judge_unloading(record);
+  EXPECT_EQ(outcome.status, Status::look);
+  ASSERT_EQ(outcome.reasons.size(), 1u);
+  EXPECT_NE(outcome.reasons[0].find("up to 7 mm from where it was imaged (0.4 mm"),
+            std::string::npos)
+      << outcome.reasons[0];
+}
+
 TEST(UnloadQuality, TissueSofterThanAnEighthOfThatIsNotUnloaded) {
   for (const double share : {0.12, 0.0}) {
     const UnloadingRecord record = taken_off(share);

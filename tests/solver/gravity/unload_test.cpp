@@ -271,5 +271,38 @@ TEST(Unload, AClampedWallStaysWhereItIs) {
   }
 }
 
+/// A dome that hangs from a wall with a bump of 6 mm in its middle, on which tissue slides freely.
+BreastProblem dome_on_a_bump() {
+  BreastProblem problem = hanging_dome(13.5);
+  problem.mesh = dome_breast({4, 4, 1});
+  std::vector<HermiteMesh::Node> nodes = problem.mesh.mesh.nodes();
+  const auto middle = std::find_if(nodes.begin(), nodes.end(), [](const HermiteMesh::Node& node) {
+    return node.col(0).norm() < 1e-9;
+  });
+  (*middle)(1, 0) -= 6;
+  problem.mesh.mesh = HermiteMesh(nodes, problem.mesh.mesh.elements());
+  problem.boundary.chest_wall_spring = 1e-5;
+  problem.boundary.wall_smoothing = 0;
+  return problem;
+}
+
+TEST(Unload, WhereTissueRollsALittleOffABumpTheBreastIsNotTakenToBeStiffer) {
+  const BreastProblem problem = dome_on_a_bump();
+  const UnloadResult near = unload(problem, {});
+  EXPECT_TRUE(near.report.usable()) << near.report.reason;
+  EXPECT_EQ(near.report.stability_margin, 0) << "the imaged shape is no minimum";
+  EXPECT_GT(near.report.round_trip_rms_mm, 0.1);
+  EXPECT_LT(near.report.round_trip_rms_mm, 1);
+  EXPECT_GE(near.report.round_trip_max_mm, near.report.round_trip_rms_mm);
+
+  UnloadOptions exactly;
+  exactly.rest_tolerance = 1e-3;
+  const UnloadReport part = unload(problem, exactly).report;
+  EXPECT_FALSE(part.usable());
+  EXPECT_LT(part.gravity_fraction, 1);
+  EXPECT_GT(part.stability_margin, 0);
+  EXPECT_LT(part.round_trip_rms_mm, 1e-3);
+}
+
 }  // namespace
 }  // namespace mammotwin
