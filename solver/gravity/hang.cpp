@@ -9,7 +9,7 @@ namespace mammotwin {
 HangOptions to_another_pose() {
   HangOptions options;
   options.load.smallest_step = 1.0 / 16;
-  options.load.max_iterations = 120;
+  options.load.max_iterations = options.step_iterations = 200;
   return options;
 }
 
