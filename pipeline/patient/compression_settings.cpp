@@ -153,6 +153,9 @@ void declare_compression(Settings& s, CompressionSettings& c) {
   s.number("compress.pull", c.pull, {0, 10},
            "what holds the breast drawn forward onto the support, over its weight; at 1 it lies as "
            "far forward as it hung in the MRI; 0: nothing");
+  s.number("compress.most_pull_n", c.most_pull_n, {0, 100, "N"},
+           "of it, on what lay in front of the plates' edges in the MRI: a hand draws a large "
+           "breast less far than its weight does");
   c.preset = kDefaultTissue;
   s.preset(
       "materials.preset", c.preset, tissue_presets(),

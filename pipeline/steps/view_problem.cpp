@@ -8,6 +8,7 @@
 #include "pipeline/steps/solution_record.h"
 #include "pipeline/steps/typical_thickness.h"
 #include "registration/view/view_frame.h"
+#include "solver/contact/plate_placement.h"
 
 namespace mammotwin {
 namespace {
@@ -58,6 +59,17 @@ CompressionProblem changed(const Patient& patient, const ViewSettings& view, Sid
   return problem;
 }
 
+/// What holds the breast drawn forward [mN/mm³]: so many times its weight, or what a hand draws
+/// with.
+double pull_on(const MeshFile& mesh, const PlateOptions& plates, const Patient& patient) {
+  constexpr double kMilliNewton = 1e-3;
+  const double weight = patient.gravity.density() * gravity_in_lps(Pose::prone).norm();
+  const double in_front_N =
+      kMilliNewton * weight * PlateFrame(prone_file(mesh), plates).volume_in_front();
+  const CompressionSettings& settings = patient.compression;
+  return weight * std::min(settings.pull, settings.most_pull_n / in_front_N);
+}
+
 }  // namespace
 
 PlateOptions plates_of(const Patient& patient, const ViewSettings& view,
@@ -89,8 +101,7 @@ CompressionProblem view_problem(const Patient& patient, const ViewSettings& view
     problem.density = patient.gravity.density();
   }
   if (mesh.configurations.contains("prone"))
-    problem.pull = patient.compression.pull * patient.gravity.density() *
-                   gravity_in_lps(Pose::prone).norm() * problem.plates.depth;
+    problem.pull = pull_on(mesh, problem.plates, patient) * problem.plates.depth;
   return problem;
 }
 

@@ -10,7 +10,7 @@ namespace {
 
 NewtonReport lie_as_imaged(const CompressionProblem& problem, Newton& newton, State& state) {
   NewtonOptions balance;
-  balance.max_iterations = 4;
+  balance.max_iterations = 10;
   State imaged = state;
   imaged.x = problem.prone;
   const NewtonReport report = newton.solve(imaged, balance);

@@ -28,6 +28,23 @@ TEST(ViewProblem, OnlyAnAssumedThicknessEndsAtTheMostForce) {
   EXPECT_EQ(problem(view).most_force, std::numeric_limits<double>::infinity());
 }
 
+TEST(ViewProblem, ABreastIsDrawnForwardByItsWeightOrWhatAHandDrawsWith) {
+  Patient patient;
+  patient.compression.pull = 1;
+  MeshFile dome = dome_breast({4, 4, 2});
+  dome.configurations["prone"] = dome.mesh.nodes();
+  const auto drawn = [&](double most_n) {
+    patient.compression.most_pull_n = most_n;
+    return view_problem(patient, {}, view_axes(Side::left, 0), dome, lumpy_tissue());
+  };
+  const CompressionProblem hung = drawn(100), held = drawn(1);
+  const double weight = patient.gravity.density() * 9810;  // [mN/mm³]
+  EXPECT_NEAR((hung.pull - weight * hung.plates.depth).norm(), 0, 1e-9 * weight);
+  const double in_front = PlateFrame(dome, held.plates).volume_in_front();
+  EXPECT_GT(in_front * weight, 1000) << "mN, and so more than is drawn with";
+  EXPECT_NEAR((held.pull - 1000 / in_front * held.plates.depth).norm(), 0, 1e-9 * weight);
+}
+
 TEST(ViewProblem, AStateKnowsHowRoundABreastIsThatItsCoilPressed) {
   const Patient patient;
   MeshFile compressed = dome_breast({2, 2, 1});
