@@ -5,7 +5,7 @@
 namespace mammotwin {
 
 /// Thickness [mm] of women's breasts in CC with so much [ml] between the plates: 30 to 90 mm, the
-/// means of a model of compressed breasts (Rodriguez-Ruiz et al., Med. Phys. 44 (2017) 2161-2172).
+/// means of a model of compressed breasts (Pinto et al., Med. Phys. 2022, 10.1002/mp.16133).
 double typical_thickness_mm(double volume_ml);
 
 /// What is assumed of a breast whose compressed thickness nobody says [mm]: what is typical of that
