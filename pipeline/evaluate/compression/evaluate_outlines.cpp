@@ -65,9 +65,11 @@ fs::path common_folder(const std::vector<fs::path>& folders) {
   return common;
 }
 
-json tissue_of_view(const fs::path& view) {
+/// What the sidecar says that the view was made with; null where it does not.
+json parameter_of(const fs::path& view, const char* key) {
   const json sidecar = stage_sidecar(view);
-  return sidecar.is_null() ? json() : sidecar.at("parameters").at("materials.preset").at("value");
+  if (sidecar.is_null() || !sidecar.at("parameters").contains(key)) return nullptr;
+  return sidecar.at("parameters").at(key).at("value");
 }
 
 int run(const Arguments& args) {
@@ -85,7 +87,8 @@ int run(const Arguments& args) {
         args.press ? press_typically(view, folders[n], population, beside / name) : fs::path(view);
     json row = outline_row(read_mesh_file(path), population);
     row["name"] = name.string();
-    row["tissue"] = tissue_of_view(path);
+    row["tissue"] = parameter_of(path, "materials.preset");
+    row["most_pull_n"] = parameter_of(path, "compress.most_pull_n");
     const std::string line = line_of(row);
     table.add(n, std::move(row), line);
   }

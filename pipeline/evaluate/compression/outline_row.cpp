@@ -65,8 +65,9 @@ json outline_row(const MeshFile& compressed, const OutlinePopulation& population
   json row{{"thickness_mm", view.thickness_mm},
            {"volume_ml", volume},
            {"typical_thickness_mm", population.typical_thickness_mm(volume)}};
-  for (const char* key : {"population_volume_ml", "compared", "within_2_sd", "mean_sd", "worst_sd",
-                          "depth_mm", "width_mm", "population_depth_mm", "population_width_mm"})
+  for (const char* key :
+       {"population_volume_ml", "compared", "within_2_sd", "mean_sd", "worst_sd", "depth_mm",
+        "width_mm", "population_depth_mm", "population_width_mm", "depth_ratio", "width_ratio"})
     row[key] = nullptr;
   if (view.thickness_mm < OutlinePopulation::kThinnest_mm ||
       view.thickness_mm > OutlinePopulation::kThickest_mm)
@@ -96,6 +97,8 @@ json outline_row(const MeshFile& compressed, const OutlinePopulation& population
   row["width_mm"] = ours.width();
   row["population_depth_mm"] = theirs.depth;
   row["population_width_mm"] = theirs.width();
+  row["depth_ratio"] = ours.depth / theirs.depth;
+  row["width_ratio"] = ours.width() / theirs.width();
   return row;
 }
 

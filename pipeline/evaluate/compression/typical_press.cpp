@@ -65,10 +65,7 @@ void add_plates(const fs::path& folder, const OutlinePopulation& population, jso
     row["pressure_kpa"] = kPa_per_N_per_cm2 * quality.at("force_N").get<double>() /
                           quality.at("contact_area_cm2").get<double>();
     row["retained_fraction"] = quality.at("retained_fraction");
-    for (const std::string extent : {"width", "depth"})
-      if (outline.at(extent + "_mm").is_number())
-        row[extent + "_ratio"] = outline.at(extent + "_mm").get<double>() /
-                                 outline.at("population_" + extent + "_mm").get<double>();
+    for (const char* key : {"width_ratio", "depth_ratio"}) row[key] = outline.at(key);
   } catch (const std::exception& error) {
     if (row.at("reason").is_null()) row["reason"] = error.what();
   }

@@ -80,6 +80,7 @@ TEST_F(Outlines, ABoxIsMeasuredAsOne) {
   EXPECT_EQ(row["compared"], 51);
   EXPECT_NEAR(row["volume_ml"].get<double>(), 480, 1e-6);  // 100 x 60 x 80 mm, squeezing keeps it
   EXPECT_NEAR(row["population_depth_mm"].get<double>(), 79.7, 0.5);
+  EXPECT_NEAR(row["depth_ratio"].get<double>(), 60 * std::sqrt(2) / 79.7, 0.01);
 }
 
 }  // namespace
