@@ -100,7 +100,7 @@ CompressionProblem view_problem(const Patient& patient, const ViewSettings& view
     problem.gravity = gravity_in_lps(Pose::standing);
     problem.density = patient.gravity.density();
   }
-  if (mesh.configurations.contains("prone"))
+  if (patient.compression.pull > 0 && mesh.configurations.contains("prone"))
     problem.pull = pull_on(mesh, problem.plates, patient) * problem.plates.depth;
   return problem;
 }

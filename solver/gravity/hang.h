@@ -16,7 +16,7 @@ struct HangOptions {
   int step_iterations = 120;  ///< Newton iterations of one load step, at most
 };
 
-/// Of a soft breast into another pose: two of 22 real ones came to rest standing after 161 and 164
+/// Of a soft breast into another pose: two of 20 real ones came to rest standing after 161 and 164
 /// iterations.
 HangOptions to_another_pose();
 

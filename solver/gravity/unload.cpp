@@ -47,25 +47,25 @@ class Unloading {
   UnloadResult run();
 
  private:
+  struct Rest {  ///< of a shape that was loaded again, against the imaged one
+    bool found = false;
+    double max_mm = 0, rms_mm = 0;
+    std::string reason;  ///< why it is none, or not the imaged one
+  };
   struct TakenOff {
     State reference;
     LoadSteppingReport load;
     double margin = 0;  ///< 0 where the load is not complete
     DeadForces skin_forces;
     double skin_force_N = 0;
-    double rest_max_mm = 0, rest_rms_mm = 0;  ///< loaded again, off the imaged shape
+    Rest rest;  ///< where it was asked for
   };
   TakenOff take_off(double share);
   void take(TakenOff found, UnloadResult& result);
   HangOptions reload_options() const;
-  struct Rest {  ///< of a shape that was loaded again, against the imaged one
-    bool found = false;
-    double max_mm = 0, rms_mm = 0;
-    std::string reason;
-  };
   Rest reload(const Nodes& unloaded, double share, const DeadForces& skin_forces,
               const HangOptions& options) const;
-  bool rests_as_imaged(TakenOff& tried, double share, std::string& reason) const;
+  bool rests_as_imaged(TakenOff& tried, double share) const;
   std::optional<double> naive_error() const;
   void find_largest_share(UnloadResult& result);
   void say(double fraction, const std::string& what) const {
@@ -119,19 +119,18 @@ Unloading::Rest Unloading::reload(const Nodes& unloaded, double share,
 
 /// A stable shape that balances may yet be one of several, and one that is not stable may lie
 /// beside one that is: the breast is loaded again, unless the shape is stable and nobody asks.
-bool Unloading::rests_as_imaged(TakenOff& tried, double share, std::string& reason) const {
+bool Unloading::rests_as_imaged(TakenOff& tried, double share) const {
+  Rest& rest = tried.rest;
   if (!tried.load.complete()) {
-    reason = tried.load.reason;
+    rest.reason = tried.load.reason;
     return false;
   }
   const bool stable = tried.margin > 0;
   if (stable && (!options_.check || problem_.gravity.isZero())) return true;
-  const Rest rest = reload(tried.reference.x, share, tried.skin_forces, reload_options());
-  tried.rest_max_mm = rest.max_mm;
-  tried.rest_rms_mm = rest.rms_mm;
+  rest = reload(tried.reference.x, share, tried.skin_forces, reload_options());
   if (rest.found && rest.rms_mm <= options_.rest_tolerance) return true;
-  reason = "the unloaded shape, loaded again, does not come to rest in the imaged one; " +
-           (rest.found ? "it comes to rest elsewhere" : rest.reason);
+  rest.reason = "the unloaded shape, loaded again, does not come to rest in the imaged one; " +
+                (rest.found ? "it comes to rest elsewhere" : rest.reason);
   return false;
 }
 
@@ -157,13 +156,12 @@ void Unloading::find_largest_share(UnloadResult& result) {
   UnloadReport& report = result.report;
   double low = 0, high = 1;
   TakenOff best{inverse_.start(), {}, 1, {}};
-  std::string reason;
   for (int trial = 0; trial < trials; ++trial) {
     const double share = (low + high) / 2;
     say(0.5 + 0.08 * trial, "looking for the largest gravity that works");
     TakenOff tried = take_off(share);
     report.newton_iterations += tried.load.iterations;
-    const bool works = rests_as_imaged(tried, share, reason);
+    const bool works = rests_as_imaged(tried, share);
     (works ? low : high) = share;
     if (works) best = std::move(tried);
   }
@@ -174,8 +172,8 @@ void Unloading::find_largest_share(UnloadResult& result) {
 void Unloading::take(TakenOff found, UnloadResult& result) {
   UnloadReport& report = result.report;
   report.stability_margin = found.margin;
-  report.round_trip_max_mm = found.rest_max_mm;
-  report.round_trip_rms_mm = found.rest_rms_mm;
+  report.round_trip_max_mm = found.rest.max_mm;
+  report.round_trip_rms_mm = found.rest.rms_mm;
   // For tissue so much stiffer that all of the gravity acts.
   const double share = report.gravity_fraction;
   report.skin_force_N = share > 0 ? found.skin_force_N / share : 0;
@@ -192,11 +190,12 @@ UnloadResult Unloading::run() {
   report.newton_iterations = all.load.iterations;
   report.dof = inverse_.num_equations();
   say(0.5, "loading again");
-  report.converged = rests_as_imaged(all, 1, report.reason);
+  report.converged = rests_as_imaged(all, 1);
   if (report.converged) {
     report.gravity_fraction = 1;
     take(std::move(all), result);
   } else {
+    report.reason = all.rest.reason;
     find_largest_share(result);
   }
   if (options_.check && report.usable() && !problem_.gravity.isZero()) {

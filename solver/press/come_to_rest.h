@@ -9,8 +9,8 @@ namespace mammotwin {
 struct BreastModel;
 
 /// Brings the breast to rest under its weight and pull, from the state on, with no plates. One that
-/// about its weight draws forward lies about as it was imaged: but for one that a coil's plates
-/// pressed then, and no longer do. Iterations are those of both tries.
+/// is drawn forward is sought near where it was imaged first; one that a coil's plates pressed
+/// then, and no longer do, is not found there. Iterations are those of both tries.
 LoadSteppingReport come_to_rest(const CompressionProblem& problem, BreastModel& breast,
                                 Newton& newton, State& state);
 

@@ -20,7 +20,7 @@ struct CompressionProblem : BreastProblem {
   FrictionOptions friction;
   PlateOptions plates;
   /// What holds the breast drawn onto the support, on the tissue's volume [mN/mm³]. Plates are
-  /// placed about the imaged breast, which hangs about as far.
+  /// placed about the imaged breast.
   Eigen::Vector3d pull = Eigen::Vector3d::Zero();
   /// Of the paddle [N] > 0: it stops there, before the thickness that the plates say.
   double most_force = std::numeric_limits<double>::infinity();
