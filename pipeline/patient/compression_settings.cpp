@@ -22,6 +22,8 @@ void declare_law(Settings& s, const std::string& tissue, LawSettings& law) {
   s.number(prefix + "c1_kpa", law.c1_kpa, kModulus, "c1 of " + tissue);
   s.number(prefix + "c2_kpa", law.c2_kpa, {0, 1000, "kPa"}, "c2, mooney_rivlin only");
   s.number(prefix + "stiffening", law.stiffening, {0.001, 20}, "b, exponential only");
+  s.number(prefix + "most_stiffening", law.most_stiffening, {1, 1e6},
+           "so many times as stiff as at rest at most, exponential only");
 }
 
 }  // namespace
@@ -33,7 +35,7 @@ std::shared_ptr<const Material> LawSettings::material(double factor) const {
     case LawName::mooney_rivlin:
       return std::make_shared<MooneyRivlin>(factor * c1_kpa, factor * c2_kpa);
     case LawName::exponential:
-      return std::make_shared<Exponential>(factor * c1_kpa, stiffening);
+      return std::make_shared<Exponential>(factor * c1_kpa, stiffening, most_stiffening);
   }
   throw std::logic_error("unknown law");
 }

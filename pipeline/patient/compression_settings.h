@@ -20,6 +20,7 @@ struct LawSettings {
   double c1_kpa = 0;
   double c2_kpa = 0;
   double stiffening = 1;
+  double most_stiffening = 1e6;
 
   /// With every modulus times `factor`.
   std::shared_ptr<const Material> material(double factor) const;

@@ -19,6 +19,12 @@ TEST(Exponential, ObeysTheLawsOfMaterials) {
   for (const auto& F : deformation_gradients()) expect_material_laws(Exponential(0.6, 1.5), F);
 }
 
+TEST(Exponential, ObeysTheLawsOfMaterialsWhereItsStiffeningEnds) {
+  for (const double most : {1.0, 4.0, 1e6})
+    for (const auto& F : deformation_gradients())
+      expect_material_laws(Exponential(0.6, 1.5, most), F);
+}
+
 Mixture::Laws three_laws() {
   return {std::make_shared<NeoHookean>(0.75), std::make_shared<MooneyRivlin>(2.0, 0.5),
           std::make_shared<Exponential>(3.3, 0.8)};
@@ -46,6 +52,27 @@ TEST(Exponential, IsNeoHookeanForSmallExponents) {
   EXPECT_NEAR((Exponential(2, 1e-9).stress(F) - NeoHookean(2).stress(F)).norm(), 0, 1e-8);
 }
 
+TEST(Exponential, StiffensToItsLimitAndNoFarther) {
+  const Exponential law(2, 1.5, 8);
+  const auto stretched = [](double by) {
+    return Eigen::Matrix3d(Eigen::Vector3d(by, 1 / std::sqrt(by), 1 / std::sqrt(by)).asDiagonal());
+  };
+  const auto growth = [&](const Eigen::Matrix3d& F) {
+    return (law.stress(F) + 4 * F.inverse().transpose()).norm() / (4 * F.norm());
+  };
+  EXPECT_NEAR(growth(Eigen::Matrix3d::Identity()), 1, 1e-14);
+  EXPECT_NEAR(growth(stretched(40)), 8, 1e-12);
+  // Half way where exp(b (I1 - 3)) = m - 1 (a logistic's middle).
+  Eigen::Matrix3d middle = Eigen::Matrix3d::Zero();
+  middle.diagonal().setConstant(std::sqrt(1 + std::log(7) / 1.5 / 3));
+  EXPECT_NEAR(growth(middle), 4, 1e-12);
+  // Energy and its slope far beyond where the exponential of itself overflows.
+  const Eigen::Matrix3d far = stretched(40);
+  const double h = 1e-6;
+  EXPECT_NEAR((law.energy((1 + h) * far) - law.energy((1 - h) * far)) / (2 * h),
+              law.stress(far).cwiseProduct(far).sum(), 1e-4 * law.energy(far));
+}
+
 TEST(Mixture, ModulusFollowsTheRule) {
   // Half 2, half 8: mean 5, geometric mean 4, harmonic mean 3.2.
   const std::array<double, 3> f{0.5, 0.5, 0}, mu{2, 8, 100};
@@ -60,6 +87,7 @@ TEST(Material, RefusesStiffnessThatIsNotPositive) {
   EXPECT_THROW(NeoHookean(std::nan("")), std::invalid_argument);
   EXPECT_THROW(MooneyRivlin(1, -1), std::invalid_argument);
   EXPECT_THROW(Exponential(1, 0), std::invalid_argument);
+  EXPECT_THROW(Exponential(1, 1, 0.5), std::invalid_argument);
   EXPECT_THROW(Mixture(Mixing::geometric, {0.5, 0.3, 0.1}, three_laws()), std::invalid_argument);
 }
 
