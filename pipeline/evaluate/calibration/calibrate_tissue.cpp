@@ -24,7 +24,8 @@ using nlohmann::json;
 struct Arguments {
   fs::path cases, table;
   std::vector<std::string> only;
-  std::vector<std::string> numbers{"materials.stiffness_factor", "materials.*.stiffening"};
+  std::vector<std::string> numbers{"materials.stiffness_factor", "materials.*.stiffening",
+                                   "materials.*.most_stiffening"};
   std::string preset = "real", elements = "5x5x2";
   int jobs = 2;
 };
@@ -35,7 +36,8 @@ void declare(CommandLine& command, Arguments& args) {
   declare_only(command, args.only);
   command.option(
       "--numbers", args.numbers,
-      "settings to find (default: materials.stiffness_factor, materials.*.stiffening); also "
+      "settings to find (default: materials.stiffness_factor, materials.*.stiffening, "
+      "materials.*.most_stiffening); also "
       "materials.skin.c1_kpa, compress.chest_wall_spring_kpa_per_mm, compress.cut_face_depth_mm");
   command.option("--preset", args.preset, "materials.preset to start from").with_default();
   command.option("--elements", args.elements, "of each breast's mesh").with_default();
@@ -62,23 +64,32 @@ CalibratedBreast prepared(const RealBreast& breast, const Arguments& args,
   return CalibratedBreast(folder);
 }
 
-json moves_json(const BreastFigures& figures) {
+json moves_json(const double* figures) {
   return {{"lateral_mm", figures[kLateral]},
           {"posterior_mm", figures[kPosterior]},
           {"landmark_mm", figures[kLandmark]},
           {"ribs_mm", figures[kRibs]}};
 }
 
-json figures_json(const BreastFigures& figures) {
-  json line = moves_json(figures);
+json breast_json(const CalibratedBreast& breast, const BreastFigures& figures) {
+  json line = moves_json(figures.data());
+  line["thickness_mm"] = breast.thickness_mm();
   line["force_N"] = std::exp(figures[kLogForce]);
   return line;
 }
 
+json population_json(const PopulationMeans& figures) {
+  json line = moves_json(figures.data());
+  line["force_of_thin_N"] = std::exp(figures[kLogForceOfThin]);
+  line["force_of_thick_N"] = std::exp(figures[kLogForceOfThick]);
+  return line;
+}
+
 /// Changes of figures: a logarithm's is a part of the force.
-json changes_json(const BreastFigures& changes) {
-  json line = moves_json(changes);
-  line["force_percent"] = 100 * changes[kLogForce];
+json changes_json(const PopulationMeans& changes) {
+  json line = moves_json(changes.data());
+  line["force_of_thin_percent"] = 100 * changes[kLogForceOfThin];
+  line["force_of_thick_percent"] = 100 * changes[kLogForceOfThick];
   return line;
 }
 
@@ -92,7 +103,7 @@ json number_json(const CalibratedNumber& n) {
 }
 
 void write_rows(const Calibration& found, const std::vector<CalibratedBreast>& breasts,
-                const std::array<CalibrationDatum, kBreastFigures>& data, EvaluationTable& table) {
+                const CalibrationData& data, EvaluationTable& table) {
   std::size_t row = 0;
   const auto add = [&](const std::string& kind, const std::string& name, const json& figures) {
     json line{{"kind", kind}, {"name", name}};
@@ -100,14 +111,14 @@ void write_rows(const Calibration& found, const std::vector<CalibratedBreast>& b
     table.add(row++, std::move(line));
   };
   for (const CalibratedNumber& number : found.numbers) table.add(row++, number_json(number));
-  BreastFigures target{}, sd{};
-  for (int i = 0; i < kBreastFigures; ++i) target[i] = data[i].target, sd[i] = data[i].sd;
-  add("population", "women, usual forces", figures_json(target));
+  PopulationMeans target{}, sd{};
+  for (int i = 0; i < kPopulationMeans; ++i) target[i] = data[i].target, sd[i] = data[i].sd;
+  add("population", "women, usual forces", population_json(target));
   add("population", "standard deviation of that", changes_json(sd));
-  add("population", "at the start", figures_json(found.start));
-  add("population", "calibrated", figures_json(found.end));
+  add("population", "at the start", population_json(found.start));
+  add("population", "calibrated", population_json(found.end));
   for (std::size_t b = 0; b < breasts.size(); ++b)
-    add("breast", breasts[b].name(), figures_json(found.breasts[b]));
+    add("breast", breasts[b].name(), breast_json(breasts[b], found.breasts[b]));
 }
 
 int run(const Arguments& args) {

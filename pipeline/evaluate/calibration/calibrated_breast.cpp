@@ -86,6 +86,8 @@ const CompressionSettings& CalibratedBreast::settings() const {
   return loaded_->patient.compression;
 }
 
+double CalibratedBreast::thickness_mm() const { return loaded_->patient.cc.thickness_mm.value(); }
+
 CompressionSettings CalibratedBreast::settings_at(std::size_t number, double log_change) const {
   CompressionSettings settings = loaded_->patient.compression;
   for (std::size_t n = 0; n < solved_->numbers.size(); ++n)
@@ -126,8 +128,8 @@ std::vector<BreastFigures> CalibratedBreast::slopes() const {
       const CompressionProblem problem =
           loaded_->pressed(settings_at(n, sign * kFigureLogStep),
                            combined(1, lying.unloaded(), sign * kSteps, step.unloaded), share);
-      const CompressionResult pressed =
-          compress_from(solved_->pressed, problem, settings().options);
+      CompressionResult pressed = compress_from(solved_->pressed, problem, settings().options);
+      if (!pressed.report.usable()) pressed = compress(problem, settings().options);
       if (!pressed.report.usable())
         throw std::runtime_error(name_ + " next to it in CC: " + pressed.report.reason);
       return figures_of(moves, pressed);

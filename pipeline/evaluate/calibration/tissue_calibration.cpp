@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 #include <exception>
+#include <numeric>
 #include <stdexcept>
 
 #include "pipeline/evaluate/cases/evaluation_table.h"
@@ -32,26 +33,26 @@ std::string numbers_text(const std::vector<double>& values) {
   return text;
 }
 
-/// Middle halves of the breasts' figures less the data, in standard deviations.
+/// The breasts' figures less the data, in standard deviations.
 class PopulationMisfit : public ceres::CostFunction {
  public:
   PopulationMisfit(std::vector<CalibratedBreast>& breasts, const std::vector<TissueNumber>& numbers,
-                   const std::array<CalibrationDatum, kBreastFigures>& data, int jobs,
+                   const CalibrationData& data, int jobs,
                    const std::function<void(const std::string&)>& said)
       : breasts_(breasts), numbers_(numbers), data_(data), jobs_(jobs), said_(said) {
-    set_num_residuals(kBreastFigures);
+    set_num_residuals(kPopulationMeans);
     mutable_parameter_block_sizes()->push_back(static_cast<int>(numbers.size()));
   }
 
   bool Evaluate(double const* const* parameters, double* residuals,
                 double** jacobians) const override {
     if (!solve({parameters[0], parameters[0] + numbers_.size()})) return false;
-    const BreastFigures middle = middle_figures();
-    for (int i = 0; i < kBreastFigures; ++i)
+    const PopulationMeans middle = middle_figures();
+    for (int i = 0; i < kPopulationMeans; ++i)
       residuals[i] = (middle[i] - data_[i].target) / data_[i].sd;
     if (jacobians && jacobians[0]) {
       const auto slopes = middle_slopes();
-      for (int i = 0; i < kBreastFigures; ++i)
+      for (int i = 0; i < kPopulationMeans; ++i)
         for (std::size_t n = 0; n < numbers_.size(); ++n)
           jacobians[0][i * numbers_.size() + n] = slopes[n][i] / data_[i].sd;
     }
@@ -59,24 +60,28 @@ class PopulationMisfit : public ceres::CostFunction {
   }
 
   /// At the last solved point.
-  BreastFigures middle_figures() const {
-    BreastFigures middle{};
-    for (int i = 0; i < kBreastFigures; ++i) middle[i] = half(i).mean;
+  PopulationMeans middle_figures() const {
+    PopulationMeans middle{};
+    for (int i = 0; i < kPopulationMeans; ++i) {
+      const std::vector<double> w = weights(i);
+      for (std::size_t b = 0; b < breasts_.size(); ++b)
+        middle[i] += w[b] * figures_[b][of_breast(i)];
+    }
     return middle;
   }
-  std::vector<BreastFigures> middle_slopes() const {
+  std::vector<PopulationMeans> middle_slopes() const {
     if (slopes_.empty()) {
       std::vector<std::vector<BreastFigures>> slopes(breasts_.size());
       work_through(breasts_.size(), jobs_,
                    [&](std::size_t b) { slopes[b] = breasts_[b].slopes(); });
       slopes_ = std::move(slopes);
     }
-    std::vector<BreastFigures> middle(numbers_.size(), BreastFigures{});
-    for (int i = 0; i < kBreastFigures; ++i) {
-      const std::vector<double> weights = half(i).weights;
+    std::vector<PopulationMeans> middle(numbers_.size(), PopulationMeans{});
+    for (int i = 0; i < kPopulationMeans; ++i) {
+      const std::vector<double> w = weights(i);
       for (std::size_t n = 0; n < numbers_.size(); ++n)
         for (std::size_t b = 0; b < breasts_.size(); ++b)
-          middle[n][i] += weights[b] * slopes_[b][n][i];
+          middle[n][i] += w[b] * slopes_[b][n][of_breast(i)];
     }
     return middle;
   }
@@ -105,23 +110,42 @@ class PopulationMisfit : public ceres::CostFunction {
     }
     figures_ = figures;
     solved_at_ = logs;
-    const BreastFigures middle = middle_figures();
+    const PopulationMeans middle = middle_figures();
     said_("numbers" + numbers_text(values) +
-          ": lateral, posterior, landmark, ribs [mm], log force" +
+          ": lateral, posterior, landmark, ribs [mm], log force of thin and of thick" +
           numbers_text({middle.begin(), middle.end()}));
     return true;
   }
 
  private:
-  MiddleHalf half(int figure) const {
-    std::vector<double> values;
-    for (const BreastFigures& breast : figures_) values.push_back(breast[figure]);
-    return middle_half(values);
+  static int of_breast(int figure) { return std::min<int>(figure, kLogForce); }
+
+  /// Breasts that a figure is of, thin ones first.
+  std::vector<std::size_t> breasts_of(int figure) const {
+    std::vector<std::size_t> all(breasts_.size());
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    if (figure < kLogForceOfThin) return all;
+    std::stable_sort(all.begin(), all.end(), [&](std::size_t a, std::size_t b) {
+      return breasts_[a].thickness_mm() < breasts_[b].thickness_mm();
+    });
+    const std::size_t half = (all.size() + 1) / 2;
+    if (figure == kLogForceOfThin) return {all.begin(), all.begin() + half};
+    return {all.end() - half, all.end()};
+  }
+
+  /// Each breast's in the mean that a figure is.
+  std::vector<double> weights(int figure) const {
+    const std::vector<std::size_t> asked = breasts_of(figure);
+    std::vector<double> values, all(breasts_.size(), 0.0);
+    for (const std::size_t b : asked) values.push_back(figures_[b][of_breast(figure)]);
+    const std::vector<double> of_asked = middle_half(values).weights;
+    for (std::size_t k = 0; k < asked.size(); ++k) all[asked[k]] = of_asked[k];
+    return all;
   }
 
   std::vector<CalibratedBreast>& breasts_;
   const std::vector<TissueNumber>& numbers_;
-  const std::array<CalibrationDatum, kBreastFigures>& data_;
+  const CalibrationData& data_;
   int jobs_;
   const std::function<void(const std::string&)>& said_;
   mutable std::vector<double> solved_at_;
@@ -152,21 +176,24 @@ void add_limits(ceres::Problem& problem, const std::vector<double>& logs,
 
 }  // namespace
 
-std::array<CalibrationDatum, kBreastFigures> calibration_data(const WomensMoves& women,
-                                                              int persons) {
+CalibrationData calibration_data(const WomensMoves& women, int persons) {
   const auto datum = [&](const PopulationFigure& figure) {
     return CalibrationDatum{figure.middle,
                             figure.sd * std::sqrt(1.0 / figure.women + 1.0 / persons)};
   };
-  return {
-      datum(women.lateral), datum(women.posterior), datum(women.landmark), datum(women.ribs),
-      CalibrationDatum{std::log(kHelvie_N * kNorway_N) / 2, std::log(kNorway_N / kHelvie_N) / 2}};
+  const CalibrationDatum force{std::log(kHelvie_N * kNorway_N) / 2,
+                               std::log(kNorway_N / kHelvie_N) / 2};
+  return {datum(women.lateral),
+          datum(women.posterior),
+          datum(women.landmark),
+          datum(women.ribs),
+          force,
+          force};
 }
 
 Calibration calibrate_tissue(std::vector<CalibratedBreast>& breasts,
-                             const std::vector<TissueNumber>& numbers,
-                             const std::array<CalibrationDatum, kBreastFigures>& data, int jobs,
-                             const std::function<void(const std::string&)>& said) {
+                             const std::vector<TissueNumber>& numbers, const CalibrationData& data,
+                             int jobs, const std::function<void(const std::string&)>& said) {
   Calibration result;
   std::vector<double> logs;
   for (const TissueNumber& number : numbers) {

@@ -15,6 +15,12 @@ const std::vector<TissueNumber>& tissue_numbers() {
        [](Settings& s, double value) {
          s.fat.stiffening = s.fibroglandular.stiffening = s.lesion.stiffening = value;
        }},
+      {"materials.*.most_stiffening", "", 2, 1e6,
+       [](const Settings& s) { return s.fat.most_stiffening; },
+       [](Settings& s, double value) {
+         s.fat.most_stiffening = s.fibroglandular.most_stiffening = s.lesion.most_stiffening =
+             value;
+       }},
       {"materials.skin.c1_kpa", "kPa", 1, 100, [](const Settings& s) { return s.skin.c1; },
        [](Settings& s, double value) { s.skin.c1 = value; }},
       {"compress.chest_wall_spring_kpa_per_mm", "kPa/mm", 1e-4, 1,

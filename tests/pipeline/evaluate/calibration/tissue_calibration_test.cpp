@@ -56,9 +56,10 @@ class TissueCalibration : public ScratchFolder {
 
 TEST_F(TissueCalibration, SlopesAreThoseOfBreastsSolvedAnew) {
   CalibratedBreast breast = dome();
-  const auto numbers = tissue_numbers({"materials.stiffness_factor", "materials.*.stiffening",
-                                       "compress.chest_wall_spring_kpa_per_mm"});
-  const std::vector<double> values{0.4, 0.8, 0.04};
+  const auto numbers =
+      tissue_numbers({"materials.stiffness_factor", "materials.*.stiffening",
+                      "materials.*.most_stiffening", "compress.chest_wall_spring_kpa_per_mm"});
+  const std::vector<double> values{0.4, 2, 6, 0.04};
   breast.solve(numbers, values);
   const std::vector<BreastFigures> slopes = breast.slopes();
   for (std::size_t n = 0; n < numbers.size(); ++n) {
@@ -87,8 +88,10 @@ TEST_F(TissueCalibration, FindsTheNumbersThatTheDataAreOf) {
       tissue_numbers({"materials.stiffness_factor", "compress.chest_wall_spring_kpa_per_mm"});
   const std::vector<double> truth{0.5, 0.03};
   const BreastFigures figures = breasts.front().solve(numbers, truth);
-  std::array<CalibrationDatum, kBreastFigures> data;
-  for (int i = 0; i < kBreastFigures; ++i) data[i] = {figures[i], i == kLogForce ? 0.05 : 0.1};
+  CalibrationData data;
+  for (int i = 0; i < kPopulationMeans; ++i)
+    data[i] = i < kLogForce ? CalibrationDatum{figures[i], 0.1}
+                            : CalibrationDatum{figures[kLogForce], 0.05};
   const Calibration found = calibrate_tissue(breasts, numbers, data, 1, [](const std::string&) {});
   for (std::size_t n = 0; n < numbers.size(); ++n) {
     const CalibratedNumber& number = found.numbers[n];
