@@ -43,7 +43,7 @@ struct CompressionSettings {
   double stiffness_factor = 1;    ///< on tissue, skin and springs
   bool standing_gravity = false;  ///< the breast sags before the plates close
   double pull = 0;                ///< that holds the breast forward, over its weight
-  double most_pull_n = 5;         ///< of it, on what lies in front of the plates' edges
+  double most_pull_n = 3;         ///< of it, on what lies in front of the plates' edges
   SkinOptions skin;
   BoundaryOptions boundary = on_a_traced_wall();
   FrictionOptions friction{.coefficient = 0.3};

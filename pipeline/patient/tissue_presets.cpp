@@ -9,7 +9,8 @@ namespace {
 struct Tissue {
   std::string law = "neo_hookean";
   std::string fat_c1 = "0.75", fibroglandular_c1 = "2.5", lesion_c1 = "3.3";
-  std::string stiffening = "1", factor = "1", membrane = "true", spring = "0.08", smoothing = "5";
+  std::string stiffening = "1", most_stiffening = "1e6";
+  std::string factor = "1", membrane = "true", spring = "0.08", smoothing = "5";
   std::string pull = "0", quartic = "20";
 };
 
@@ -25,6 +26,7 @@ Preset preset_of(const std::string& name, const Tissue& tissue) {
     add(prefix + "law", tissue.law);
     add(prefix + "c1_kpa", c1);
     add(prefix + "stiffening", tissue.stiffening);
+    add(prefix + "most_stiffening", tissue.most_stiffening);
   }
   add("materials.stiffness_factor", tissue.factor);
   add("materials.skin.membrane", tissue.membrane);
@@ -42,8 +44,9 @@ std::vector<Preset> tissue_presets() {
   gel.fat_c1 = gel.fibroglandular_c1 = gel.lesion_c1 = "3";
   gel.membrane = "false";
   real.law = "exponential";
-  real.stiffening = "1.05";
-  real.factor = "0.13";
+  real.stiffening = "4.5";
+  real.most_stiffening = "18";
+  real.factor = "0.12";
   real.spring = "0.04";
   real.smoothing = "20";
   real.pull = "1";
