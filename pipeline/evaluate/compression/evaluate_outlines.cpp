@@ -89,6 +89,7 @@ int run(const Arguments& args) {
     row["name"] = name.string();
     row["tissue"] = parameter_of(path, "materials.preset");
     row["most_pull_n"] = parameter_of(path, "compress.most_pull_n");
+    add_press(path, row);
     const std::string line = line_of(row);
     table.add(n, std::move(row), line);
   }

@@ -47,6 +47,19 @@ fs::path press_typically(const fs::path& view, const fs::path& from,
   return product;
 }
 
+void add_press(const fs::path& view, json& row) {
+  constexpr double kPa_per_N_per_cm2 = 10;
+  for (const char* key : {"press_status", "force_N", "pressure_kpa", "retained_fraction"})
+    row[key] = nullptr;
+  const json sidecar = stage_sidecar(view);
+  if (sidecar.is_null()) return;
+  const json& quality = sidecar.at("quality");
+  row["press_status"] = sidecar.at("status");
+  for (const char* key : {"force_N", "retained_fraction"}) row[key] = quality.at(key);
+  row["pressure_kpa"] = kPa_per_N_per_cm2 * quality.at("force_N").get<double>() /
+                        quality.at("contact_area_cm2").get<double>();
+}
+
 void add_plates(const fs::path& folder, const OutlinePopulation& population, json& row) {
   for (const char* key : {"press_status", "thickness_mm", "force_N", "pressure_kpa", "width_ratio",
                           "depth_ratio", "retained_fraction"})
@@ -56,16 +69,10 @@ void add_plates(const fs::path& folder, const OutlinePopulation& population, jso
     run_to_product({"compress", inputs_in(folder), folder / "cc.vtu", folder / "patient.toml"});
     const fs::path pressed =
         press_typically(folder / "cc.vtu", folder, population, folder / "typical");
-    const json sidecar = stage_sidecar(pressed), &quality = sidecar.at("quality");
+    add_press(pressed, row);
     const json outline = outline_row(read_mesh_file(pressed), population);
-    constexpr double kPa_per_N_per_cm2 = 10;
-    row["press_status"] = sidecar.at("status");
-    row["thickness_mm"] = quality.at("thickness_mm");
-    row["force_N"] = quality.at("force_N");
-    row["pressure_kpa"] = kPa_per_N_per_cm2 * quality.at("force_N").get<double>() /
-                          quality.at("contact_area_cm2").get<double>();
-    row["retained_fraction"] = quality.at("retained_fraction");
-    for (const char* key : {"width_ratio", "depth_ratio"}) row[key] = outline.at(key);
+    for (const char* key : {"thickness_mm", "width_ratio", "depth_ratio"})
+      row[key] = outline.at(key);
   } catch (const std::exception& error) {
     if (row.at("reason").is_null()) row["reason"] = error.what();
   }

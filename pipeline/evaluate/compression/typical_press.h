@@ -17,11 +17,16 @@ std::filesystem::path press_typically(const std::filesystem::path& view,
                                       const OutlinePopulation& population,
                                       const std::filesystem::path& folder);
 
+/// Adds what the sidecar says of a pressed view to the row: `press_status`, `force_N` (the
+/// paddle's), `pressure_kpa` (its mean over the contact), `retained_fraction` (in front of the
+/// plates' edges, of what lay there as imaged); null where there is no sidecar.
+void add_press(const std::filesystem::path& view, nlohmann::json& row);
+
 /// Presses an unloaded breast's `folder` (segmentation.seg.nrrd, fractions.nrrd, unloaded.vtu,
 /// patient.toml) in CC to the thickness that is typical of its volume and adds to the row:
-/// `thickness_mm`, `force_N`, `pressure_kpa` (mean over the paddle's contact), `width_ratio` and
-/// `depth_ratio` (to the population's at that thickness), `retained_fraction`, `press_status`. What
-/// fails leaves its figures null and says why in `reason` where nothing failed before.
+/// what `add_press` adds, `thickness_mm`, `width_ratio` and `depth_ratio` (to the population's at
+/// that thickness). What fails leaves its figures null and says why in `reason` where nothing
+/// failed before.
 void add_plates(const std::filesystem::path& folder, const OutlinePopulation& population,
                 nlohmann::json& row);
 

@@ -5,8 +5,10 @@
 #include <nlohmann/json.hpp>
 
 #include "pipeline/evaluate/compression/outline_row.h"
+#include "pipeline/evaluate/compression/typical_press.h"
 #include "pipeline/steps/typical_thickness.h"
 #include "registration/view/compressed_view.h"
+#include "tests/pipeline/scratch_folder.h"
 #include "tests/registration/squeezed_box.h"
 #include "tests/where.h"
 
@@ -81,6 +83,22 @@ TEST_F(Outlines, ABoxIsMeasuredAsOne) {
   EXPECT_NEAR(row["volume_ml"].get<double>(), 480, 1e-6);  // 100 x 60 x 80 mm, squeezing keeps it
   EXPECT_NEAR(row["population_depth_mm"].get<double>(), 79.7, 0.5);
   EXPECT_NEAR(row["depth_ratio"].get<double>(), 60 * std::sqrt(2) / 79.7, 0.01);
+}
+
+class PressedView : public ScratchFolder {};
+
+TEST_F(PressedView, FiguresAreThoseOfItsSidecarOrNone) {
+  write("cc.vtu.json",
+        R"({"status": "look", "quality": {"force_N": 90, "contact_area_cm2": 60,
+            "retained_fraction": 0.8}})");
+  nlohmann::json row;
+  add_press(folder_ / "cc.vtu", row);
+  EXPECT_EQ(row, nlohmann::json({{"press_status", "look"},
+                                 {"force_N", 90},
+                                 {"pressure_kpa", 15.0},
+                                 {"retained_fraction", 0.8}}));
+  add_press(folder_ / "mlo.vtu", row);
+  for (const auto& [key, value] : row.items()) EXPECT_TRUE(value.is_null()) << key;
 }
 
 }  // namespace
