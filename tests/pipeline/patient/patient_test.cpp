@@ -165,6 +165,7 @@ TEST_F(PatientTest, TakesAPresetOfTissueAndWhatIsSaidBesides) {
   EXPECT_EQ(patient_.compression.fat.c1_kpa, 0.5);
   EXPECT_EQ(patient_.compression.fat.law, LawName::exponential);
   EXPECT_EQ(patient_.compression.lesion.law, LawName::exponential);
+  EXPECT_LT(patient_.compression.lesion.most_stiffening, 100);
   EXPECT_LT(patient_.compression.stiffness_factor, 0.5);
   EXPECT_EQ(patient_.compression.boundary.wall_smoothing, 20);
 }

@@ -38,7 +38,7 @@ TEST(TissueNumbers, AKeyThatIsNoneIsNamedWithThoseThatAre) {
 class TissueCalibration : public ScratchFolder {
  protected:
   /// A dome as imaged, all fat.
-  CalibratedBreast dome() const {
+  CalibratedBreast dome(const std::string& thickness_mm = "85") const {
     write_mesh_file(folder_ / "prone.vtu", dome_breast({2, 2, 1}));
     Segmentation all_fat;
     all_fat.labels = Volume<std::uint8_t>({40, 40, 40}, {4, 4, 4}, {-80, -80, -80}, label::fat);
@@ -49,7 +49,8 @@ class TissueCalibration : public ScratchFolder {
     write_fractions(folder_ / "fractions.nrrd", all_fat.fractions);
     write("patient.toml",
           "side = \"left\"\n[materials]\npreset = \"real\"\nstiffness_factor = 0.4\n"
-          "[views.cc]\nthickness_mm = 85\n");
+          "[views.cc]\nthickness_mm = " +
+              thickness_mm + "\n");
     return CalibratedBreast(folder_);
   }
 };
@@ -100,6 +101,24 @@ TEST_F(TissueCalibration, FindsTheNumbersThatTheDataAreOf) {
     EXPECT_LT(*number.low, truth[n]);
     EXPECT_GT(*number.high, truth[n]);
   }
+}
+
+TEST_F(TissueCalibration, ForcesAreThoseOfThinAndOfThickBreasts) {
+  std::vector<CalibratedBreast> breasts;
+  for (const char* thickness_mm : {"90", "80"}) breasts.push_back(dome(thickness_mm));
+  const auto numbers = tissue_numbers({"materials.stiffness_factor"});
+  std::vector<double> forces;
+  for (CalibratedBreast& breast : breasts)
+    forces.push_back(breast.solve(numbers, {0.4})[kLogForce]);
+  EXPECT_GT(forces[1], forces[0]) << "as it is pressed thinner";
+  CalibrationData data;
+  data.fill({0, 1e6});
+  data[kLogForceOfThin] = {forces[1], 0.05};
+  data[kLogForceOfThick] = {forces[0], 0.05};
+  const Calibration found = calibrate_tissue(breasts, numbers, data, 1, [](const std::string&) {});
+  EXPECT_NEAR(found.start[kLogForceOfThin], forces[1], 1e-9);
+  EXPECT_NEAR(found.start[kLogForceOfThick], forces[0], 1e-9);
+  EXPECT_NEAR(found.numbers.front().value, 0.4, 0.004) << found.ended;
 }
 
 TEST_F(TissueCalibration, ReadsWhatWomenDo) {
