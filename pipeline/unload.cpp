@@ -121,9 +121,10 @@ Outcome run(const Arguments& args, const Patient& patient, StageRun& stage) {
   if (record.coil)
     record.release = release_from_coil(problem, *record.coil, patient.gravity.coil_roundness,
                                        part_of(stage, 0, 0.2));
-  if (record.release) problem.pressed = record.release->pressed;
-  const double begun = record.release ? 0.2 : 0;
-  const UnloadResult result = unload(problem, {}, part_of(stage, begun, 0.6 - begun));
+  const UnloadResult result =
+      record.release
+          ? unload_released(problem, *record.coil, record.release, part_of(stage, 0.2, 0.4))
+          : unload(problem, {}, part_of(stage, 0, 0.6));
   record.report = result.report;
   stiffen_as_needed(record);
   if (record.report.usable()) {

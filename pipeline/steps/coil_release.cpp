@@ -34,6 +34,29 @@ std::optional<CoilRelease> release_from_coil(const BreastProblem& imaged, const 
   return release;
 }
 
+UnloadResult unload_released(BreastProblem& problem, const PressedSides& sides,
+                             std::optional<CoilRelease>& release, const Progress& progress) {
+  UnloadOptions all_of_gravity;
+  all_of_gravity.parts = false;
+  const Roundness roundness(problem.mesh, sides.across);
+  for (const double share : {1.0, 0.5, 0.25}) {
+    problem.pressed = release->pressed;
+    problem.pressed.way_mm *= share;
+    UnloadResult result = unload(problem, all_of_gravity, progress);
+    if (!result.report.usable()) continue;
+    if (share < 1) {
+      release->pressed = problem.pressed;
+      release->fit.way_mm = problem.pressed.way_mm;
+      release->fit.figure = roundness.of(result.unloaded);
+      release->fit.reason = "it would not hang as imaged";
+    }
+    return result;
+  }
+  release.reset();
+  problem.pressed = {};
+  return unload(problem, {}, progress);
+}
+
 std::vector<HermiteMesh::Node> rounder_shape(const BreastProblem& released,
                                              const PressedSides& sides, const UnloadResult& found,
                                              double gravity_share, double by) {

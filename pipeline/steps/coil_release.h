@@ -18,6 +18,12 @@ struct CoilRelease {
 std::optional<CoilRelease> release_from_coil(const BreastProblem& imaged, const PressedSides& sides,
                                              double roundness, const Progress& progress = {});
 
+/// The breast unloaded, let go as far as that says, or a half or a quarter as far: no farther than
+/// that, loaded again, it rests where it was imaged. What came of it is put into the problem and
+/// the release. Where nothing did, the release is empty and gravity alone is taken off.
+UnloadResult unload_released(BreastProblem& problem, const PressedSides& sides,
+                             std::optional<CoilRelease>& release, const Progress& progress = {});
+
 /// The shape that `unload` found of the released breast (problem.pressed is set) under a share of
 /// its gravity, if it were rounder by so much, to first order.
 std::vector<HermiteMesh::Node> rounder_shape(const BreastProblem& released,

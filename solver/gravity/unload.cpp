@@ -196,6 +196,7 @@ UnloadResult Unloading::run() {
     take(std::move(all), result);
   } else {
     report.reason = all.rest.reason;
+    if (!options_.parts) return result;
     find_largest_share(result);
   }
   if (options_.check && report.usable() && !problem_.gravity.isZero()) {

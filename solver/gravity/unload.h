@@ -14,6 +14,7 @@ struct UnloadOptions {
   int max_iterations = 12;    ///< Newton iterations a step: a good step needs 4 to 6
   bool check = true;          ///< loads the result again, and the naive reversal beside it
   double rest_tolerance = 1;  ///< farther off [mm, RMS of the nodes], the breast fell elsewhere
+  bool parts = true;          ///< where all of the gravity does not work, the largest that does
 };
 
 struct UnloadReport {

@@ -22,8 +22,11 @@ TEST(CoilRelease, MakesTheBreastAsRoundAsAskedAndOneThatIsRounder) {
   const auto release = release_from_coil(imaged, *sides, 0.5);
   ASSERT_TRUE(release);
   EXPECT_EQ(release->fit.reason, "");
-  imaged.pressed = release->pressed;
-  const UnloadResult unloaded = unload(imaged, {});
+  std::optional<CoilRelease> taken = release;
+  const UnloadResult unloaded = unload_released(imaged, *sides, taken);
+  ASSERT_TRUE(taken);
+  EXPECT_EQ(taken->fit.way_mm, release->fit.way_mm);
+  EXPECT_EQ(imaged.pressed.way_mm, release->fit.way_mm);
   ASSERT_TRUE(unloaded.report.usable()) << unloaded.report.reason;
   EXPECT_LT(unloaded.report.round_trip_max_mm, 1e-6);
   const Roundness roundness(imaged.mesh, sides->across);
@@ -41,6 +44,27 @@ TEST(CoilRelease, MakesTheBreastAsRoundAsAskedAndOneThatIsRounder) {
   EXPECT_LT(largest_distance(rounder, farther.unloaded),
             0.1 * largest_distance(unloaded.unloaded, farther.unloaded))
       << "to first order";
+}
+
+TEST(CoilRelease, IsNoFartherThanTheBreastHangsAsImaged) {
+  BreastProblem imaged = pressed_problem();
+  const auto sides = find_pressed_sides(imaged.mesh);
+  const Roundness roundness(imaged.mesh, sides->across);
+  std::optional<CoilRelease> release = release_from_coil(imaged, *sides, 0.5);
+  const double too_far_mm = 8 * release->fit.way_mm, much_too_far_mm = 1e5;
+  release->pressed.way_mm = too_far_mm;
+  const UnloadResult less = unload_released(imaged, *sides, release);
+  ASSERT_TRUE(less.report.usable());
+  ASSERT_TRUE(release);
+  EXPECT_LT(release->fit.way_mm, too_far_mm);
+  EXPECT_EQ(imaged.pressed.way_mm, release->fit.way_mm);
+  EXPECT_EQ(release->fit.figure, roundness.of(less.unloaded));
+  EXPECT_EQ(release->fit.reason, "it would not hang as imaged");
+  release->pressed.way_mm = much_too_far_mm;
+  const UnloadResult kept = unload_released(imaged, *sides, release);
+  EXPECT_TRUE(kept.report.usable());
+  EXPECT_FALSE(release) << "and so it stays as narrow";
+  EXPECT_FALSE(imaged.pressed);
 }
 
 TEST(CoilRelease, LetsABreastGoTheLessTheRounderItIs) {
