@@ -117,6 +117,8 @@ help:
 	@echo 'make test              all tests'
 	@echo 'make clean             removes build/ (results stay)'
 	@echo
+	@echo 'KEEP=1                 of evaluate-compression, -stability and -gravity: rows of other breasts stay, so that'
+	@echo '                       a table can be made in parts (FIRST=40 SYNTHETIC=20: drawn breasts 40 to 59)'
 	@echo 'DATA=folder            of patient folders (default sample_data)'
 	@echo 'RESULTS=folder         where results go (default results)'
 	@echo 'FORCE=1                runs stages that are up to date, too'
@@ -161,7 +163,7 @@ evaluate-supine-spread: mammotwin-evaluate-supine-spread
 evaluate-gravity: mammotwin-evaluate-gravity
 	@set -f; for option in $$UNLOAD; do set -- "$$@" "--unload=$$option"; done; \
 	  "$$BIN/mammotwin-evaluate-gravity" "$$CASES" "$$RESULTS/evaluation/$${TABLE:-gravity}.json" \
-	  $${JOBS:+--jobs "$$JOBS"} $${ONLY:+--only $$ONLY} $${PRESET:+--preset "$$PRESET"} \
+	  $${JOBS:+--jobs "$$JOBS"} $${ONLY:+--only $$ONLY} $${KEEP:+--keep} $${PRESET:+--preset "$$PRESET"} \
 	  $${PRESS:+--population "$$CASES/compressed_outlines"} "$$@"
 
 calibrate-tissue: mammotwin-calibrate-tissue
@@ -170,13 +172,13 @@ calibrate-tissue: mammotwin-calibrate-tissue
 
 evaluate-compression: mammotwin-evaluate-compression
 	@"$$BIN/mammotwin-evaluate-compression" "$$RESULTS/evaluation/$${TABLE:-compression}.json" --cases "$$CASES" \
-	  $${SYNTHETIC:+--synthetic "$$SYNTHETIC"} $${JOBS:+--jobs "$$JOBS"} $${ONLY:+--only $$ONLY} \
-	  $${PRESET:+--preset "$$PRESET"} $${UNLOADED:+--unloaded}
+	  $${SYNTHETIC:+--synthetic "$$SYNTHETIC"} $${FIRST:+--first "$$FIRST"} $${JOBS:+--jobs "$$JOBS"} \
+	  $${ONLY:+--only $$ONLY} $${KEEP:+--keep} $${PRESET:+--preset "$$PRESET"} $${UNLOADED:+--unloaded}
 
 evaluate-stability: mammotwin-evaluate-stability
 	@"$$BIN/mammotwin-evaluate-stability" "$$CASES" "$$RESULTS/evaluation/$${TABLE:-stability}.json" \
 	  $${ONLY:+--only $$ONLY} $${UNLOADED:+--unloaded} $${CHANGES:+--changes $$CHANGES} $${OTHER_PRESET:+--other-preset "$$OTHER_PRESET"} \
-	  $${VIEWS:+--views $$VIEWS} $${JOBS:+--jobs "$$JOBS"}
+	  $${VIEWS:+--views $$VIEWS} $${JOBS:+--jobs "$$JOBS"} $${KEEP:+--keep}
 
 evaluate-refinement: mammotwin-evaluate-refinement
 	@"$$BIN/mammotwin-evaluate-refinement" sample_data/042/patient.toml "$$CASES" \

@@ -34,6 +34,10 @@ bool is_asked(const std::string& name, const std::vector<std::string>& only) {
          });
 }
 
+void declare_keep(CommandLine& command, bool& keep) {
+  command.flag("--keep", keep, "rows of other breasts that the table has already stay in it");
+}
+
 void declare_unloaded(CommandLine& command, bool& unload) {
   command.flag("--unloaded", unload, "press the shape free of gravity, not the imaged one");
 }

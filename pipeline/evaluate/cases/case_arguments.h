@@ -18,6 +18,8 @@ void declare_table(CommandLine& command, std::filesystem::path& table, const std
 void declare_only(CommandLine& command, std::vector<std::string>& only);
 /// Is it one of those that --only names, by parts of their names? All are where it names none.
 bool is_asked(const std::string& name, const std::vector<std::string>& only);
+/// Rows of other breasts that the table has already stay (EvaluationTable).
+void declare_keep(CommandLine& command, bool& keep);
 void declare_unloaded(CommandLine& command, bool& unload);
 /// How many run at once, as many as `jobs` says where it is not given.
 void declare_jobs(CommandLine& command, int& jobs, const std::string& what = "breasts at a time");

@@ -13,8 +13,10 @@ namespace mammotwin {
 /// is broken off keeps what it has. Rows may come from several threads.
 class EvaluationTable {
  public:
-  /// Makes the folder of `file`. Throws std::filesystem::filesystem_error where it cannot.
-  explicit EvaluationTable(const std::filesystem::path& file);
+  /// Makes the folder of `file`. `keep`: the rows of other breasts (`name`, `side`) that are there
+  /// already stay, before those that are added. Throws std::filesystem::filesystem_error where it
+  /// cannot make it, std::runtime_error naming the file where what it is to keep is no table.
+  explicit EvaluationTable(const std::filesystem::path& file, bool keep = false);
 
   const std::filesystem::path& folder() const { return folder_; }  ///< absolute
 
@@ -30,6 +32,7 @@ class EvaluationTable {
   nlohmann::json all() const;
 
   std::filesystem::path file_, folder_;
+  std::vector<nlohmann::json> kept_;
   std::vector<std::vector<nlohmann::json>> rows_;  // of each case
   mutable std::mutex mutex_;
 };

@@ -20,7 +20,7 @@ struct Arguments {
   int synthetic = 200, first = 0, jobs = 1, most_cpu_seconds = 3600;
   std::vector<std::string> only;
   std::string preset = kDefaultTissue;
-  bool unload = false, refit = false;
+  bool unload = false, refit = false, keep = false;
 };
 
 void declare(CommandLine& command, Arguments& args) {
@@ -42,6 +42,7 @@ void declare(CommandLine& command, Arguments& args) {
       .with_default();
   command.option("--preset", args.preset, "the tissue's materials.preset").with_default();
   declare_unloaded(command, args.unload);
+  declare_keep(command, args.keep);
   command.flag("--refit", args.refit, "segment and fit again what lies there already");
 }
 
@@ -77,7 +78,7 @@ void evaluate(const Arguments& args, const EvaluatedBreast& breast, std::size_t 
 int run(const Arguments& args) {
   const std::vector<EvaluatedBreast> breasts = breasts_of(args);
   if (breasts.empty()) throw std::runtime_error("no breast is asked for");
-  EvaluationTable table(args.table);
+  EvaluationTable table(args.table, args.keep);
   work_through(breasts.size(), args.jobs,
                [&](std::size_t n) { evaluate(args, breasts[n], n, table); });
   std::cerr << compression_summary(table.rows());

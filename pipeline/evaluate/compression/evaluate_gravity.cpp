@@ -21,12 +21,14 @@ struct Arguments {
   std::string preset;
   std::vector<std::string> only, unload_options;
   int jobs = 2;
+  bool keep = false;
 };
 
 void declare(CommandLine& command, Arguments& args) {
   declare_cases(command, args.cases);
   declare_table(command, args.table, "gravity");
   declare_only(command, args.only);
+  declare_keep(command, args.keep);
   declare_jobs(command, args.jobs);
   command.option("--unload", args.unload_options,
                  "options of mammotwin-unload (such as --unload=--stiffness-factor "
@@ -40,7 +42,7 @@ void declare(CommandLine& command, Arguments& args) {
 }
 
 int run(const Arguments& args) {
-  EvaluationTable table(args.table);
+  EvaluationTable table(args.table, args.keep);
   std::vector<RealBreast> breasts = asked_breasts(args.cases, args.only);
   for (RealBreast& breast : breasts) breast.preset = args.preset;
   std::optional<OutlinePopulation> population;

@@ -18,7 +18,7 @@ struct Arguments {
   std::vector<std::string> only, changes, views;
   std::string other_preset;
   int jobs = 2;
-  bool unload = false;
+  bool unload = false, keep = false;
 };
 
 void declare(CommandLine& command, Arguments& args) {
@@ -31,6 +31,7 @@ void declare(CommandLine& command, Arguments& args) {
                  "instead: with the tissue of this materials.preset, a change that does matter");
   command.option("--views", args.views, "cc, mlo (default: both)");
   declare_unloaded(command, args.unload);
+  declare_keep(command, args.keep);
   declare_jobs(command, args.jobs);
 }
 
@@ -52,7 +53,7 @@ std::vector<InputChange> changes_asked(const Arguments& args) {
 }
 
 int run(const Arguments& args) {
-  EvaluationTable table(args.table);
+  EvaluationTable table(args.table, args.keep);
   std::vector<StabilityCase> asked;
   for (const RealBreast& breast : asked_breasts(args.cases, args.only)) {
     asked.push_back(

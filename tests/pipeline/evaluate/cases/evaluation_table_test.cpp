@@ -39,6 +39,22 @@ TEST_F(Evaluation, RowsStandInTheOrderOfTheirCasesAfterEachOfThem) {
   EXPECT_EQ(table.folder(), fs::absolute(folder_ / "new"));
 }
 
+TEST_F(Evaluation, RowsOfOtherBreastsStayWhereThatIsAsked) {
+  const fs::path file = folder_ / "new" / "table.json";
+  const json a_left = {{"name", "a"}, {"side", "left"}, {"x", 1}},
+             a_right = {{"name", "a"}, {"side", "right"}, {"x", 2}};
+  EvaluationTable(file, true).add(0, a_left);
+  EvaluationTable(file, true).add(0, a_right);
+  json again = a_left;
+  again["x"] = 3;
+  EvaluationTable(file, true).add(5, again);
+  EXPECT_EQ(on_disk()["cases"], json({a_right, again}));
+  EvaluationTable(file).add(0, a_left);
+  EXPECT_EQ(on_disk()["cases"], json::array({a_left}));
+  std::ofstream(file) << "{}";
+  EXPECT_THROW(EvaluationTable(file, true), std::runtime_error);
+}
+
 TEST_F(Evaluation, EachCaseIsWorkedOnOnceAndItsRowKept) {
   EvaluationTable table(folder_ / "new" / "table.json");
   work_through(40, 4, [&](std::size_t n) { table.add(n, {{"case", n}}, std::to_string(n)); });
