@@ -1,5 +1,6 @@
 #include "pipeline/evaluate/compression/typical_press.h"
 
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -25,6 +26,9 @@ std::vector<std::string> inputs_in(const fs::path& from) {
           mesh.string()};
 }
 
+constexpr std::array kOfPress = {"press_status", "force_N", "pressure_kpa", "retained_fraction"};
+constexpr std::array kOfOutline = {"thickness_mm", "width_ratio", "depth_ratio"};
+
 }  // namespace
 
 fs::path press_typically(const fs::path& view, const fs::path& from,
@@ -49,8 +53,7 @@ fs::path press_typically(const fs::path& view, const fs::path& from,
 
 void add_press(const fs::path& view, json& row) {
   constexpr double kPa_per_N_per_cm2 = 10;
-  for (const char* key : {"press_status", "force_N", "pressure_kpa", "retained_fraction"})
-    row[key] = nullptr;
+  for (const char* key : kOfPress) row[key] = nullptr;
   const json sidecar = stage_sidecar(view);
   if (sidecar.is_null()) return;
   const json& quality = sidecar.at("quality");
@@ -61,9 +64,8 @@ void add_press(const fs::path& view, json& row) {
 }
 
 void add_plates(const fs::path& folder, const OutlinePopulation& population, json& row) {
-  for (const char* key : {"press_status", "thickness_mm", "force_N", "pressure_kpa", "width_ratio",
-                          "depth_ratio", "retained_fraction"})
-    row[key] = nullptr;
+  for (const char* key : kOfPress) row[key] = nullptr;
+  for (const char* key : kOfOutline) row[key] = nullptr;
   if (!fs::exists(folder / "unloaded.vtu")) return;
   try {
     run_to_product({"compress", inputs_in(folder), folder / "cc.vtu", folder / "patient.toml"});
@@ -71,8 +73,7 @@ void add_plates(const fs::path& folder, const OutlinePopulation& population, jso
         press_typically(folder / "cc.vtu", folder, population, folder / "typical");
     add_press(pressed, row);
     const json outline = outline_row(read_mesh_file(pressed), population);
-    for (const char* key : {"thickness_mm", "width_ratio", "depth_ratio"})
-      row[key] = outline.at(key);
+    for (const char* key : kOfOutline) row[key] = outline.at(key);
   } catch (const std::exception& error) {
     if (row.at("reason").is_null()) row["reason"] = error.what();
   }
