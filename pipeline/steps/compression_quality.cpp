@@ -46,13 +46,14 @@ json quality_of(const CompressionReport& r, double angle_deg) {
           {"cutbacks", r.cutbacks},
           {"presses", r.presses},
           {"other_press_iterations", r.other_press_iterations},
+          {"drawn_times", r.drawn_times},
           {"newton_iterations", r.newton_iterations},
           {"indefinite_matrices", r.indefinite_matrices},
           {"dof", r.dof},
           {"history", history_json(r)}};
 }
 
-std::string sentence(const char* format, double value, double limit) {
+std::string sentence(const char* format, double value, double limit = 0) {
   char text[200];
   std::snprintf(text, sizeof text, format, value, limit);
   return text;
@@ -110,6 +111,10 @@ Outcome judge_compression(const CompressionReport& r, const PlateEscape& escape,
         sentence("the breast slid backwards: %.0f %% of the tissue in front of the plates' edges "
                  "stays there; expected at least %.0f %%",
                  100 * r.retained_fraction, 100 * limits::retained_fraction));
+  doubt(r.drawn_times > 1,
+        sentence("the breast came to rest between the plates only where it was drawn forward %.0f "
+                 "times as hard as others are",
+                 r.drawn_times));
   doubt(r.J_within_half < limits::share_of_sane_J,
         sentence("volume is locally kept within half at %.1f %% of the points; expected %.0f %%",
                  100 * r.J_within_half, 100 * limits::share_of_sane_J));

@@ -11,6 +11,7 @@ namespace {
 constexpr const char* kPressure = "pressure_kpa";
 constexpr const char* kPlates = "plates";
 constexpr const char* kHolds = "friction_holds";
+constexpr const char* kDrawnTimes = "drawn_times";
 
 /// The field `plates`, number by number.
 constexpr std::array kPlateNumbers = {&SolutionRecord::support_height_mm,
@@ -52,6 +53,7 @@ void write_solution(const SolutionRecord& solution, MeshFile& file) {
   plates.clear();
   for (const auto number : kPlateNumbers) plates.push_back(solution.*number);
   file.metadata.erase(kHolds);
+  file.metadata[kDrawnTimes] = {solution.drawn_times};
   if (!solution.holds.empty()) file.metadata[kHolds] = numbers_of(solution.holds);
 }
 
@@ -63,6 +65,8 @@ std::optional<SolutionRecord> read_solution(const MeshFile& file, const std::str
   SolutionRecord solution;
   solution.pressure_kpa = pressure->second;
   for (std::size_t i = 0; i < plates->size(); ++i) solution.*kPlateNumbers[i] = (*plates)[i];
+  if (const auto* drawn = find_field(file.metadata, name, kDrawnTimes, 1))
+    solution.drawn_times = drawn->front();
   if (const auto holds = file.metadata.find(kHolds); holds != file.metadata.end())
     solution.holds = holds_from(holds->second, name);
   return solution;
@@ -72,6 +76,7 @@ void erase_solution(MeshFile& file) {
   file.metadata.erase(kPressure);
   file.metadata.erase(kPlates);
   file.metadata.erase(kHolds);
+  file.metadata.erase(kDrawnTimes);
 }
 
 }  // namespace mammotwin

@@ -18,6 +18,7 @@ struct SolutionRecord {
   double lateral_middle_mm = 0;            ///< of the plates, sideways
   double penalty_kpa_per_mm = 0;           ///< of contact
   double target_thickness_mm = 0;          ///< asked of the plates
+  double drawn_times = 1;                  ///< so many times the pull of others
   std::vector<PlateFriction::Hold> holds;  ///< of friction
 };
 

@@ -108,7 +108,7 @@ CompressionProblem view_problem(const Patient& patient, const ViewSettings& view
 void remember_solution(const CompressionResult& result, MeshFile& file) {
   write_solution({result.pressure, result.plates.support_height, result.plates.paddle_height,
                   result.plates.edge, result.plates.lateral_middle, result.penalty,
-                  result.report.target_thickness_mm, result.holds},
+                  result.report.target_thickness_mm, result.report.drawn_times, result.holds},
                  file);
 }
 
@@ -130,11 +130,14 @@ std::optional<NearbySolver> nearby_solver(const Patient& patient, const Compress
   result.report.thickness_mm = view.thickness_mm;
   ViewSettings settings = patient.view(view.name);
   settings.angle_deg = view.angle_deg;
-  return NearbySolver(
-      base, [&patient, tissue, settings, side = view.side, mesh = reference_of(compressed),
-             thickness = solution->target_thickness_mm](const ViewState& state) {
-        return changed(patient, settings, side, mesh, tissue, thickness, state);
-      });
+  return NearbySolver(base, [&patient, tissue, settings, side = view.side,
+                             mesh = reference_of(compressed),
+                             thickness = solution->target_thickness_mm,
+                             drawn_times = solution->drawn_times](const ViewState& state) {
+    CompressionProblem problem = changed(patient, settings, side, mesh, tissue, thickness, state);
+    problem.pull *= drawn_times;
+    return problem;
+  });
 }
 
 }  // namespace mammotwin

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 #include <stdexcept>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -41,7 +42,8 @@ class Compression {
  public:
   Compression(const CompressionProblem& problem, const CompressionOptions& options,
               const Progress& progress, const CompressionRestart& restart);
-  CompressionResult run();
+  /// `let_go_below`: finish_compression.
+  CompressionResult run(double let_go_below);
   CompressionResult run_from(const CompressionResult& near);
 
  private:
@@ -51,7 +53,8 @@ class Compression {
   NewtonReport balance_tilt(NewtonReport report, State& state);
   NewtonReport equilibrate(double fraction, State& state);
   void record(const LoadSteppingReport& load, const State& state, const NewtonReport& newton);
-  LoadSteppingReport close_plates(State& state);
+  LoadSteppingReport close_plates(double let_go_below, State& state);
+  void finish(double penalty, double let_go_below, State& state);
   CompressionResult result_at(const State& state) const;
   void count(const NewtonReport& newton);
   bool too_hard(const State& state);
@@ -65,7 +68,7 @@ class Compression {
   PlateWay way_;
   CompressionCheckpoint good_;  ///< the last good step
   std::optional<double> stop_;  ///< thickness at which the most force was reached [mm]
-  bool lost_ = false;           ///< the breast has slipped out
+  bool lost_ = false;           ///< the breast has slipped out, or is let go
   CompressionReport report_;
 };
 
@@ -233,7 +236,14 @@ bool Compression::begin(State& state) {
   return true;
 }
 
-LoadSteppingReport Compression::close_plates(State& state) {
+void Compression::finish(double penalty, double let_go_below, State& state) {
+  const Finished finished =
+      finish_compression(press_, report_.target_thickness_mm, penalty, let_go_below, state);
+  count(finished.effort);
+  lost_ = finished.let_go;
+}
+
+LoadSteppingReport Compression::close_plates(double let_go_below, State& state) {
   const double longest = std::min(1.0, options_.longest_move / way_.longest());
   const LoadSteppingReport load = step_load(
       state,
@@ -250,7 +260,7 @@ LoadSteppingReport Compression::close_plates(State& state) {
   report_.newton_iterations += load.iterations;
   report_.indefinite_matrices += load.indefinite;
   if (load.complete() && !lost_)
-    count(finish_compression(press_, report_.target_thickness_mm, good_.penalty, state));
+    finish(good_.penalty, let_go_below, state);
   else
     place(load.reached);
   return load;
@@ -262,16 +272,17 @@ CompressionResult Compression::result_at(const State& state) const {
       {},      report_};
 }
 
-CompressionResult Compression::run() {
+CompressionResult Compression::run(double let_go_below) {
   const auto start = std::chrono::steady_clock::now();
   State state;
   if (!begin(state)) return {state.x, state.x, state.pressure, press_.placed(), 0, {}, {}, report_};
-  LoadSteppingReport load = close_plates(state);
+  LoadSteppingReport load = close_plates(let_go_below, state);
   if (stop_) {
     stop_by_force(load, state);
-    load = close_plates(state);
+    load = close_plates(let_go_below, state);
   }
   measure_compression(press_, state, report_);
+  report_.slipped_out = report_.slipped_out || lost_;
   judge_compressed(press_, load, state, report_);
   if (report_.usable()) report_.energy_force_N = force_from_energy(press_, state);
   report_.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -301,11 +312,71 @@ CompressionResult Compression::run_from(const CompressionResult& near) {
   LoadSteppingReport load;
   load.reached = newton.usable() ? 1 : 0;
   load.reason = newton.reason;
-  if (load.complete())
-    count(finish_compression(press_, report_.target_thickness_mm, press_.penalty(), state));
+  if (load.complete()) finish(press_.penalty(), 0, state);
   measure_compression(press_, state, report_);
   judge_compressed(press_, load, state, report_);
   return result_at(state);
+}
+
+/// The first of several presses that is usable, else the first; its report counts the effort of
+/// all.
+class Presses {
+ public:
+  explicit Presses(CompressionResult first) : result_(std::move(first)) {}
+  const CompressionReport& report() const { return result_.report; }
+  void add(CompressionResult next);
+  CompressionResult take() { return std::move(result_); }
+
+ private:
+  CompressionResult result_;
+};
+
+void Presses::add(CompressionResult next) {
+  if (next.report.usable() && !report().usable()) std::swap(result_, next);
+  CompressionReport& kept = result_.report;
+  const CompressionReport& other = next.report;
+  kept.presses += other.presses;
+  kept.other_press_iterations += other.newton_iterations;
+  kept.newton_iterations += other.newton_iterations;
+  kept.indefinite_matrices += other.indefinite_matrices;
+  kept.seconds += other.seconds;
+}
+
+/// Whether to draw it harder would hold it.
+bool came_out(const CompressionProblem& problem, const CompressionOptions& options,
+              const CompressionReport& report) {
+  return !report.usable() && !report.history.empty() && !problem.pull.isZero() &&
+         report.retained_fraction < options.well_retained;
+}
+
+/// What is said of another press.
+Progress once_more(const Progress& progress, const std::string& how) {
+  if (!progress) return {};
+  return [&progress, how](double done, const std::string& what) {
+    progress(done, "once more, " + how + ": " + what);
+  };
+}
+
+CompressionResult press_drawn(double times, const CompressionProblem& problem,
+                              const CompressionOptions& options, const Progress& progress) {
+  CompressionProblem drawn = problem;
+  drawn.pull *= times;
+  const double let_go_below = times < options.most_drawn ? options.well_retained : 0;
+  CompressionResult result =
+      Compression(
+          drawn, options,
+          once_more(progress, "drawn " + std::to_string(std::lround(times)) + " times as hard"), {})
+          .run(let_go_below);
+  result.report.drawn_times = times;
+  return result;
+}
+
+CompressionResult press_carefully(const CompressionProblem& problem,
+                                  const CompressionOptions& options, const Progress& progress) {
+  CompressionOptions carefully = options;
+  carefully.careful = true;
+  carefully.longest_move /= 2;
+  return Compression(problem, carefully, once_more(progress, "carefully"), {}).run(0);
 }
 
 }  // namespace
@@ -313,25 +384,18 @@ CompressionResult Compression::run_from(const CompressionResult& near) {
 CompressionResult compress(const CompressionProblem& problem, const CompressionOptions& options,
                            const Progress& progress, const CompressionRestart& restart) {
   check_shape(problem);
-  CompressionResult quick = Compression(problem, options, progress, restart).run();
-  const CompressionReport& first = quick.report;
-  if (first.usable() || first.slipped_out || first.history.empty() || options.careful) return quick;
-  CompressionOptions carefully = options;
-  carefully.careful = true;
-  carefully.longest_move /= 2;
-  const Progress again = [&](double done, const std::string& what) {
-    progress(done, "once more, carefully: " + what);
-  };
-  CompressionResult result =
-      Compression(problem, carefully, progress ? again : Progress(), {}).run();
-  CompressionResult& better = result.report.usable() ? result : quick;
-  better.report.presses = 2;
-  better.report.other_press_iterations =
-      (&better == &quick ? result.report : first).newton_iterations;
-  better.report.newton_iterations = first.newton_iterations + result.report.newton_iterations;
-  better.report.indefinite_matrices = first.indefinite_matrices + result.report.indefinite_matrices;
-  better.report.seconds = first.seconds + result.report.seconds;
-  return std::move(better);
+  const bool can_be_drawn = !problem.pull.isZero() && options.most_drawn > 1;
+  Presses presses(Compression(problem, options, progress, restart)
+                      .run(can_be_drawn ? options.well_retained : 0));
+  constexpr double kHarder = 2;
+  const bool out = came_out(problem, options, presses.report());
+  for (double times = kHarder; out && !presses.report().usable() && times <= options.most_drawn;
+       times *= kHarder)
+    presses.add(press_drawn(times, problem, options, progress));
+  const CompressionReport& report = presses.report();
+  if (!report.usable() && !report.slipped_out && !report.history.empty() && !options.careful)
+    presses.add(press_carefully(problem, options, progress));
+  return presses.take();
 }
 
 CompressionResult compress_from(const CompressionResult& near, const CompressionProblem& problem,

@@ -23,9 +23,10 @@ struct CompressionRestart {
 /// Throws std::invalid_argument that names the cause where the problem cannot be posed: folded
 /// mesh, stiffness not positive, a number that is not finite, a thickness that is not between 0 and
 /// the breast's, plates that never touch, nothing that holds the body. Where no equilibrium is
-/// found, or none that is stable, the breast is pressed once more by half as long steps, each
-/// nearer to balance and to a stable one, unless it slipped out; what fails then says why and how
-/// far the first came.
+/// found, or none that is stable, and the breast slid backwards, it is pressed again, drawn twice
+/// and then four times as hard (`drawn_times`). Otherwise, or where that is no help, it is pressed
+/// once more by half as long steps, each nearer to balance and to a stable one, unless it slipped
+/// out; what fails then says why and how far the first came.
 CompressionResult compress(const CompressionProblem& problem, const CompressionOptions& options,
                            const Progress& progress = {}, const CompressionRestart& restart = {});
 

@@ -54,10 +54,6 @@ double J_within_half(const Model& model, const State& state) {
   return within / double(kPoints * model.num_elements());
 }
 
-double retained_fraction(const Press& press, const State& state) {
-  return volume_in_front(press, state.x) / volume_in_front(press, press.positioned());
-}
-
 /// 95th percentile, of both plates together [mm].
 double pressed_gap(const Press& press, const State& state) {
   constexpr double kShare = 0.95;
@@ -72,6 +68,10 @@ double pressed_gap(const Press& press, const State& state) {
 }
 
 }  // namespace
+
+double retained_fraction(const Press& press, const State& state) {
+  return volume_in_front(press, state.x) / volume_in_front(press, press.positioned());
+}
 
 bool slipped_out(const Press& press, const State& state) {
   return retained_fraction(press, state) < press.options().least_retained;

@@ -48,6 +48,10 @@ struct CompressionOptions {
   /// counts as slipped out. Real breasts, soft, that a coil pressed flat in the MRI keep 0.3 to 0.5
   /// and rest between the plates.
   double least_retained = 0.2;
+  /// Likewise: a breast that comes to no rest between the plates and of which less stays there is
+  /// pressed again, drawn harder, as a radiographer takes it out and begins anew.
+  double well_retained = 0.6;
+  double most_drawn = 4;  ///< times `CompressionProblem::pull`
   /// In `compress_from`: friction's tractions stay those of the result that it starts from, but for
   /// springs of this reach [mm] > 0 (PlateFriction::freeze); 0: they follow Coulomb's law.
   double frozen_friction = 0;

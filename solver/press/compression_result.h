@@ -24,8 +24,9 @@ enum class CompressionStatus { converged, not_converged };
 struct CompressionReport {
   CompressionStatus status = CompressionStatus::not_converged;
   std::string reason;              ///< why not, with the last good thickness
-  int presses = 1;                 ///< 2: once more, carefully (compress)
-  int other_press_iterations = 0;  ///< of the press that is not this result's
+  int presses = 1;                 ///< more: once more, drawn harder or carefully (compress)
+  int other_press_iterations = 0;  ///< of the presses that are not this result's
+  double drawn_times = 1;          ///< so many times the problem's pull
   int steps = 0, cutbacks = 0;
   int newton_iterations = 0, indefinite_matrices = 0;  ///< of all presses
   double target_thickness_mm = 0;  ///< asked, or where the most force was reached

@@ -6,6 +6,8 @@
 #include <limits>
 #include <utility>
 
+#include "solver/press/compression_figures.h"
+
 namespace mammotwin {
 
 namespace {
@@ -48,9 +50,9 @@ constexpr double kFar = 1;        // [mm]: stiff contact does not follow a paddl
 /// Rounds that each close contact further, by a stiffer penalty, move the paddle, or do both.
 class Finish {
  public:
-  Finish(Press& press, double thickness, double penalty)
-      : press_(press), thickness_(thickness), penalty_(penalty) {}
-  NewtonReport run(State& state);
+  Finish(Press& press, double thickness, double penalty, double let_go_below)
+      : press_(press), thickness_(thickness), penalty_(penalty), let_go_below_(let_go_below) {}
+  Finished run(State& state);
 
  private:
   struct Errors {
@@ -76,7 +78,7 @@ class Finish {
   bool settle(State& state);
 
   Press& press_;
-  const double thickness_, penalty_;
+  const double thickness_, penalty_, let_go_below_;
   NewtonReport total_;
   ThicknessSecant secant_;
   bool closed_ = false;     ///< the last round closed contact further
@@ -179,7 +181,7 @@ bool Finish::settle(State& state) {
   return report.usable();
 }
 
-NewtonReport Finish::run(State& state) {
+Finished Finish::run(State& state) {
   constexpr int most_rounds = 16;
   constexpr double headroom = 1.2;
   // Skin between contact points snaps from one place to another, and the extent with it.
@@ -193,9 +195,10 @@ NewtonReport Finish::run(State& state) {
     bool settled = true;
     if (now.closed() && !now.off && loose_) {
       settled = settle(state);
+      if (!settled && retained_fraction(press_, state) < let_go_below_) return {total_, true};
       now = errors(state);
     }
-    if (now.closed() && !now.off && (settled || ++unsettled > most_unsettled)) return total_;
+    if (now.closed() && !now.off && (settled || ++unsettled > most_unsettled)) return {total_};
     remember(now, state);
     if (now.closed() && ++closed >= patience && best_error_ <= kNearly) break;
     const bool closing = now.excess > 1 || now.deep > 1 || !settled;
@@ -203,6 +206,8 @@ NewtonReport Finish::run(State& state) {
                                                std::min(kLeastGrowth, most_growth), most_growth)
                                   : 1;
     const bool good = improve(now, closing, growth, state);
+    if (!good && !std::isfinite(best_error_) && retained_fraction(press_, state) < let_go_below_)
+      return {total_, true};
     const bool stuck = !good && growth == 1;
     if (!good && (from_soft_ || (stuck && now.near_enough()))) break;
     from_soft_ = stuck;
@@ -215,13 +220,14 @@ NewtonReport Finish::run(State& state) {
   const double out_of_balance = imbalance(state);
   if (!settle(state) && !(imbalance(state) < out_of_balance && errors(state).near_enough()))
     go_back_to(last, state);
-  return total_;
+  return {total_};
 }
 
 }  // namespace
 
-NewtonReport finish_compression(Press& press, double thickness, double penalty, State& state) {
-  return Finish(press, thickness, penalty).run(state);
+Finished finish_compression(Press& press, double thickness, double penalty, double let_go_below,
+                            State& state) {
+  return Finish(press, thickness, penalty, let_go_below).run(state);
 }
 
 }  // namespace mammotwin

@@ -56,10 +56,26 @@ json sidecar_after(const StageEnd& end, const fs::path& sidecar, int most_cpu_se
 
 void judge_row(json& row, const json& sidecar) {
   const json quality = sidecar.value("quality", json::object());
-  for (const char* key : {"compressed_fraction", "thickness_mm", "min_J", "max_J", "J_within_half",
-                          "mean_gap_mm", "max_penetration_mm", "swing_mm", "roll_deg", "force_N",
-                          "contact_area_cm2", "volume_change", "presses", "steps", "cutbacks",
-                          "newton_iterations", "indefinite_matrices", "dof"})
+  for (const char* key : {"compressed_fraction",
+                          "thickness_mm",
+                          "min_J",
+                          "max_J",
+                          "J_within_half",
+                          "mean_gap_mm",
+                          "max_penetration_mm",
+                          "swing_mm",
+                          "roll_deg",
+                          "force_N",
+                          "retained_fraction",
+                          "drawn_times",
+                          "contact_area_cm2",
+                          "volume_change",
+                          "presses",
+                          "steps",
+                          "cutbacks",
+                          "newton_iterations",
+                          "indefinite_matrices",
+                          "dof"})
     row[key] = quality.contains(key) ? quality[key] : json();
   const std::string status = sidecar.at("status");
   if (status != "ok" && status != "look") {

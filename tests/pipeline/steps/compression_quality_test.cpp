@@ -47,6 +47,9 @@ TEST(CompressionQuality, WhatIsNotQuiteReachedIsToBeLookedAtAndSaysByHowMuch) {
   const Outcome slid = outcome(&CompressionReport::retained_fraction, 0.31);
   EXPECT_EQ(slid.status, Status::look);
   EXPECT_NE(slid.reasons.at(0).find("31 %"), std::string::npos);
+  const Outcome drawn = outcome(&CompressionReport::drawn_times, 2);
+  EXPECT_EQ(drawn.status, Status::look);
+  EXPECT_NE(drawn.reasons.at(0).find("drawn forward 2 times as hard"), std::string::npos);
 }
 
 }  // namespace

@@ -18,7 +18,7 @@ MeshFile one_element() {
 TEST_F(MeshRecords, ASolutionComesBackNumberByNumber) {
   MeshFile file = one_element();
   EXPECT_FALSE(read_solution(file, "cc.vtu"));
-  write_solution({{1.5, -2}, 1, 2, 3, 4, 5, 6, {{7, 1, {8, 9, 10}, 11}}}, file);
+  write_solution({{1.5, -2}, 1, 2, 3, 4, 5, 6, 12, {{7, 1, {8, 9, 10}, 11}}}, file);
   const auto found = read_solution(file, "cc.vtu");
   ASSERT_TRUE(found);
   EXPECT_EQ(found->pressure_kpa, (std::vector<double>{1.5, -2}));
@@ -28,6 +28,7 @@ TEST_F(MeshRecords, ASolutionComesBackNumberByNumber) {
   EXPECT_EQ(found->lateral_middle_mm, 4);
   EXPECT_EQ(found->penalty_kpa_per_mm, 5);
   EXPECT_EQ(found->target_thickness_mm, 6);
+  EXPECT_EQ(found->drawn_times, 12);
   ASSERT_EQ(found->holds.size(), 1u);
   EXPECT_EQ(found->holds[0].point, 7);
   EXPECT_EQ(found->holds[0].plate, 1);
@@ -40,7 +41,7 @@ TEST_F(MeshRecords, ASolutionComesBackNumberByNumber) {
 TEST_F(MeshRecords, ADamagedFieldIsNamed) {
   MeshFile file = one_element();
   write_solution({}, file);
-  file.metadata.begin()->second.push_back(0);  // plates: the first by name
+  file.metadata.at("plates").push_back(0);
   const std::string message = message_of([&] { read_solution(file, "cc.vtu"); });
   EXPECT_NE(message.find("cc.vtu: the field plates has 7 numbers; expected 6"), std::string::npos)
       << message;

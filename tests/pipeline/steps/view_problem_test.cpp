@@ -45,6 +45,27 @@ TEST(ViewProblem, ABreastIsDrawnForwardByItsWeightOrWhatAHandDrawsWith) {
   EXPECT_NEAR((held.pull - 1000 / in_front * held.plates.depth).norm(), 0, 1e-9 * weight);
 }
 
+TEST(ViewProblem, WhatWasDrawnHarderStaysSo) {
+  Patient patient;
+  patient.compression.pull = 1;
+  MeshFile compressed = dome_breast({2, 2, 1});
+  compressed.configurations["prone"] = compressed.configurations["unloaded"] =
+      compressed.mesh.nodes();
+  const auto pull_where_drawn = [&](double times) {
+    CompressionResult solved;
+    solved.pressure.assign(8 * compressed.mesh.num_elements(), 0);
+    solved.penalty = 1;
+    solved.report.drawn_times = times;
+    remember_solution(solved, compressed);
+    const auto solver =
+        nearby_solver(patient, {"cc", Side::left, 0, 60, {}}, compressed, lumpy_tissue());
+    return solver.value().problem_at(ViewState::Zero()).pull;
+  };
+  const Eigen::Vector3d once = pull_where_drawn(1);
+  EXPECT_GT(once.norm(), 0);
+  EXPECT_NEAR((pull_where_drawn(4) - 4 * once).norm(), 0, 1e-12 * once.norm());
+}
+
 TEST(ViewProblem, AStateKnowsHowRoundABreastIsThatItsCoilPressed) {
   const Patient patient;
   MeshFile compressed = dome_breast({2, 2, 1});

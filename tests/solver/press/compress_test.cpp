@@ -291,6 +291,29 @@ TEST(Compress, APullHoldsTheBreastBetweenThePlates) {
   EXPECT_LT(largest_distance(result.deformed, again.deformed), 0.05);
 }
 
+TEST(Compress, ABreastThatSlipsOutIsDrawnHarder) {
+  constexpr double weight = 9.81e-3;  // [mN/mm³]
+  CompressionProblem problem = loosely_held(0);
+  problem.pull = 1.5 * weight * problem.plates.depth;
+  CompressionOptions options;
+  options.most_drawn = 1;
+  const CompressionResult out = compress(problem, options);
+  EXPECT_FALSE(out.report.usable());
+  EXPECT_LT(out.report.retained_fraction, options.well_retained);
+  std::vector<std::string> said;
+  const CompressionResult held =
+      compress(problem, {}, [&](double, const std::string& what) { said.push_back(what); });
+  ASSERT_TRUE(held.report.usable()) << held.report.reason;
+  EXPECT_GT(held.report.drawn_times, 1);
+  EXPECT_GT(held.report.presses, 1);
+  EXPECT_GT(held.report.retained_fraction, out.report.retained_fraction);
+  EXPECT_NE(said.back().find("times as hard"), std::string::npos);
+  problem.pull *= held.report.drawn_times;
+  const CompressionResult again = compress_from(held, problem, {});
+  ASSERT_TRUE(again.report.usable()) << again.report.reason;
+  EXPECT_LT(largest_distance(held.deformed, again.deformed), 0.05);
+}
+
 TEST(Compress, SaysHowFarItCameWhereItCannotGoOn) {
   CompressionProblem problem = squeezed_problem();
   CompressionOptions options;
