@@ -342,7 +342,7 @@ void Presses::add(CompressionResult next) {
   kept.seconds += other.seconds;
 }
 
-/// Whether to draw it harder would hold it.
+/// Whether it slid backwards and can be drawn harder.
 bool came_out(const CompressionProblem& problem, const CompressionOptions& options,
               const CompressionReport& report) {
   return !report.usable() && !report.history.empty() && !problem.pull.isZero() &&
