@@ -18,6 +18,8 @@ class Presses {
   explicit Presses(CompressionResult first) : result_(std::move(first)) {}
   const CompressionReport& report() const { return result_.report; }
   void add(CompressionResult next);
+  /// What was tried in vain, in the reason of a press that is not usable.
+  void say_in_vain(const std::string& tried) { result_.report.reason += ", also " + tried; }
   CompressionResult take() { return std::move(result_); }
 
  private:
@@ -43,16 +45,31 @@ Progress once_more(const Progress& progress, const std::string& how) {
   };
 }
 
+std::string drawn(double times) {
+  return "drawn " + std::to_string(std::lround(times)) + " times as hard";
+}
+
 CompressionResult press_drawn(double times, const CompressionProblem& problem,
                               const CompressionOptions& options, const Progress& progress) {
-  CompressionProblem drawn = problem;
-  drawn.pull *= times;
-  const std::string how = "drawn " + std::to_string(std::lround(times)) + " times as hard";
+  CompressionProblem harder = problem;
+  harder.pull *= times;
   CompressionResult result =
-      press_once(drawn, options, times < options.most_drawn ? options.well_retained : 0,
-                 once_more(progress, how));
+      press_once(harder, options, times < options.most_drawn ? options.well_retained : 0,
+                 once_more(progress, drawn(times)));
   result.report.drawn_times = times;
   return result;
+}
+
+/// Until the plates hold it.
+void draw_harder(const CompressionProblem& problem, const CompressionOptions& options,
+                 const Progress& progress, Presses& presses) {
+  constexpr double harder = 2;
+  double times = 1;
+  while (!presses.report().usable() && harder * times <= options.most_drawn) {
+    times *= harder;
+    presses.add(press_drawn(times, problem, options, progress));
+  }
+  if (times > 1 && !presses.report().usable()) presses.say_in_vain(drawn(times));
 }
 
 CompressionResult press_carefully(const CompressionProblem& problem,
@@ -67,16 +84,13 @@ CompressionResult press_carefully(const CompressionProblem& problem,
 
 CompressionResult compress(const CompressionProblem& problem, const CompressionOptions& options,
                            const Progress& progress, const CompressionRestart& restart) {
-  constexpr double harder = 2;
   check_shape(problem);
   const bool can_be_drawn = !problem.pull.isZero() && options.most_drawn > 1;
   const double let_go_below = can_be_drawn ? options.well_retained : 0;
   Presses presses(press_once(problem, options, let_go_below, progress, restart));
   const CompressionReport& report = presses.report();
   const bool came_out = !report.history.empty() && report.retained_fraction < let_go_below;
-  for (double times = harder; came_out && !report.usable() && times <= options.most_drawn;
-       times *= harder)
-    presses.add(press_drawn(times, problem, options, progress));
+  if (came_out && !report.usable()) draw_harder(problem, options, progress, presses);
   if (!report.usable() && !report.slipped_out && !report.history.empty() && !options.careful)
     presses.add(press_carefully(problem, options, progress));
   return presses.take();

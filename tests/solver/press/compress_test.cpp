@@ -314,6 +314,17 @@ TEST(Compress, ABreastThatSlipsOutIsDrawnHarder) {
   EXPECT_LT(largest_distance(held.deformed, again.deformed), 0.05);
 }
 
+TEST(Compress, SaysThatDrawingHarderDoesNotHoldABreast) {
+  CompressionProblem problem = loosely_held(0);
+  problem.pull = 1e-6 * problem.plates.depth;
+  const CompressionResult result = compress(problem, {});
+  EXPECT_FALSE(result.report.usable());
+  EXPECT_EQ(result.report.presses, 3);
+  EXPECT_EQ(result.report.drawn_times, 1);
+  EXPECT_NE(result.report.reason.find(", also drawn 4 times as hard"), std::string::npos)
+      << result.report.reason;
+}
+
 TEST(Compress, SaysHowFarItCameWhereItCannotGoOn) {
   CompressionProblem problem = squeezed_problem();
   CompressionOptions options;
