@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "solver/material/neo_hookean.h"
 #include "tests/solver/dome_breast.h"
 
 namespace mammotwin {
