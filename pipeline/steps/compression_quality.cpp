@@ -1,8 +1,8 @@
 #include "pipeline/steps/compression_quality.h"
 
 #include <cmath>
-#include <cstdio>
 
+#include "pipeline/frame/sentence.h"
 #include "pipeline/steps/quality_limits.h"
 
 namespace mammotwin {
@@ -51,12 +51,6 @@ json quality_of(const CompressionReport& r, double angle_deg) {
           {"indefinite_matrices", r.indefinite_matrices},
           {"dof", r.dof},
           {"history", history_json(r)}};
-}
-
-std::string sentence(const char* format, double value, double limit = 0) {
-  char text[200];
-  std::snprintf(text, sizeof text, format, value, limit);
-  return text;
 }
 
 }  // namespace

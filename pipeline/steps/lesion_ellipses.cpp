@@ -1,9 +1,9 @@
 #include "pipeline/steps/lesion_ellipses.h"
 
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 
+#include "pipeline/frame/sentence.h"
 #include "registration/carry/ray_curve.h"
 
 namespace mammotwin {
@@ -47,17 +47,15 @@ std::vector<std::string> edge_remarks(const ProjectedFindings& findings,
     const double depth = findings.lesions[i].on_detector.x();
     if (depth >= 0) continue;
     const double front = depth + (ellipses.empty() ? 0 : depth_reach(ellipses[i].on_detector));
-    char text[200];
-    if (front > 0)
-      std::snprintf(text, sizeof text,
-                    "predicted %.0f mm behind the detector's edge in %s, its 90 %% ellipse %.0f mm "
-                    "in front of it: that mammogram may not show it",
-                    -depth, view.c_str(), front);
-    else
-      std::snprintf(text, sizeof text,
-                    "predicted %.0f mm behind the detector's edge in %s: that mammogram would not "
-                    "show it",
-                    -depth, view.c_str());
+    const std::string text =
+        front > 0 ? sentence(
+                        "predicted %.0f mm behind the detector's edge in %s, its 90 %% ellipse "
+                        "%.0f mm in front of it: that mammogram may not show it",
+                        -depth, view.c_str(), front)
+                  : sentence(
+                        "predicted %.0f mm behind the detector's edge in %s: that mammogram would "
+                        "not show it",
+                        -depth, view.c_str());
     remarks.push_back("lesion " + findings.lesions[i].landmark.id + " is " + text);
   }
   return remarks;

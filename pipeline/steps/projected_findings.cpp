@@ -1,7 +1,8 @@
 #include "pipeline/steps/projected_findings.h"
 
-#include <cstdio>
 #include <stdexcept>
+
+#include "pipeline/frame/sentence.h"
 
 namespace mammotwin {
 namespace {
@@ -9,12 +10,10 @@ namespace {
 /// A lesion that the mesh does not hold has no position that could be trusted.
 void require_inside(const ProjectedLandmark& lesion) {
   if (lesion.outside_mm <= kLesionOutsideLimit_mm) return;
-  char text[200];
-  std::snprintf(text, sizeof text,
-                "lesion %s lies %.1f mm outside the breast's mesh; at most %.0f mm can be carried: "
-                "look at the chest wall and at the lesion's place in the report",
-                lesion.landmark.id.c_str(), lesion.outside_mm, kLesionOutsideLimit_mm);
-  throw std::runtime_error(text);
+  throw std::runtime_error(
+      sentence("lesion %s lies %.1f mm outside the breast's mesh; at most %.0f mm can be carried: "
+               "look at the chest wall and at the lesion's place in the report",
+               lesion.landmark.id.c_str(), lesion.outside_mm, kLesionOutsideLimit_mm));
 }
 
 }  // namespace

@@ -1,8 +1,8 @@
 #include "pipeline/steps/registration_products.h"
 
-#include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "pipeline/frame/sentence.h"
 #include "pipeline/steps/breast_problem.h"
 #include "registration/carry/point_carrier.h"
 #include "registration/carry/supine_place.h"
@@ -42,12 +42,10 @@ void describe_spread(const Findings& findings, std::vector<MarkupPoint>& points)
   for (std::size_t n = 0; n < findings.lesions.size(); ++n) {
     const Eigen::Vector3d semi =
         supine_semi_axes_mm(findings.lesions[n].prone_in_lps, findings.nipple.prone_in_lps);
-    char text[120];
-    std::snprintf(text, sizeof text,
-                  "90 %%, seen from the nipple: within %.0f mm to the sides, %.0f mm in depth, "
-                  "%.0f mm along the body",
-                  semi.x(), semi.y(), semi.z());
-    points[n].description = text;
+    points[n].description = sentence(
+        "90 %%, seen from the nipple: within %.0f mm to the sides, %.0f mm in depth, "
+        "%.0f mm along the body",
+        semi.x(), semi.y(), semi.z());
   }
 }
 

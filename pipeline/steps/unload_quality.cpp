@@ -1,21 +1,14 @@
 #include "pipeline/steps/unload_quality.h"
 
 #include <cmath>
-#include <cstdio>
 
+#include "pipeline/frame/sentence.h"
 #include "pipeline/steps/quality_limits.h"
 
 namespace mammotwin {
 namespace {
 
 using nlohmann::json;
-
-template <class... Values>
-std::string sentence(const char* format, Values... values) {
-  char text[240];
-  std::snprintf(text, sizeof text, format, values...);
-  return text;
-}
 
 json optional_number(const std::optional<double>& value) { return value ? json(*value) : json(); }
 

@@ -2,10 +2,10 @@
 
 #include <cmath>
 #include <csignal>
-#include <cstdio>
 #include <fstream>
 
 #include "pipeline/evaluate/cases/stage_command.h"
+#include "pipeline/frame/sentence.h"
 #include "pipeline/steps/quality_limits.h"
 
 namespace mammotwin {
@@ -16,13 +16,6 @@ using nlohmann::json;
 
 // What "reached" means.
 constexpr double kLeastFraction = 0.05;  // less than this is no compression
-
-template <class... Values>
-std::string sentence(const char* format, Values... values) {
-  char text[200];
-  std::snprintf(text, sizeof text, format, values...);
-  return text;
-}
 
 json new_row(const EvaluatedBreast& breast, const PreparedBreast& prepared, const AskedView& view) {
   json row = prepared.facts;
