@@ -107,7 +107,9 @@ Outcome run(const Arguments& args, const Patient& patient, StageRun& stage) {
   const Pose imaged = patient.imaged_pose(patient_position(args.segmentation));
   UnloadingRecord record;
   record.imaged = imaged;
-  if (imaged != Pose::none) record.coil = find_pressed_sides(prone);
+  if (imaged != Pose::none)
+    record.coil = patient.gravity.coil_roundness.value_or(0) > 0 ? sides_of(prone)
+                                                                 : find_pressed_sides(prone);
   const auto problem_with = [&](double factor) {
     BreastProblem problem = breast_problem(prone, tissue, patient.compression, factor);
     problem.gravity = gravity_in_lps(imaged);

@@ -45,8 +45,8 @@ void declare_gravity(Settings& s, GravitySettings& gravity) {
            {{"supine", Pose::supine}, {"standing", Pose::standing}, {"prone", Pose::prone}},
            "the pose of `unload.second_state`");
   s.number("unload.coil_roundness", gravity.coil_roundness, {0, 1.5},
-           "width over height of the front half, free of load, of a breast that the coil pressed "
-           "flat; 0: it stays as narrow as imaged");
+           "width over height of the front half, free of load, of a breast that the coil pressed; "
+           "default: 0.8 for one that shows it; 0: it stays as narrow as imaged");
 }
 
 }  // namespace mammotwin

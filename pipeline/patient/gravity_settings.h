@@ -23,8 +23,9 @@ struct GravitySettings {
   double density_kg_per_m3 = 1000;  ///< of breast tissue: fat 920, fibroglandular 1035
   std::optional<std::filesystem::path> second_state;  ///< the same breast in another pose
   Pose second_gravity = Pose::supine;
-  double coil_roundness =
-      0.8;  ///< Roundness free of load of a breast that a coil pressed; 0: as it is
+  /// Roundness free of load of a breast that a coil pressed; 0: as it is. Not given:
+  /// release_from_coil judges by the image.
+  std::optional<double> coil_roundness;
 
   double density() const { return density_kg_per_m3 * 1e-9; }  ///< [kg/mm³]
 };

@@ -7,20 +7,23 @@
 namespace mammotwin {
 namespace {
 
-constexpr double kQuiteFlat = 0.45;  // of the roundness as imaged: let go altogether
+constexpr double kFreeOfLoad = 0.8;  // as round as breasts are without load
+
+constexpr double kQuiteFlat = 0.5;  // as imaged: let go altogether
 
 /// The nearer a breast is to one that hangs, the less it was pressed: no breast is let go by more
 /// than its neighbour for a hair.
-double wanted_roundness(double imaged, double asked) {
+double likely_roundness(double imaged) {
   const double flat = std::clamp((kFlat - imaged) / (kFlat - kQuiteFlat), 0.0, 1.0);
-  return imaged + flat * (asked - imaged);
+  return imaged + flat * (kFreeOfLoad - imaged);
 }
 
 }  // namespace
 
 std::optional<CoilRelease> release_from_coil(const BreastProblem& imaged, const PressedSides& sides,
-                                             double roundness, const Progress& progress) {
-  const double wanted = wanted_roundness(sides.roundness, roundness);
+                                             std::optional<double> roundness,
+                                             const Progress& progress) {
+  const double wanted = roundness.value_or(likely_roundness(sides.roundness));
   if (sides.roundness >= wanted) return std::nullopt;
   BreastProblem problem = imaged;
   problem.pressed = pressed_skin(imaged.mesh, sides);

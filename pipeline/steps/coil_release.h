@@ -12,11 +12,13 @@ struct CoilRelease {
   SkinWayFit fit;  ///< its figure is the Roundness
 };
 
-/// `imaged`: the breast as `unload` takes it. One less round than 0.45 gets what is asked, one from
-/// kFlat on (in which plates show, but did little) stays as it is, between them in proportion.
+/// `imaged`: the breast as `unload` takes it; `roundness`: what it is to have free of load. Where
+/// nobody says, one less round than 0.5 gets 0.8, one from kFlat on (in which plates show, but did
+/// little) stays as it is, between them in proportion.
 /// Empty where it is as round already, or no shape with its skin farther out was found.
 std::optional<CoilRelease> release_from_coil(const BreastProblem& imaged, const PressedSides& sides,
-                                             double roundness, const Progress& progress = {});
+                                             std::optional<double> roundness,
+                                             const Progress& progress = {});
 
 /// The breast unloaded, let go as far as that says, or a half or a quarter as far: no farther than
 /// that, loaded again, it rests where it was imaged. What came of it is put into the problem and

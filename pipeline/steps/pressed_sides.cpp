@@ -1,10 +1,10 @@
 #include "pipeline/steps/pressed_sides.h"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "pipeline/steps/breast_reach.h"
 #include "pipeline/steps/skin_samples.h"
@@ -66,19 +66,35 @@ PressedEllipse pressed_ellipse(const std::vector<SkinSample>& skin, const Eigen:
   return ellipse;
 }
 
-/// The horizontal direction that most of the skin before the wall faces, one way or the other: of a
-/// flat breast that of its sides, however the body is turned. From side to side where that is
-/// nearer to forward, as of a shallow one.
+/// The horizontal direction to whose two sides most skin before the wall faces: of a flat breast
+/// that of its sides, however the body is turned. What faces one side only counts for nothing, for
+/// plates come in pairs, and on a shallow breast it is the slope beside the nipple.
 Eigen::Vector3d facing_direction(const MeshFile& imaged) {
+  constexpr int most_deg = 45;
   const double wall = breast_reach(imaged, kForward).wall;
-  Eigen::Matrix2d sum = Eigen::Matrix2d::Zero();
-  for (const SkinSample& s : skin_samples(imaged, kSkinSamples))
-    if (kForward.dot(s.x) > wall)
-      sum += s.area * s.outward.head<2>() * s.outward.head<2>().transpose();
-  const Eigen::Vector2d most =
-      Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(sum).eigenvectors().col(1);
-  if (std::abs(most.x()) < std::abs(most.y())) return Eigen::Vector3d::UnitX();
-  return std::copysign(1, most.x()) * Eigen::Vector3d(most.x(), most.y(), 0);
+  const std::vector<SkinSample> skin = skin_samples(imaged, kSkinSamples);
+  const auto at = [](double degrees) {
+    const double angle = degrees * std::numbers::pi / 180;
+    return Eigen::Vector3d(std::cos(angle), std::sin(angle), 0);
+  };
+  const auto both_sides = [&](int degrees) {
+    double sides[] = {0, 0};
+    for (const SkinSample& s : skin) {
+      const double cosine = at(degrees).dot(s.outward);
+      if (kForward.dot(s.x) > wall) sides[cosine > 0] += s.area * std::pow(cosine, 8);
+    }
+    return sides[0] * sides[1];
+  };
+  int best = 0;
+  double most = 0;
+  for (int k = 0; k <= 2 * most_deg; ++k) {
+    const int degrees = (k + 1) / 2 * (k % 2 == 0 ? 1 : -1);  // from the middle to either side
+    const double here = both_sides(degrees);
+    if (here > most) best = degrees, most = here;
+  }
+  if (most == 0 || std::abs(best) == most_deg) return Eigen::Vector3d::UnitX();
+  const double before = both_sides(best - 1), after = both_sides(best + 1);
+  return at(best + 0.5 * (before - after) / (before - 2 * most + after));
 }
 
 }  // namespace
@@ -120,11 +136,16 @@ double Roundness::of(const std::vector<HermiteMesh::Node>& shape) const {
   return std::sqrt(variances.x() / variances.y());
 }
 
-std::optional<PressedSides> find_pressed_sides(const MeshFile& imaged) {
+PressedSides sides_of(const MeshFile& imaged) {
   PressedSides sides;
   sides.plates = find_coil_plates(imaged);
   sides.across = sides.plates ? sides.plates->across : facing_direction(imaged);
   sides.roundness = Roundness(imaged, sides.across).of(imaged.mesh.nodes());
+  return sides;
+}
+
+std::optional<PressedSides> find_pressed_sides(const MeshFile& imaged) {
+  const PressedSides sides = sides_of(imaged);
   if (!sides.plates && sides.roundness >= kFlat) return std::nullopt;
   return sides;
 }

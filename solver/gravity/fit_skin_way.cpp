@@ -8,7 +8,7 @@
 namespace mammotwin {
 namespace {
 
-constexpr double kMostWay_mm = 60, kStride_mm = 6, kFigurePrecision = 0.01;
+constexpr double kMostWay_mm = 60, kStride_mm = 6, kFigurePrecision = 0.001;
 constexpr int kMostHalvings = 4;
 
 struct Trial {

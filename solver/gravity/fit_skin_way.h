@@ -15,7 +15,7 @@ struct SkinWayFit {
 };
 
 /// How far `imaged.pressed` must go outward for the shape free of load to have that figure, from
-/// 0 to 60 mm, to 0.01 of the figure. Where that is not reached, the farthest way that was solved.
+/// 0 to 60 mm, to 0.001 of the figure. Where that is not reached, the farthest way that was solved.
 SkinWayFit fit_skin_way(const BreastProblem& imaged, const ShapeFigure& figure, double wanted,
                         const UnloadOptions& options, const Progress& progress = {});
 

@@ -31,6 +31,15 @@ TEST(PressedSides, AreSeenByTheirPlanesOrByAShapeThatNoneHas) {
   EXPECT_FALSE(find_pressed_sides(dome_breast({4, 4, 2})));
 }
 
+TEST(PressedSides, AreBothAndNotTheSlopeOfOne) {
+  MeshFile breast = pressed_breast(0, 0);
+  breast.mesh = mapped_mesh({3, 3, 2}, [](const Eigen::Vector3d& xi) {
+    const double steep = -30, slope = 90 - 60 * xi.z();  // it faces 41 degrees forward
+    return Eigen::Vector3d(steep + xi.x() * (slope - steep), -70 * xi.z(), 100 * xi.y());
+  });
+  EXPECT_GT(sides_of(breast).across.x(), 0.9);
+}
+
 TEST(PressedSides, TheMiddleOfEachGoesOutwardAndTheTipDoesNot) {
   const MeshFile breast = pressed_breast(0, 0);
   const PressedSkin skin = pressed_skin(breast, *find_pressed_sides(breast));
