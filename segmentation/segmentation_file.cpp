@@ -20,7 +20,7 @@
 namespace mammotwin {
 namespace {
 
-using Keys = std::map<std::string, std::string>;
+using Keys = HeaderKeys;
 
 template <class T>
 FileGrid grid_of(const Volume<T>& volume) {
@@ -214,13 +214,12 @@ void write_nifti_image(const std::filesystem::path& path, const Volume<float>& i
 Segmentation read_segmentation(const std::filesystem::path& labels,
                                const std::filesystem::path& fractions) {
   Segmentation s;
-  const Volume<std::uint16_t> wide = read_labels(labels);
+  Keys keys;
+  const Volume<std::uint16_t> wide = read_labels(labels, &keys);
   s.labels = wide.like<std::uint8_t>(0);
   for (std::size_t v = 0; v < wide.values.size(); ++v)
     s.labels.values[v] = static_cast<std::uint8_t>(wide.values[v]);
   try {
-    Keys keys;
-    read_raw_image(labels, &keys);
     read_own_keys(keys, s);
   } catch (const std::exception& error) {
     throw std::runtime_error(labels.string() + ": " + error.what());

@@ -1,9 +1,13 @@
 #pragma once
 
 #include <array>
+#include <map>
+#include <string>
 #include <vector>
 
 namespace mammotwin {
+
+using HeaderKeys = std::map<std::string, std::string>;  ///< of an image file, beside its geometry
 
 /// An image in plain arrays: what passes to and from ITK, whose own copy of Eigen must not meet
 /// the project's in one translation unit.

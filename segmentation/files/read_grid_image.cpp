@@ -17,8 +17,8 @@ void check_is_there(const fs::path& path) {
     throw std::runtime_error("is empty (0 bytes); expected an image (copy or export it again)");
 }
 
-GridImage read_grid_image(const fs::path& path) {
-  RawImage raw = read_raw_image(path);
+GridImage read_grid_image(const fs::path& path, HeaderKeys* keys) {
+  RawImage raw = read_raw_image(path, keys);
   GridImage image;
   image.size = Eigen::Map<const Eigen::Vector3i>(raw.size.data());
   image.spacing = Eigen::Map<const Eigen::Vector3d>(raw.spacing.data());

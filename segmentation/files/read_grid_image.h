@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "segmentation/files/grid_image.h"
+#include "segmentation/files/raw_image.h"
 
 namespace mammotwin {
 
@@ -10,7 +11,8 @@ namespace mammotwin {
 /// there: a pipe or a device may never end.
 void check_is_there(const std::filesystem::path& path);
 
-/// Reads NIfTI, NRRD or MetaImage as it lies in the file. Throws as read_raw_image does.
-GridImage read_grid_image(const std::filesystem::path& path);
+/// Reads NIfTI, NRRD or MetaImage as it lies in the file, and its header's `keys`, where wanted.
+/// Throws as read_raw_image does.
+GridImage read_grid_image(const std::filesystem::path& path, HeaderKeys* keys = nullptr);
 
 }  // namespace mammotwin

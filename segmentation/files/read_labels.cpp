@@ -8,13 +8,13 @@
 
 namespace mammotwin {
 
-Volume<std::uint16_t> read_labels(const std::filesystem::path& path) {
+Volume<std::uint16_t> read_labels(const std::filesystem::path& path, HeaderKeys* keys) {
   try {
     check_is_there(path);
     if (!is_image_file_name(path))
       throw std::runtime_error("is not a label map; expected .nii, .nii.gz, .nrrd, .mha or .mhd");
     std::vector<std::string> notes;
-    const Volume<float> raw = to_lps_grid(read_grid_image(path), Between::nearest, notes);
+    const Volume<float> raw = to_lps_grid(read_grid_image(path, keys), Between::nearest, notes);
     auto labels = raw.like<std::uint16_t>();
     for (std::size_t n = 0; n < raw.values.size(); ++n) {
       const float value = raw.values[n];

@@ -157,8 +157,6 @@ std::vector<float> as_floats(const std::vector<char>& bytes, itk::IOComponentEnu
       return as_floats<unsigned long>(bytes);
     case C::LONG:
       return as_floats<long>(bytes);
-    case C::FLOAT:
-      return as_floats<float>(bytes);
     case C::DOUBLE:
       return as_floats<double>(bytes);
     default:
@@ -166,7 +164,30 @@ std::vector<float> as_floats(const std::vector<char>& bytes, itk::IOComponentEnu
   }
 }
 
-void collect_keys(const itk::ImageIOBase& io, std::map<std::string, std::string>& keys) {
+void read_bytes(itk::ImageIOBase& io, void* bytes) {
+  try {
+    io.Read(bytes);
+  } catch (const itk::ExceptionObject&) {
+    throw std::runtime_error("its voxels cannot be read; expected " +
+                             std::to_string(io.GetImageSizeInBytes()) +
+                             " bytes of them, the file is truncated or damaged (copy or export it "
+                             "again)");
+  }
+}
+
+std::vector<float> read_values(itk::ImageIOBase& io) {
+  const auto size = static_cast<std::size_t>(io.GetImageSizeInBytes());
+  if (io.GetComponentType() == itk::IOComponentEnum::FLOAT) {
+    std::vector<float> values(size / sizeof(float));
+    read_bytes(io, values.data());
+    return values;
+  }
+  std::vector<char> bytes(size);
+  read_bytes(io, bytes.data());
+  return as_floats(bytes, io.GetComponentType());
+}
+
+void collect_keys(const itk::ImageIOBase& io, HeaderKeys& keys) {
   const itk::MetaDataDictionary& dictionary = io.GetMetaDataDictionary();
   for (const std::string& key : dictionary.GetKeys())
     if (std::string value; itk::ExposeMetaData(dictionary, key, value)) keys[key] = value;
@@ -181,11 +202,9 @@ bool is_image_file_name(const fs::path& path) {
 
 void try_raw_header(const fs::path& path) { open_header(path); }
 
-RawImage read_raw_image(const fs::path& path, std::map<std::string, std::string>* keys,
-                        int components) {
+RawImage read_raw_image(const fs::path& path, HeaderKeys* keys, int components) {
   const itk::ImageIOBase::Pointer io = read_header(path);
   RawImage image;
-  std::vector<char> bytes;
   check_dimensions(*io, static_cast<unsigned>(components));
   check_spacing(*io);
   check_nifti(path, *io);
@@ -194,21 +213,13 @@ RawImage read_raw_image(const fs::path& path, std::map<std::string, std::string>
   for (unsigned d = 0; d < io->GetNumberOfDimensions(); ++d)
     region.SetSize(d, io->GetDimensions(d));
   io->SetIORegion(region);
-  bytes.resize(static_cast<std::size_t>(io->GetImageSizeInBytes()));
-  try {
-    io->Read(bytes.data());
-  } catch (const itk::ExceptionObject&) {
-    throw std::runtime_error("its voxels cannot be read; expected " + std::to_string(bytes.size()) +
-                             " bytes of them, the file is truncated or damaged (copy or export it "
-                             "again)");
-  }
+  image.values = read_values(*io);
   for (int d = 0; d < 3; ++d) {
     image.size[d] = static_cast<int>(io->GetDimensions(d));
     image.spacing[d] = io->GetSpacing(d);
     image.origin[d] = io->GetOrigin(d);
     for (int r = 0; r < 3; ++r) image.direction[3 * r + d] = io->GetDirection(d)[r];
   }
-  image.values = as_floats(bytes, io->GetComponentType());
   if (keys) collect_keys(*io, *keys);
   return image;
 }

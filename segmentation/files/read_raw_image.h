@@ -1,8 +1,6 @@
 #pragma once
 
 #include <filesystem>
-#include <map>
-#include <string>
 
 #include "segmentation/files/raw_image.h"
 
@@ -19,7 +17,7 @@ void try_raw_header(const std::filesystem::path& path);
 /// fourth is 1. `components` values a voxel are expected, and lie together. `keys`, where given,
 /// receives the header's key/value pairs. Throws std::runtime_error without the path, which the
 /// caller adds.
-RawImage read_raw_image(const std::filesystem::path& path,
-                        std::map<std::string, std::string>* keys = nullptr, int components = 1);
+RawImage read_raw_image(const std::filesystem::path& path, HeaderKeys* keys = nullptr,
+                        int components = 1);
 
 }  // namespace mammotwin
