@@ -70,7 +70,8 @@ PressedEllipse pressed_ellipse(const std::vector<SkinSample>& skin, const Eigen:
 /// that of its sides, however the body is turned. What faces one side only counts for nothing, for
 /// plates come in pairs, and on a shallow breast it is the slope beside the nipple.
 Eigen::Vector3d facing_direction(const MeshFile& imaged) {
-  constexpr int most_deg = 45;
+  constexpr int most_deg = 45;  // off from side to side
+  constexpr int sharpness = 8;  // skin 24 degrees off counts half
   const double wall = breast_reach(imaged, kForward).wall;
   const std::vector<SkinSample> skin = skin_samples(imaged, kSkinSamples);
   const auto at = [](double degrees) {
@@ -81,7 +82,7 @@ Eigen::Vector3d facing_direction(const MeshFile& imaged) {
     double sides[] = {0, 0};
     for (const SkinSample& s : skin) {
       const double cosine = at(degrees).dot(s.outward);
-      if (kForward.dot(s.x) > wall) sides[cosine > 0] += s.area * std::pow(cosine, 8);
+      if (kForward.dot(s.x) > wall) sides[cosine > 0] += s.area * std::pow(cosine, sharpness);
     }
     return sides[0] * sides[1];
   };
