@@ -40,7 +40,8 @@ struct PressedSides {
 /// of MRI, a drawn one 0.58; eight sides of four patients between a coil's plates 0.33 to 0.50.
 inline constexpr double kFlat = 0.55;
 
-/// The sides that a coil may have pressed: those that its plates show, or that most skin faces.
+/// The sides that a coil may have pressed: those that its plates show, or that most skin faces, as
+/// much of it one as the other.
 PressedSides sides_of(const MeshFile& imaged);
 
 /// Where the skin shows plates, or the breast is flat.
