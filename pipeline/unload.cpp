@@ -2,6 +2,7 @@
 
 #include "solver/gravity/unload.h"
 
+#include <algorithm>
 #include <fstream>
 
 #include "pipeline/frame/sidecar.h"
@@ -108,8 +109,8 @@ Outcome run(const Arguments& args, const Patient& patient, StageRun& stage) {
   UnloadingRecord record;
   record.imaged = imaged;
   if (imaged != Pose::none)
-    record.coil = patient.gravity.coil_roundness.value_or(0) > 0 ? sides_of(prone)
-                                                                 : find_pressed_sides(prone);
+    record.coil =
+        find_pressed_sides(prone, std::max(kFlat, patient.gravity.coil_roundness.value_or(0)));
   const auto problem_with = [&](double factor) {
     BreastProblem problem = breast_problem(prone, tissue, patient.compression, factor);
     problem.gravity = gravity_in_lps(imaged);

@@ -20,8 +20,6 @@
 namespace mammotwin {
 namespace {
 
-using Keys = HeaderKeys;
-
 template <class T>
 FileGrid grid_of(const Volume<T>& volume) {
   FileGrid grid;
@@ -82,10 +80,10 @@ std::string join(const Numbers& numbers) {
   return text.str();
 }
 
-Keys slicer_keys(const Segmentation& segmentation) {
-  Keys keys{{"Segmentation_ContainedRepresentationNames", "Binary labelmap|"},
-            {"Segmentation_MasterRepresentation", "Binary labelmap"},
-            {"Segmentation_ReferenceImageExtentOffset", "0 0 0"}};
+HeaderKeys slicer_keys(const Segmentation& segmentation) {
+  HeaderKeys keys{{"Segmentation_ContainedRepresentationNames", "Binary labelmap|"},
+                  {"Segmentation_MasterRepresentation", "Binary labelmap"},
+                  {"Segmentation_ReferenceImageExtentOffset", "0 0 0"}};
   int n = 0;
   for (const auto& [value, extent] : extents(segmentation.labels)) {
     const SegmentLook look = look_of(value, segmentation.lesions);
@@ -105,7 +103,7 @@ Keys slicer_keys(const Segmentation& segmentation) {
   return keys;
 }
 
-void add_own_keys(const Segmentation& s, Keys& keys) {
+void add_own_keys(const Segmentation& s, HeaderKeys& keys) {
   const BreastRegion& r = s.region;
   keys["mammotwin_side"] = r.side == Side::left ? "left" : "right";
   keys["mammotwin_region_mm"] = join(std::array<double, 4>{r.x_min, r.x_max, r.z_min, r.z_max});
@@ -119,7 +117,7 @@ void add_own_keys(const Segmentation& s, Keys& keys) {
   }
 }
 
-std::vector<double> numbers(const Keys& keys, const std::string& key, std::size_t count) {
+std::vector<double> numbers(const HeaderKeys& keys, const std::string& key, std::size_t count) {
   const auto found = keys.find(key);
   if (found == keys.end()) return {};
   std::istringstream text(found->second);
@@ -131,7 +129,7 @@ std::vector<double> numbers(const Keys& keys, const std::string& key, std::size_
   return out;
 }
 
-std::vector<Lesion> own_lesions(const Keys& keys) {
+std::vector<Lesion> own_lesions(const HeaderKeys& keys) {
   std::vector<Lesion> lesions;
   for (;;) {
     const std::string key = "mammotwin_lesion" + std::to_string(lesions.size());
@@ -159,7 +157,7 @@ Side side_with_labels(const Volume<std::uint8_t>& labels) {
   return sum > 0 ? Side::left : Side::right;
 }
 
-void read_own_keys(const Keys& keys, Segmentation& s) {
+void read_own_keys(const HeaderKeys& keys, Segmentation& s) {
   if (const auto side = keys.find("mammotwin_side"); side != keys.end())
     s.region.side = side->second == "left" ? Side::left : Side::right;
   else
@@ -189,7 +187,7 @@ Volume<Fractions> read_fractions(const std::filesystem::path& path) {
 }  // namespace
 
 void write_segmentation(const std::filesystem::path& path, const Segmentation& segmentation) {
-  Keys keys = slicer_keys(segmentation);
+  HeaderKeys keys = slicer_keys(segmentation);
   add_own_keys(segmentation, keys);
   write_nrrd(path, grid_of(segmentation.labels), segmentation.labels.values.data(), 1, keys);
 }
@@ -214,7 +212,7 @@ void write_nifti_image(const std::filesystem::path& path, const Volume<float>& i
 Segmentation read_segmentation(const std::filesystem::path& labels,
                                const std::filesystem::path& fractions) {
   Segmentation s;
-  Keys keys;
+  HeaderKeys keys;
   const Volume<std::uint16_t> wide = read_labels(labels, &keys);
   s.labels = wide.like<std::uint8_t>(0);
   for (std::size_t v = 0; v < wide.values.size(); ++v)

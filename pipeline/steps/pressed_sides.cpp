@@ -137,17 +137,12 @@ double Roundness::of(const std::vector<HermiteMesh::Node>& shape) const {
   return std::sqrt(variances.x() / variances.y());
 }
 
-PressedSides sides_of(const MeshFile& imaged) {
+std::optional<PressedSides> find_pressed_sides(const MeshFile& imaged, double flat) {
   PressedSides sides;
   sides.plates = find_coil_plates(imaged);
   sides.across = sides.plates ? sides.plates->across : facing_direction(imaged);
   sides.roundness = Roundness(imaged, sides.across).of(imaged.mesh.nodes());
-  return sides;
-}
-
-std::optional<PressedSides> find_pressed_sides(const MeshFile& imaged) {
-  const PressedSides sides = sides_of(imaged);
-  if (!sides.plates && sides.roundness >= kFlat) return std::nullopt;
+  if (!sides.plates && sides.roundness >= flat) return std::nullopt;
   return sides;
 }
 

@@ -36,16 +36,13 @@ struct PressedSides {
   Eigen::Vector3d across = Eigen::Vector3d::UnitX();
 };
 
-/// Less round than any breast that hangs: those have 0.61 to 1.01 on 20 sides of label maps and one
-/// of MRI, a drawn one 0.58; eight sides of four patients between a coil's plates 0.33 to 0.50.
-inline constexpr double kFlat = 0.55;
+/// Less round than any breast that hangs: those have 0.61 to 1.01 on 20 sides of label maps (plates
+/// show on three, but did little) and one of MRI, eight sides of four patients between a coil's
+/// plates 0.33 to 0.50, a drawn breast pressed by a quarter 0.58.
+inline constexpr double kFlat = 0.6;
 
-/// The sides that a coil may have pressed: those that its plates show, or that most skin faces, as
-/// much of it one as the other.
-PressedSides sides_of(const MeshFile& imaged);
-
-/// Where the skin shows plates, or the breast is flat.
-std::optional<PressedSides> find_pressed_sides(const MeshFile& imaged);
+/// Where the skin shows plates, or the breast is less round than `flat`.
+std::optional<PressedSides> find_pressed_sides(const MeshFile& imaged, double flat = kFlat);
 
 /// Their skin, as far as it faces its side and lies in front of the chest wall: an ellipse on each,
 /// whose middle goes outward farthest.

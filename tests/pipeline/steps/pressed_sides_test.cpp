@@ -37,7 +37,11 @@ TEST(PressedSides, AreBothAndNotTheSlopeOfOne) {
     const double steep = -30, slope = 90 - 60 * xi.z();  // it faces 41 degrees forward
     return Eigen::Vector3d(steep + xi.x() * (slope - steep), -70 * xi.z(), 100 * xi.y());
   });
-  EXPECT_GT(sides_of(breast).across.x(), 0.9);
+  const double any = 10;
+  const auto sides = find_pressed_sides(breast, any);
+  ASSERT_TRUE(sides);
+  EXPECT_GT(sides->across.x(), 0.9);
+  EXPECT_FALSE(find_pressed_sides(breast));
 }
 
 TEST(PressedSides, TheMiddleOfEachGoesOutwardAndTheTipDoesNot) {
