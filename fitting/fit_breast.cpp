@@ -14,6 +14,7 @@
 #include "fitting/mirror.h"
 #include "fitting/solve/fit_mesh.h"
 #include "fitting/surface/skin_to_fit.h"
+#include "segmentation/mirrored.h"
 
 namespace mammotwin {
 

@@ -5,20 +5,11 @@
 #include "fitting/mesh/bezier.h"
 #include "fitting/mesh/block_mesh.h"
 #include "fitting/slab/slab.h"
-#include "segmentation/image/flipped.h"
+#include "segmentation/mirrored.h"
 
 namespace mammotwin {
 
 namespace {
-
-Eigen::Vector3d mirrored(const Eigen::Vector3d& x) { return {-x.x(), x.y(), x.z()}; }
-
-template <class T>
-Volume<T> mirrored(const Volume<T>& image) {
-  Volume<T> result = flipped(image);
-  result.origin.x() = -image.position(image.size.x() - 1, 0, 0).x();
-  return result;
-}
 
 /// ξ₁ runs the other way, too: parameters that are differentiated along it change their sign twice
 /// in x and once in y and z.
@@ -60,16 +51,6 @@ PointField mirrored(const PointField& field, const HermiteMesh& mesh, const Slab
 }
 
 }  // namespace
-
-Segmentation mirrored(const Segmentation& s) {
-  Segmentation result{mirrored(s.labels), mirrored(s.fractions), s.region, s.lesions,
-                      mirrored(s.nipple_in_lps)};
-  result.region.side = s.region.side == Side::left ? Side::right : Side::left;
-  result.region.x_min = -s.region.x_max;
-  result.region.x_max = -s.region.x_min;
-  for (Lesion& lesion : result.lesions) lesion.centroid_in_lps = mirrored(lesion.centroid_in_lps);
-  return result;
-}
 
 ScannedSkin mirrored(const ScannedSkin& scan) {
   ScannedSkin result = scan;

@@ -4,8 +4,7 @@
 
 namespace mammotwin {
 
-/// What a breast is on the other side of the plane x = 0: left and right, the same otherwise.
-Segmentation mirrored(const Segmentation& segmentation);
+/// What a skin is on the other side of the plane x = 0 (segmentation/mirrored.h).
 ScannedSkin mirrored(const ScannedSkin& scan);
 
 /// Of a fit whose mesh is a slab of `report.elements`: elements are numbered anew, so that ξ₁ runs

@@ -2,6 +2,8 @@
 
 #include <stdexcept>
 
+#include "segmentation/mirrored.h"
+
 namespace mammotwin {
 namespace {
 
@@ -22,6 +24,7 @@ std::optional<Mri> read_beside(const std::optional<std::filesystem::path>& file,
   try {
     Mri mri = read_mri(file ? *file : folder, named ? series : std::optional(chosen->uid));
     result.files.insert(result.files.end(), mri.files.begin(), mri.files.end());
+    if (result.quality.in_mirror) mri.image = mirrored(mri.image);
     return mri;
   } catch (const std::exception&) {
     if (named) throw;

@@ -9,6 +9,8 @@
 
 namespace mammotwin {
 
+// Both are seen in a mirror where `result.quality` is (`in_mirror`), as `body` then is.
+
 /// The image before contrast agent, if one is named, laid on the one after it; of a dynamic study
 /// the phase before the one that was chosen, where that shows uptake.
 BeforeAgent read_before_agent(const Mri& mri, const SegmentInput& input, const BodyStage& body,

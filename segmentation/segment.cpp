@@ -11,6 +11,7 @@
 #include "segmentation/image/crop.h"
 #include "segmentation/image/distance.h"
 #include "segmentation/label_maps/segment_labels.h"
+#include "segmentation/mirrored.h"
 #include "segmentation/mri/read_mri.h"
 #include "segmentation/segment_limits.h"
 #include "segmentation/segment_mri.h"
@@ -70,13 +71,21 @@ Volume<float> look_of(const SegmentResult& result) {
 
 /// Gland below the skin of a label map is no areola: without an image only a papilla tells, and
 /// only where nothing else on the skin looks like one.
-Nipple nipple_of(const SegmentResult& result) {
+Nipple nipple_of(const Volume<std::uint8_t>& labels, const BreastRegion& region,
+                 const Volume<float>& look, bool has_image) {
   constexpr double most_sd_mm = 10;
+  const Nipple nipple = find_nipple(labels, region, look);
+  const bool is_seen = has_image || (!nipple.papilla.values.empty() && nipple.sd_mm <= most_sd_mm);
+  return is_seen ? nipple : unknown_nipple(labels, region);
+}
+
+/// A right breast's as that of the left one that it mirrors.
+Nipple nipple_of(const SegmentResult& result) {
   const Segmentation& s = result.segmentation;
-  const Nipple nipple = find_nipple(s.labels, s.region, look_of(result));
-  const bool is_seen = !result.image.values.empty() ||
-                       (!nipple.papilla.values.empty() && nipple.sd_mm <= most_sd_mm);
-  return is_seen ? nipple : unknown_nipple(s.labels, s.region);
+  const bool has_image = !result.image.values.empty();
+  const Volume<float> look = look_of(result);
+  if (s.region.side == Side::left) return nipple_of(s.labels, s.region, look, has_image);
+  return mirrored(nipple_of(mirrored(s.labels), mirrored(s.region), mirrored(look), has_image));
 }
 
 void place_nipple(const SegmentInput& input, SegmentResult& result) {

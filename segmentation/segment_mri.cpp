@@ -17,6 +17,7 @@
 #include "segmentation/lesion/lesion_seed.h"
 #include "segmentation/lesion/lesion_stage.h"
 #include "segmentation/lesion/measure_lesions.h"
+#include "segmentation/mirrored.h"
 #include "segmentation/mri/read_mri.h"
 #include "segmentation/segment_limits.h"
 #include "segmentation/shading/correct_shading.h"
@@ -187,27 +188,32 @@ std::optional<Volume<std::uint8_t>> take_out_vessels(bool fat_suppressed,
   return vessels;
 }
 
-SegmentResult segment_image(const Mri& mri, const SegmentInput& input,
-                            const SegmentOptions& options, const SegmentProgress& progress) {
+/// What a left breast is segmented from. A right one is seen in a mirror, as the left one that it
+/// is there: the same breast gets the same labels on either side.
+struct LeftBreast {
+  BodyStage body;
   std::vector<PlacedSeed> seeds;
-  for (const LesionSeed& seed : input.lesions) seeds.push_back(place_seed(seed));
-  SegmentResult result;
-  result.files = mri.files;
-  result.quality.notes = mri.notes;
-  result.quality.series = mri.series;
-  judge_position(mri.patient_position, result.quality);
+  std::vector<Eigen::Vector3d> drawn;  ///< of the chest wall
+};
 
-  progress(0.10, "finding the outline");
-  const BodyStage body = find_body(mri.image, input.fat_suppressed, result.quality);
+LeftBreast in_mirror(const LeftBreast& right, const Mri& mri, const SegmentInput& input) {
+  SegmentQuality said;  // of the image itself, already
+  LeftBreast left{find_body(mirrored(mri.image), input.fat_suppressed, said), {}, {}};
+  for (const PlacedSeed& seed : right.seeds) left.seeds.push_back(mirrored(seed));
+  for (const Eigen::Vector3d& x : right.drawn) left.drawn.push_back(mirrored(x));
+  return left;
+}
+
+/// Labels, fractions and image of a left breast, without its lesions' names.
+void segment_left(const Mri& mri, const LeftBreast& breast, const SegmentInput& input,
+                  const SegmentOptions& options, const SegmentProgress& progress,
+                  SegmentResult& result) {
+  constexpr Side side = Side::left;
+  const BodyStage& body = breast.body;
+  const std::vector<PlacedSeed>& seeds = breast.seeds;
+  const std::vector<Eigen::Vector3d>& drawn = breast.drawn;
   BeforeAgent before = read_before_agent(mri, input, body, result);
-  if (!mri.geometry_known)
-    throw std::runtime_error(
-        "its header does not say where its frames stand; expected positions "
-        "and pixel spacing (export it as single slices)");
-  const Side side = choose_side(input, seeds, body);
   progress(0.35, "finding the chest wall");
-  std::vector<Eigen::Vector3d> drawn;
-  if (input.wall_markups) drawn = read_markups_points(*input.wall_markups);
   const WallStage wall = find_wall(body, before, side, options.wall_stiffness, drawn);
   if (!drawn.empty())
     result.quality.notes.push_back("the chest wall was drawn by hand, with " +
@@ -229,7 +235,7 @@ SegmentResult segment_image(const Mri& mri, const SegmentInput& input,
   const HalfImages coarse = cut_images(body, before, wall, box);
   const SkinStage skin = find_skin(coarse.noisy, cropped(body.body, box), body.frame);
   const HalfBreast half = half_breast(skin.surface.body, wall.found.wall, side);
-  check_seeds(half, seeds);
+  check_seeds(half, seeds, result.quality.in_mirror);
   offer_candidates(half, coarse.enhancement, result.quality);
   const HalfImages images = correct_shading(coarse, half, body.frame);
   progress(0.80, "finding the lesions");
@@ -254,16 +260,56 @@ SegmentResult segment_image(const Mri& mri, const SegmentInput& input,
   }
   const std::optional<Volume<std::uint8_t>> vessels =
       take_out_vessels(fat_suppressed, images.enhancement, wall.pre_match, masks.interior, split);
-  result.judge_in_region = [found = wall.found, frame = body.frame, other, slips, vessels](
-                               const BreastRegion& region, SegmentQuality& quality) {
+  result.judge_in_region = [found = wall.found, frame = body.frame, other, slips, vessels,
+                            reflected = result.quality.in_mirror](const BreastRegion& imaged,
+                                                                  SegmentQuality& quality) {
+    const BreastRegion region = reflected ? mirrored(imaged) : imaged;
+    quality.in_mirror = reflected;
     judge_wall(found, frame, region, quality);
     if (other) judge_compared_wall(found.wall, other->wall, frame, region, other->called, quality);
     judge_muscle_slips(slips, region, quality);
     if (vessels) quality.vessels_ml = volume_in(region, *vessels);
+    quality.in_mirror = false;
   };
   result.segmentation = labelled(half, skin.surface.depth, skin_mm, lesions, split);
   result.image = corrected_like(split, restored, images.denoised);
-  result.segmentation.lesions = named_lesions(result.segmentation.labels, seeds);
+}
+
+/// A left breast's result, seen in a mirror, as it was imaged.
+void turn_back(SegmentResult& result) {
+  result.segmentation = mirrored(result.segmentation);
+  result.image = mirrored(result.image);
+  for (LesionCandidate& found : result.quality.candidates)
+    found.centroid_in_lps = mirrored(found.centroid_in_lps);
+  result.quality.in_mirror = false;
+}
+
+SegmentResult segment_image(const Mri& mri, const SegmentInput& input,
+                            const SegmentOptions& options, const SegmentProgress& progress) {
+  LeftBreast breast;
+  for (const LesionSeed& seed : input.lesions) breast.seeds.push_back(place_seed(seed));
+  SegmentResult result;
+  result.files = mri.files;
+  result.quality.notes = mri.notes;
+  result.quality.series = mri.series;
+  judge_position(mri.patient_position, result.quality);
+
+  progress(0.10, "finding the outline");
+  breast.body = find_body(mri.image, input.fat_suppressed, result.quality);
+  if (!mri.geometry_known)
+    throw std::runtime_error(
+        "its header does not say where its frames stand; expected positions "
+        "and pixel spacing (export it as single slices)");
+  const Side side = choose_side(input, breast.seeds, breast.body);
+  if (input.wall_markups) breast.drawn = read_markups_points(*input.wall_markups);
+  result.quality.in_mirror = side == Side::right;
+  if (side == Side::left) {
+    segment_left(mri, breast, input, options, progress, result);
+  } else {
+    segment_left(mri, in_mirror(breast, mri, input), input, options, progress, result);
+    turn_back(result);
+  }
+  result.segmentation.lesions = named_lesions(result.segmentation.labels, breast.seeds);
   return result;
 }
 

@@ -5,6 +5,8 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "segmentation/mirrored.h"
+
 namespace mammotwin {
 namespace {
 
@@ -53,7 +55,9 @@ std::string place_text(const Eigen::Vector3d& x) {
   return text.str();
 }
 
-void SegmentQuality::doubt(SegmentStatus at_least, const Doubt& doubt) {
+void SegmentQuality::doubt(SegmentStatus at_least, const Doubt& told) {
+  Doubt doubt = told;
+  if (in_mirror && doubt.place_in_lps) doubt.place_in_lps = mirrored(*doubt.place_in_lps);
   status = std::max(status, at_least);
   // What a person can do about it (docs/correct_segmentation.md) is said once.
   const bool first = std::none_of(doubts.begin(), doubts.end(),

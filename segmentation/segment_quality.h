@@ -24,6 +24,7 @@ struct SegmentQuality {
   std::vector<SeriesRow> series;     ///< of which one was chosen; empty without a choice
 
   Side side = Side::left;
+  bool in_mirror = false;        ///< doubts' places are told of the mirror image (mirrored.h)
   std::string patient_position;  ///< DICOM's code ("HFP": head first, prone); empty: not known
   std::string contrast;          ///< "fat-suppressed", "not fat-suppressed" or "labels"
   double breast_volume_ml = 0, fat_ml = 0, fibroglandular_ml = 0, skin_ml = 0;  ///< in the region
@@ -50,8 +51,9 @@ struct SegmentQuality {
   std::vector<LesionCandidate> candidates;
   std::vector<double> lesion_agreement;  ///< Dice of two methods, one a lesion
 
-  /// Adds a doubt and its reason, which names the place and, the first time, what a person can do
-  /// about it; makes the status at least this bad.
+  /// Adds a doubt, its place turned back where that is told in a mirror, and its reason, which
+  /// names the place and, the first time, what a person can do about it; makes the status at least
+  /// this bad.
   void doubt(SegmentStatus at_least, const Doubt& doubt);
 };
 

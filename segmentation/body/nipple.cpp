@@ -10,6 +10,7 @@
 #include "segmentation/image/components.h"
 #include "segmentation/image/crop.h"
 #include "segmentation/image/distance.h"
+#include "segmentation/mirrored.h"
 
 namespace mammotwin {
 namespace {
@@ -230,6 +231,13 @@ void label_papilla(const Nipple& nipple, Segmentation& s) {
         value = label::skin;
         s.fractions(v.x(), v.y(), v.z()) = pure_fractions(label::skin);
       }
+}
+
+Nipple mirrored(Nipple nipple) {
+  nipple.tip_in_lps = mirrored(nipple.tip_in_lps);
+  nipple.rival_in_lps = mirrored(nipple.rival_in_lps);
+  if (!nipple.papilla.values.empty()) nipple.papilla = mirrored(nipple.papilla);
+  return nipple;
 }
 
 }  // namespace mammotwin

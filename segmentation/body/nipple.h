@@ -30,6 +30,8 @@ struct Nipple {
 Nipple find_nipple(const Volume<std::uint8_t>& labels, const BreastRegion& region,
                    const Volume<float>& look);
 
+Nipple mirrored(Nipple nipple);  ///< segmentation/mirrored.h
+
 /// Not found: taken as the most anterior point.
 Nipple unknown_nipple(const Volume<std::uint8_t>& labels, const BreastRegion& region);
 

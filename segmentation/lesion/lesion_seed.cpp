@@ -4,6 +4,7 @@
 
 #include "segmentation/files/markups.h"
 #include "segmentation/files/read_labels.h"
+#include "segmentation/mirrored.h"
 
 namespace mammotwin {
 namespace {
@@ -44,6 +45,12 @@ PlacedSeed place_seed(const LesionSeed& seed) {
     return {seed.id, read_markups_point(*seed.markups), seed.radius_mm, std::nullopt};
   throw std::invalid_argument("lesion " + seed.id +
                               " has no place; expected a point, a markups file or a label map");
+}
+
+PlacedSeed mirrored(PlacedSeed seed) {
+  seed.point_in_lps = mirrored(seed.point_in_lps);
+  if (seed.mask) seed.mask = mirrored(*seed.mask);
+  return seed;
 }
 
 }  // namespace mammotwin

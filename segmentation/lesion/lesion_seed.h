@@ -19,4 +19,6 @@ struct PlacedSeed {
 /// file cannot be read, or a label map lacks the value.
 PlacedSeed place_seed(const LesionSeed& seed);
 
+PlacedSeed mirrored(PlacedSeed seed);  ///< segmentation/mirrored.h
+
 }  // namespace mammotwin

@@ -10,6 +10,7 @@
 #include "segmentation/image/distance.h"
 #include "segmentation/image/restored_image.h"
 #include "segmentation/lesion/lesion.h"
+#include "segmentation/mirrored.h"
 
 namespace mammotwin {
 namespace {
@@ -26,19 +27,21 @@ std::string text(const Eigen::Vector3d& x) {
   return out.str();
 }
 
-void check_inside(const HalfBreast& half, const Volume<float>& to_inside, const PlacedSeed& seed) {
+void check_inside(const HalfBreast& half, const Volume<float>& to_inside, const PlacedSeed& seed,
+                  bool in_mirror) {
   const Eigen::Vector3i v = half.inside.index(seed.point_in_lps).array().round().cast<int>();
   const bool on_grid = half.inside.contains(v.x(), v.y(), v.z());
   const double off = on_grid ? to_inside(v.x(), v.y(), v.z()) : INFINITY;
   if (off <= outside_tolerance_mm) return;
   std::ostringstream message;
-  message << "lesion " << seed.id << " at " << text(seed.point_in_lps) << " mm lies ";
+  message << "lesion " << seed.id << " at "
+          << text(in_mirror ? mirrored(seed.point_in_lps) : seed.point_in_lps) << " mm lies ";
   if (std::isfinite(off)) {
     message.precision(2);
     message << off << " mm ";
   }
   message
-      << "outside the " << to_string(half.side) << " breast"
+      << "outside the " << to_string(in_mirror ? mirrored(half.side) : half.side) << " breast"
       << (on_grid && half.body(v.x(), v.y(), v.z()) ? ", behind the chest wall" : "")
       << "; expected a point between its skin and chest wall in LPS [mm] (is it in cm, in RAS, or "
          "of the other side?)";
@@ -145,10 +148,10 @@ void paint_found(const FoundLesion& found, const std::vector<PlacedSeed>& seeds,
 
 }  // namespace
 
-void check_seeds(const HalfBreast& half, const std::vector<PlacedSeed>& seeds) {
+void check_seeds(const HalfBreast& half, const std::vector<PlacedSeed>& seeds, bool in_mirror) {
   if (seeds.empty()) return;
   const Volume<float> to_inside = distance_to(half.inside);
-  for (const PlacedSeed& seed : seeds) check_inside(half, to_inside, seed);
+  for (const PlacedSeed& seed : seeds) check_inside(half, to_inside, seed, in_mirror);
 }
 
 Volume<std::uint8_t> find_lesions(const HalfBreast& half, const HalfImages& images,

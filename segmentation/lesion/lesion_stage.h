@@ -9,8 +9,9 @@
 
 namespace mammotwin {
 
-/// Throws std::runtime_error, naming the lesion, if a seed lies outside the breast.
-void check_seeds(const HalfBreast& half, const std::vector<PlacedSeed>& seeds);
+/// Throws std::runtime_error, naming the lesion, if a seed lies outside the breast. `in_mirror`:
+/// both are seen so.
+void check_seeds(const HalfBreast& half, const std::vector<PlacedSeed>& seeds, bool in_mirror);
 
 /// Label per voxel of one half: 0, or `label::lesion` + n for seed n. Throws std::runtime_error if
 /// a ball or a map holds no voxel of the breast. Doubts go to `quality`.

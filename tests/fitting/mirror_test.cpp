@@ -6,6 +6,7 @@
 
 #include "fitting/mesh/bezier.h"
 #include "fitting/mesh/jacobian_bound.h"
+#include "segmentation/mirrored.h"
 #include "tests/fitting/dome.h"
 
 namespace mammotwin {

@@ -3,6 +3,7 @@
 #include <fstream>
 
 #include "segmentation/image/crop.h"
+#include "segmentation/mirrored.h"
 #include "segmentation/segment.h"
 #include "segmentation/segmentation_file.h"
 #include "tests/segmentation/message.h"
@@ -85,6 +86,36 @@ TEST(SegmentOfAnMri, TakesABreastImagedAlone) {
                   {"shows the left breast alone", "expected the right one"});
 }
 
+/// Both, of a phantom whose right breast has no gland: the lesion's side and what a mirror makes of
+/// it.
+TEST(SegmentOfAnMri, SegmentsARightBreastAsTheLeftOneThatItMirrors) {
+  const EmptyFolder folder("mirrored");
+  const Phantom phantom;
+  SegmentInput input = input_for(write_phantom(folder.path, phantom), phantom);
+  const SegmentResult left = segment(input, {});
+  write_image(folder.path / "mirrored.nrrd", mirrored(phantom.image()));
+  input.mri = folder.path / "mirrored.nrrd";
+  input.lesions[0].point_in_lps = mirrored(*input.lesions[0].point_in_lps);
+  const SegmentResult right = segment(input, {});
+  EXPECT_EQ(right.segmentation.region.side, Side::right);
+  const Segmentation back = mirrored(right.segmentation);
+  EXPECT_EQ(back.labels.values, left.segmentation.labels.values);
+  EXPECT_LT((back.labels.origin - left.segmentation.labels.origin).norm(), 1e-9);
+  EXPECT_EQ(mirrored(right.image).values, left.image.values);
+  EXPECT_LT((back.nipple_in_lps - left.segmentation.nipple_in_lps).norm(), 1e-9);
+  EXPECT_LT(
+      (back.lesions.at(0).centroid_in_lps - left.segmentation.lesions.at(0).centroid_in_lps).norm(),
+      1e-9);
+  ASSERT_EQ(right.quality.doubts.size(), left.quality.doubts.size());
+  for (std::size_t n = 0; n < left.quality.doubts.size(); ++n) {
+    ASSERT_EQ(right.quality.doubts[n].reason, left.quality.doubts[n].reason);
+    if (!left.quality.doubts[n].place_in_lps) continue;
+    const Eigen::Vector3d place = mirrored(*left.quality.doubts[n].place_in_lps);
+    EXPECT_LT((*right.quality.doubts[n].place_in_lps - place).norm(), 1e-9);
+    EXPECT_NE(right.quality.reasons[n].find(place_text(place)), std::string::npos);
+  }
+}
+
 TEST(SegmentOfAnMri, RefusesALesionOutsideTheBreast) {
   const EmptyFolder folder("outside");
   const Phantom phantom{.voxel_mm = 3};
@@ -96,6 +127,10 @@ TEST(SegmentOfAnMri, RefusesALesionOutsideTheBreast) {
     expect_mentions(message_of([&] { segment(input, {}); }),
                     {"mri.nrrd", "lesion L1", "outside the left breast", "LPS"});
   }
+  input.side = Side::right;
+  input.lesions[0].point_in_lps = {-75, 100, 0};
+  expect_mentions(message_of([&] { segment(input, {}); }),
+                  {"lesion L1 at [-75.0, 100.0, 0.0]", "outside the right breast"});
 }
 
 TEST(SegmentOfAnMri, KeepsTwoLesionsThatAreOneBrightPatch) {
