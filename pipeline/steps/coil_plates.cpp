@@ -68,18 +68,31 @@ bool face_each_other(const PlanePatch& left, const PlanePatch& right) {
              cosine(kOpposite_deg);
 }
 
-/// The two that face each other of which the smaller is largest; of no area where none do.
-std::pair<PlanePatch, PlanePatch> largest_pair(const MeshFile& imaged) {
+struct FacingPatches {
+  PlanePatch left, right;
+  Eigen::Vector3d across = Eigen::Vector3d::Zero();  ///< unit, to the left
+};
+
+/// The two that face each other of which the smaller, and then the larger, is largest; of no area
+/// where none do. Many are nearly as large, and which is largest hangs on single samples, so the
+/// direction is that of all, the larger ones before the others.
+FacingPatches facing_patches(const MeshFile& imaged) {
+  constexpr double preference = 8;
   const std::vector<PlanePatch> left = plane_patches(side_samples(imaged, 1)),
                                 right = plane_patches(side_samples(imaged, -1));
-  std::pair<PlanePatch, PlanePatch> best;
-  double area = 0;
+  FacingPatches found;
+  std::pair<double, double> largest(0, 0);
   for (const PlanePatch& l : left)
-    for (const PlanePatch& r : right)
-      if (const double smaller = std::min(l.area_cm2, r.area_cm2);
-          smaller > area && face_each_other(l, r))
-        area = smaller, best = {l, r};
-  return best;
+    for (const PlanePatch& r : right) {
+      if (!face_each_other(l, r)) continue;
+      const std::pair<double, double> areas = std::minmax(l.area_cm2, r.area_cm2);
+      found.across += std::pow(areas.first, preference) * (l.outward - r.outward);
+      if (areas <= largest) continue;
+      largest = areas;
+      found.left = l, found.right = r;
+    }
+  found.across.normalize();
+  return found;
 }
 
 /// [mm³]
@@ -90,10 +103,9 @@ double volume_of(const HermiteMesh& mesh) {
 }  // namespace
 
 std::optional<CoilPlates> find_coil_plates(const MeshFile& imaged) {
-  const auto [left, right] = largest_pair(imaged);
+  const auto [left, right, across] = facing_patches(imaged);
   const double face_cm2 = std::pow(volume_of(imaged.mesh), 2.0 / 3) / kMm2PerCm2;
   if (std::min(left.area_cm2, right.area_cm2) < kLeastPatch * face_cm2) return std::nullopt;
-  const Eigen::Vector3d across = (left.outward - right.outward).normalized();
   return CoilPlates{across, left.area_cm2, right.area_cm2,
                     across.dot(left.middle_in_lps - right.middle_in_lps)};
 }

@@ -33,18 +33,11 @@ ViewState deviations(const MeshFile& file) {
   return sd;
 }
 
-ViewState laid_back(const ViewState& sd, const CompressedView& view,
-                    const Eigen::Vector3d& nipple) {
-  return with_swing(sd, view.escape.swing_mm, view.frame.view_from_lps(nipple).x());
-}
-
-/// By secants where a search will go far, else by slopes. `nipple` is in the compressed breast.
-ReducedView reduced_view(const SearchInput& input, const Eigen::Vector3d& nipple) {
-  const ViewState sd = deviations(input.file);
-  ReducedView view = !input.solver ? unsolved(input)
-                     : input.evidence
-                         ? reduce_view(*input.solver, laid_back(sd, input.view, nipple))
-                         : linear_view(*input.solver, sd);
+/// By secants where a search will go far, else by slopes.
+ReducedView reduced_view(const SearchInput& input) {
+  ReducedView view = !input.solver    ? unsolved(input)
+                     : input.evidence ? reduce_view(*input.solver, deviations(input.file))
+                                      : linear_view(*input.solver, deviations(input.file));
   view.elements = input.file.mesh.elements();
   return view;
 }
@@ -65,8 +58,9 @@ PlacedBaseline baseline_of(const SearchInput& input, const CompressedView& view,
                          input.evidence);
 }
 
-Eigen::Vector3d compressed_nipple(const MeshFile& file, const Eigen::Vector3d& nipple_in_lps) {
-  return PointCarrier(prone_of(file), file.mesh).carry(nipple_in_lps).in_lps;
+EdgePrior edge_of(const SearchInput& input, const Eigen::Vector3d& nipple_in_lps) {
+  const PointCarrier carrier(prone_of(input.file), input.file.mesh);
+  return edge_prior(input.file, input.view, carrier.carry(nipple_in_lps).in_lps);
 }
 
 /// As it was computed, its detector where edges are expected, with no mammogram to bring it to.
@@ -161,9 +155,8 @@ std::vector<SearchedView> search_views(const std::vector<SearchInput>& inputs,
   for (std::size_t v = 0; v < inputs.size(); ++v) {
     const SearchInput& input = inputs[v];
     if (progress) progress(0.3 * v, "sensitivities of " + input.view.name);
-    const Eigen::Vector3d nipple = compressed_nipple(input.file, nipple_in_lps);
-    const ReducedView reduced = reduced_view(input, nipple);
-    edges.push_back(edge_prior(input.file, input.view, nipple));
+    const ReducedView reduced = reduced_view(input);
+    edges.push_back(edge_of(input, nipple_in_lps));
     result.push_back(unmatched(input, reduced, edges.back(), nipple_in_lps));
     if (!input.evidence || !input.solver) continue;
     searched.push_back({ViewMatch(reduced, input.file.faces, prone_of(input.file), &fractions,
