@@ -100,12 +100,9 @@ WallLine wall_line(const MeshFile& compressed, const CompressedView& view,
 
 EdgePrior edge_prior(const MeshFile& compressed, const CompressedView& view,
                      const Eigen::Vector3d& nipple_in_lps) {
-  const Eigen::Vector2d nipple = view.frame.view_from_lps(nipple_in_lps).head<2>();
-  EdgePrior prior = std::abs(view.angle_deg) < kOblique_deg
-                        ? cc_prior()
-                        : mlo_prior(wall_line(compressed, view, nipple_in_lps), nipple);
-  prior.searched_sd = with_swing(prior.sd, view.escape.swing_mm, nipple.x());
-  return prior;
+  if (std::abs(view.angle_deg) < kOblique_deg) return cc_prior();
+  return mlo_prior(wall_line(compressed, view, nipple_in_lps),
+                   view.frame.view_from_lps(nipple_in_lps).head<2>());
 }
 
 }  // namespace mammotwin

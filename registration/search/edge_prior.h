@@ -37,8 +37,6 @@ WallLine wall_line(const MeshFile& compressed, const CompressedView& view,
 struct EdgePrior {
   ViewState mean = ViewState::Zero();  ///< turn and shift in depth; all else 0 [deg, mm]
   ViewState sd = prior_sd();
-  /// The same of what a search may find, where the breast swung (with_swing).
-  ViewState searched_sd = prior_sd();
   /// Of the numbers over `sd`: a turn is about the nipple, and so goes with a shift.
   Eigen::Matrix<double, kStates, kStates> covariance =
       Eigen::Matrix<double, kStates, kStates>::Identity();

@@ -53,14 +53,13 @@ std::string state_sentence(int number, double value, double limit) {
                  words.what, value, words.unit, limit);
 }
 
-/// Of numbers that nobody expects of such a prior.
-std::vector<std::string> strange_state(const ViewState& state, const ViewState& mean,
-                                       const ViewState& sd) {
+/// Of numbers that nobody expects.
+std::vector<std::string> strange_state(const ViewState& state, const EdgePrior& edge) {
   std::vector<std::string> why;
   for (int i = 0; i < kStates; ++i) {
-    const double reach = no_registration::kStateDeviations * sd[i];
-    const double low = std::min(0.0, mean[i]) - reach;
-    const double high = std::max(0.0, mean[i]) + reach;
+    const double reach = no_registration::kStateDeviations * edge.sd[i];
+    const double low = std::min(0.0, edge.mean[i]) - reach;
+    const double high = std::max(0.0, edge.mean[i]) + reach;
     if (state[i] < low || state[i] > high)
       why.push_back(state_sentence(i, state[i], state[i] < low ? low : high));
   }
@@ -82,7 +81,7 @@ std::vector<std::string> why_none(const MatchFigures& left) {
 std::vector<std::string> why_look(const MatchFigures& left, const ViewState& state,
                                   const EdgePrior& edge, bool complete,
                                   const std::optional<MatchFigures>& baseline) {
-  std::vector<std::string> why = strange_state(state, edge.mean, edge.sd);
+  std::vector<std::string> why = strange_state(state, edge);
   if (baseline && baseline->outline_rms_mm + kNearer_mm < left.outline_rms_mm)
     why.push_back(
         text_of("a breast without mechanics (the baseline) lies %.1f mm (RMS) off the mammogram's "
@@ -140,7 +139,7 @@ SearchVerdict judge_search(const std::string& view, const MatchFigures& left,
   std::string prefix = view + ": no registration: ";
   std::vector<std::string> why = why_none(left);
   if (!verdict.in_place) {
-    const std::vector<std::string> strange = strange_state(state, edge.mean, edge.searched_sd);
+    const std::vector<std::string> strange = strange_state(state, edge);
     if (why.empty()) verdict.strange = strange;
     why.insert(why.end(), strange.begin(), strange.end());
   }

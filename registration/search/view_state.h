@@ -57,9 +57,4 @@ inline ViewState prior_sd() {
   return sd;
 }
 
-/// The same of a view whose nipple swung sideways between the plates, which a radiographer lets no
-/// breast do. Laid back, the breast is shifted and turned about the plates' edge, by half of the
-/// swing's variance each. `nipple_depth_mm`: in front of that edge.
-ViewState with_swing(ViewState sd, double swing_mm, double nipple_depth_mm);
-
 }  // namespace mammotwin

@@ -117,7 +117,7 @@ TEST(SearchVerdict, SaysThatTheBaselineLiesNearer) {
 
 TEST(SearchVerdict, LetsADetectorStandWhereDetectorsDo) {
   EdgePrior edge;
-  edge.mean[kShiftDepth] = 30, edge.sd[kShiftDepth] = edge.searched_sd[kShiftDepth] = 6;
+  edge.mean[kShiftDepth] = 30, edge.sd[kShiftDepth] = 6;
   ViewState state = ViewState::Zero();
   for (const double shift : {-11.0, 20.0, 41.0}) {
     state[kShiftDepth] = shift;
@@ -127,18 +127,6 @@ TEST(SearchVerdict, LetsADetectorStandWhereDetectorsDo) {
     state[kShiftDepth] = shift;
     EXPECT_EQ(judged(weak(), state, edge).end, SearchEnd::no_registration) << shift;
   }
-}
-
-TEST(SearchVerdict, LaysASwungBreastBackAndAsksForALook) {
-  EdgePrior edge;
-  edge.searched_sd = with_swing(edge.sd, 20, 80);
-  ViewState state = ViewState::Zero();
-  state[kShiftLateral] = 30, state[kTurn] = 9;
-  EXPECT_EQ(judged(weak(), state).end, SearchEnd::no_registration);
-  EXPECT_EQ(judged(weak(), state, edge).end, SearchEnd::look);
-  EXPECT_TRUE(says(judged(weak(), state, edge), "asks for another place sideways, by 30.0 mm"));
-  state[kShiftLateral] = 40;
-  EXPECT_EQ(judged(weak(), state, edge).end, SearchEnd::no_registration);
 }
 
 TEST(SearchVerdict, DoubtsTheViewBesideOneWithoutARegistration) {
