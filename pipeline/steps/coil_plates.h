@@ -17,8 +17,8 @@ struct CoilPlates {
 /// Looks for plane patches of skin on both sides of the imaged breast that face each other: skin
 /// within 1 mm of a plane and 6 degrees of its normal, which runs within 45 degrees of left or
 /// right; the two within 12 degrees of parallel. Of all pairs the one whose smaller patch is
-/// largest; `across` is the mean of all, weighted by the 8th power of that area. Empty where that
-/// is smaller than 0.12 of the breast's volume to the power 2/3.
+/// largest; `across` is the mean of all, weighted by the 8th power of the smaller's area. Empty
+/// where the pair's smaller patch is under 0.12 of the breast's volume to the power 2/3.
 std::optional<CoilPlates> find_coil_plates(const MeshFile& imaged);
 
 }  // namespace mammotwin

@@ -86,8 +86,6 @@ TEST(SegmentOfAnMri, TakesABreastImagedAlone) {
                   {"shows the left breast alone", "expected the right one"});
 }
 
-/// Both, of a phantom whose right breast has no gland: the lesion's side and what a mirror makes of
-/// it.
 TEST(SegmentOfAnMri, SegmentsARightBreastAsTheLeftOneThatItMirrors) {
   const EmptyFolder folder("mirrored");
   const Phantom phantom;
