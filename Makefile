@@ -220,6 +220,7 @@ evaluate-mammogram-changes: mammotwin-evaluate-mammogram-changes
 
 evaluate-outlines: mammotwin-evaluate-outlines
 	@"$$BIN/mammotwin-evaluate-outlines" "$$CASES/compressed_outlines" "$$RESULTS/evaluation/outlines.json" \
+	  $$(test -d "$$CASES/real_mammograms" && echo --mammograms "$$CASES/real_mammograms") \
 	  $${PRESS:+--press} $$(find -L "$$RESULTS" -name cc.vtu -not -path '*/evaluation/outlines/*' | sort)
 
 validate:

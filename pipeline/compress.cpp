@@ -10,7 +10,7 @@
 #include "pipeline/steps/compression_quality.h"
 #include "pipeline/steps/view_header.h"
 #include "pipeline/steps/view_problem.h"
-#include "registration/view/view_frame.h"
+#include "registration/view/plate_turn.h"
 #include "segmentation/segmentation_file.h"
 #include "solver/newton/blas_kernels.h"
 #include "solver/press/checkpoint.h"
@@ -35,7 +35,7 @@ void declare(StageDeclaration& stage, Arguments& args) {
   stage.options_from("compress.", true);
   stage.options_from("materials.", false);
   stage.options_from("unload.density", false);
-  for (const char* key : {"thickness_mm", "angle_deg", "lift_mm"})
+  for (const char* key : {"thickness_mm", "angle_deg", "turn_deg", "lift_mm"})
     for (const char* view : {"cc", "mlo"})
       stage.options_from(std::string("views.") + view + "." + key, false);
 }
@@ -48,7 +48,7 @@ StagePlan plan(const Arguments& args, const Patient& patient) {
   const std::string view = "views." + args.view + ".";
   return {files,
           {"compress.", "materials.", "unload.density", view + "thickness_mm", view + "angle_deg",
-           view + "lift_mm"}};
+           view + "turn_deg", view + "lift_mm"}};
 }
 
 MeshFile compressed_file(const MeshFile& reference, const CompressionResult& result,
@@ -64,14 +64,12 @@ MeshFile compressed_file(const MeshFile& reference, const CompressionResult& res
   return file;
 }
 
-PlateEscape escape_of(const MeshFile& mesh, const Segmentation& segmentation,
+PlateEscape escape_of(const MeshFile& mesh, const MeshPoint& nipple,
                       const CompressionResult& result, const CompressedView& view) {
   const auto with = [&](const std::vector<HermiteMesh::Node>& nodes) {
     return HermiteMesh(nodes, mesh.mesh.elements());
   };
-  return plate_escape(with(result.found), with(result.deformed),
-                      InverseMap(prone_file(mesh).mesh).nearest(segmentation.nipple_in_lps),
-                      view.frame);
+  return plate_escape(with(result.found), with(result.deformed), nipple, view.frame);
 }
 
 /// How far a run that was interrupted had come, if it was of the same problem.
@@ -106,20 +104,25 @@ Outcome run(const Arguments& args, const Patient& patient, StageRun& stage) {
   std::vector<std::string> remarks;
   const ViewSettings view = with_header(patient, args.view, side, remarks);
   require_whole_mammogram(patient, args.view);
-  const Eigen::Matrix3d axes = view_axes(side, view.angle());
 
   const MeshFile mesh = read_mesh_file(args.mesh);
+  const MeshPoint nipple = InverseMap(prone_file(mesh).mesh).nearest(segmentation.nipple_in_lps);
+  const double turn_deg =
+      view.turn_deg ? *view.turn_deg : usual_turn_deg(mesh, nipple, side, view.angle());
+  const Eigen::Matrix3d axes = axes_of(side, view.angle(), turn_deg);
   const CompressionProblem problem =
       view_problem(patient, view, axes, mesh, tissue_of(mesh, segmentation.fractions));
   const CompressionResult result =
       compress_with_checkpoints(problem, patient.compression.options, stage);
   PlateEscape escape;
   if (result.report.usable()) {
-    CompressedView pressed = view_of_plates(args.view, side, view.angle(), problem.plates, result);
-    escape = pressed.escape = escape_of(mesh, segmentation, result, pressed);
+    CompressedView pressed =
+        view_of_plates(args.view, side, view.angle(), turn_deg, problem.plates, result);
+    escape = pressed.escape = escape_of(mesh, nipple, result, pressed);
     write_mesh_file(stage.products.write_main(), compressed_file(mesh, result, pressed));
   }
   Outcome outcome = judge_compression(result.report, escape, view.angle(), !view.thickness_mm);
+  outcome.quality["turn_deg"] = turn_deg;
   if (!remarks.empty()) outcome.quality["header"] = remarks;
   return outcome;
 }

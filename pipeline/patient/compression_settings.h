@@ -72,6 +72,7 @@ struct ViewSettings {
   std::optional<double> thickness_mm;
   std::optional<double> angle_deg;
   double default_angle_deg = 0;  ///< where neither header nor patient.toml says one
+  std::optional<double> turn_deg;
   double lift_mm = 0;
   std::optional<double> source_distance_mm, support_gap_mm;
   std::optional<double> pixel_spacing_mm;

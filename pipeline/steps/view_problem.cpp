@@ -7,7 +7,7 @@
 #include "pipeline/steps/breast_problem.h"
 #include "pipeline/steps/solution_record.h"
 #include "pipeline/steps/typical_thickness.h"
-#include "registration/view/view_frame.h"
+#include "registration/view/compressed_view.h"
 #include "solver/contact/plate_placement.h"
 
 namespace mammotwin {
@@ -33,8 +33,9 @@ MeshFile reference_of(const MeshFile& compressed) {
 CompressionProblem changed(const Patient& patient, const ViewSettings& view, Side side,
                            const MeshFile& mesh, const TissueSampler& tissue, double thickness_mm,
                            const ViewState& state) {
-  CompressionProblem problem =
-      view_problem(patient, view, view_axes(side, view.angle() + state[kRoll]), mesh, tissue);
+  CompressionProblem problem = view_problem(
+      patient, view, axes_of(side, view.angle() + state[kRoll], view.turn_deg.value_or(0)), mesh,
+      tissue);
   CompressionSettings stiffer = patient.compression;
   for (LawSettings* law : {&stiffer.fibroglandular, &stiffer.lesion}) {
     law->c1_kpa *= std::exp(state[kStiffnessRatio]);
@@ -130,6 +131,7 @@ std::optional<NearbySolver> nearby_solver(const Patient& patient, const Compress
   result.report.thickness_mm = view.thickness_mm;
   ViewSettings settings = patient.view(view.name);
   settings.angle_deg = view.angle_deg;
+  settings.turn_deg = view.turn_deg;
   return NearbySolver(base, [&patient, tissue, settings, side = view.side,
                              mesh = reference_of(compressed),
                              thickness = solution->target_thickness_mm,

@@ -55,10 +55,11 @@ Nodes in_lps(Nodes nodes, const ViewFrame& frame) {
   return nodes;
 }
 
-CompressedView view_of_plates(const std::string& name, Side side, double angle_deg,
+CompressedView view_of_plates(const std::string& name, Side side, double angle_deg, double turn_deg,
                               const PlateOptions& options, const CompressionResult& result) {
   CompressedView view{name, side, angle_deg, result.report.thickness_mm, {}};
-  view.frame.axes = view_axes(side, angle_deg);
+  view.turn_deg = turn_deg;
+  view.frame.axes = axes_of(side, angle_deg, turn_deg);
   const Eigen::Vector3d depth = options.depth, up = options.up;
   const Eigen::Vector3d across(depth.y() * up.z() - depth.z() * up.y(),
                                depth.z() * up.x() - depth.x() * up.z(),
@@ -83,8 +84,9 @@ NearbySolver::NearbySolver(SolvedView base, ProblemAt problem_at)
 
 CompressedView NearbySolver::view_at(const ViewState& state, const PlateOptions& plates,
                                      const CompressionResult& result) const {
-  CompressedView view = view_of_plates(base_.view.name, base_.view.side,
-                                       base_.view.angle_deg + state[kRoll], plates, result);
+  CompressedView view =
+      view_of_plates(base_.view.name, base_.view.side, base_.view.angle_deg + state[kRoll],
+                     base_.view.turn_deg, plates, result);
   const Eigen::Vector3d middle = mean_of(base_.result.deformed);
   const auto along_edge = [&](const ViewFrame& frame) {
     return frame.axes.row(1).dot(middle - frame.origin_in_lps);

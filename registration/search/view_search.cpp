@@ -12,7 +12,7 @@ namespace {
 
 /// A view's frame once the breast is turned and shifted on the detector.
 CompressedView laid_on_detector(CompressedView view, const ViewState& state) {
-  view.turn_deg = state[kTurn];
+  view.turn_deg += state[kTurn];
   view.frame.axes = axes_of(view.side, view.angle_deg, view.turn_deg);
   view.frame.origin_in_lps -=
       view.frame.axes.transpose() * Eigen::Vector3d(state[kShiftDepth], state[kShiftLateral], 0);

@@ -3,12 +3,14 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "fitting/mesh/inverse_map.h"
 #include "pipeline/evaluate/compression/pressed_places.h"
 #include "pipeline/evaluate/compression/supine_points.h"
 #include "pipeline/patient/patient.h"
 #include "pipeline/steps/breast_problem.h"
 #include "pipeline/steps/view_problem.h"
-#include "registration/view/view_frame.h"
+#include "registration/view/compressed_view.h"
+#include "registration/view/plate_turn.h"
 #include "segmentation/segmentation_file.h"
 #include "solver/gravity/pose_equilibria.h"
 #include "solver/press/compress.h"
@@ -36,6 +38,7 @@ struct CalibratedBreast::Loaded {
   Patient patient;
   MeshFile prone{HermiteMesh({}, {}), {}, {}, {}, {}, {}};
   Side side;
+  MeshPoint nipple;
   TissueSampler tissue;
   std::unique_ptr<SupinePoints> points;
 
@@ -54,8 +57,10 @@ struct CalibratedBreast::Loaded {
     mesh.mesh = HermiteMesh(unloaded, prone.mesh.elements());
     const CompressionSettings kept = patient.compression;
     patient.compression = settings;
-    CompressionProblem problem =
-        view_problem(patient, patient.cc, view_axes(side, patient.cc.angle()), mesh, tissue);
+    const double angle_deg = patient.cc.angle();
+    CompressionProblem problem = view_problem(
+        patient, patient.cc,
+        axes_of(side, angle_deg, usual_turn_deg(mesh, nipple, side, angle_deg)), mesh, tissue);
     patient.compression = kept;
     return problem;
   }
@@ -73,11 +78,13 @@ CalibratedBreast::CalibratedBreast(const std::filesystem::path& folder)
   loaded_->patient.read(folder / "patient.toml");
   const std::filesystem::path labels = folder / "segmentation.seg.nrrd";
   const Segmentation segmentation = read_segmentation(labels, fractions_beside(labels));
-  loaded_->side = segmentation.region.side;
+  const Side side = segmentation.region.side;
   loaded_->prone = read_mesh_file(folder / "prone.vtu");
   loaded_->tissue = tissue_of(loaded_->prone, segmentation.fractions);
   loaded_->points =
-      std::make_unique<SupinePoints>(loaded_->prone, loaded_->side, segmentation.nipple_in_lps);
+      std::make_unique<SupinePoints>(loaded_->prone, side, segmentation.nipple_in_lps);
+  loaded_->side = side;
+  loaded_->nipple = InverseMap(loaded_->prone.mesh).nearest(segmentation.nipple_in_lps);
 }
 CalibratedBreast::~CalibratedBreast() = default;
 CalibratedBreast::CalibratedBreast(CalibratedBreast&&) noexcept = default;

@@ -5,13 +5,15 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "fitting/mesh/inverse_map.h"
 #include "pipeline/evaluate/cases/real_breasts.h"
 #include "pipeline/evaluate/cases/stage_command.h"
 #include "pipeline/frame/products.h"
 #include "pipeline/patient/compression_settings.h"
 #include "pipeline/synthesize/option_table.h"
 #include "pipeline/synthesize/patient.h"
-#include "registration/view/view_frame.h"
+#include "registration/view/compressed_view.h"
+#include "registration/view/plate_turn.h"
 #include "segmentation/segmentation_file.h"
 
 namespace mammotwin {
@@ -93,9 +95,12 @@ json make_folder(const EvaluatedBreast& breast) {
   return about;
 }
 
-/// As mammotwin-compress places plates by default.
-double free_extent(const MeshFile& mesh, Side side, double angle_deg) {
-  const Eigen::Matrix3d axes = view_axes(side, angle_deg);
+/// As mammotwin-compress places plates by default, but for what gravity changes of their turn.
+double free_extent(const MeshFile& mesh, const Segmentation& segmentation, double angle_deg) {
+  const Side side = segmentation.region.side;
+  const double turn_deg = usual_turn_deg(
+      mesh, InverseMap(mesh.mesh).nearest(segmentation.nipple_in_lps), side, angle_deg);
+  const Eigen::Matrix3d axes = axes_of(side, angle_deg, turn_deg);
   PlateOptions plates;
   plates.depth = axes.row(0);
   plates.up = axes.row(2);
@@ -104,11 +109,12 @@ double free_extent(const MeshFile& mesh, Side side, double angle_deg) {
 
 void ask(const EvaluatedBreast& breast, PreparedBreast& prepared) {
   const MeshFile mesh = read_mesh_file(breast.folder / "prone.vtu");
-  const Side side = prepared.facts.at("side") == "left" ? Side::left : Side::right;
+  const Segmentation segmentation =
+      read_segmentation(breast.folder / "segmentation.seg.nrrd", breast.folder / "fractions.nrrd");
   auto& [cc, mlo] = prepared.views;
   mlo.angle_deg = breast.synthetic ? breast.synthetic->patient.views.mlo_angle_deg : kPatientMloDeg;
   for (AskedView& view : prepared.views) {
-    view.free_thickness_mm = free_extent(mesh, side, view.angle_deg);
+    view.free_thickness_mm = free_extent(mesh, segmentation, view.angle_deg);
     view.thickness_mm = kPatientThicknessMm;
   }
   if (!breast.synthetic) return;

@@ -7,7 +7,9 @@
 #include "pipeline/evaluate/cases/stage_command.h"
 #include "pipeline/evaluate/compression/outline_row.h"
 #include "pipeline/evaluate/compression/typical_press.h"
+#include "pipeline/evaluate/registration/mammogram_rows.h"
 #include "pipeline/frame/command_line.h"
+#include "registration/mammogram/mammogram_picture.h"
 
 namespace mammotwin {
 namespace {
@@ -17,6 +19,7 @@ using nlohmann::json;
 
 struct Arguments {
   fs::path population, table;
+  std::optional<fs::path> mammograms;
   std::vector<std::string> views;
   bool press = false;
 };
@@ -29,12 +32,37 @@ void declare(CommandLine& command, Arguments& args) {
   command.option("views", args.views, "breasts compressed in CC (cc.vtu)")
       .required()
       .existing_file();
+  command
+      .option("--mammograms", args.mammograms,
+              "folder of mammograms with landmarks.csv: how much deeper their medial half is")
+      .existing_folder();
   command.flag("--press", args.press,
                "press each breast to the thickness that is typical of its volume first, from what "
                "stands beside it "
                "(segmentation.seg.nrrd, fractions.nrrd, unloaded.vtu or prone.vtu, and "
                "patient.toml if it is there); results go to the "
                "folder outlines beside the table");
+}
+
+/// A CC that somebody read, hung as usual: medial is below.
+json row_of(const ReadMammogram& read) {
+  const double columns = mammogram_picture_size(read.file).columns;
+  const auto depth = [&](const Eigen::Vector2d& x) {
+    return read.wall_at_left ? x.x() : columns - 1 - x.x();
+  };
+  const auto& skin = read.skin;
+  return {{"group", "mammogram"},
+          {"name", read.file.stem().string()},
+          {"medial_deeper", (depth(skin[2]) - depth(skin[0])) / depth(skin[1])}};
+}
+
+void add_mammograms(const fs::path& folder, std::size_t first, EvaluationTable& table) {
+  for (const ReadMammogram& read : read_landmarks(folder))
+    if (!read.oblique() && read.skin.size() == 3) {
+      json row = row_of(read);
+      const std::string line = row["name"].get<std::string>();
+      table.add(first++, std::move(row), line);
+    }
 }
 
 std::string line_of(const json& row) {
@@ -86,6 +114,7 @@ int run(const Arguments& args) {
     const fs::path path =
         args.press ? press_typically(view, folders[n], population, beside / name) : fs::path(view);
     json row = outline_row(read_mesh_file(path), population);
+    row["group"] = "model";
     row["name"] = name.string();
     row["tissue"] = parameter_of(path, "materials.preset");
     row["most_pull_n"] = parameter_of(path, "compress.most_pull_n");
@@ -93,6 +122,7 @@ int run(const Arguments& args) {
     const std::string line = line_of(row);
     table.add(n, std::move(row), line);
   }
+  if (args.mammograms) add_mammograms(*args.mammograms, args.views.size(), table);
   return 0;
 }
 

@@ -55,6 +55,26 @@ RayDistances outline_of(const MeshFile& file, const CompressedView& geometry) {
   return Silhouette(view, file.faces).at(view, ViewState::Zero(), parallel, middle_of(view));
 }
 
+/// Depth at a lateral place off the outline's middle, between the two directions that see it; empty
+/// where there is no skin.
+std::optional<double> depth_at(const RayDistances& outline, double lateral) {
+  for (int ray = 0; ray + 1 < kRays; ++ray) {
+    if (!outline[ray] || !outline[ray + 1]) continue;
+    const Eigen::Vector2d a = *outline[ray] * ray_direction(ray);
+    const Eigen::Vector2d b = *outline[ray + 1] * ray_direction(ray + 1);
+    if ((a.y() - lateral) * (b.y() - lateral) > 0) continue;
+    return a.x() + (b.x() - a.x()) * (lateral - a.y()) / (b.y() - a.y());
+  }
+  return std::nullopt;
+}
+
+json medial_deeper(const RayDistances& outline, double width_mm) {
+  const auto medial = depth_at(outline, -width_mm / 4), middle = depth_at(outline, 0),
+             lateral = depth_at(outline, width_mm / 4);
+  if (!medial || !middle || !lateral) return nullptr;
+  return (*medial - *lateral) / *middle;
+}
+
 }  // namespace
 
 json outline_row(const MeshFile& compressed, const OutlinePopulation& population) {
@@ -65,9 +85,9 @@ json outline_row(const MeshFile& compressed, const OutlinePopulation& population
   json row{{"thickness_mm", view.thickness_mm},
            {"volume_ml", volume},
            {"typical_thickness_mm", population.typical_thickness_mm(volume)}};
-  for (const char* key :
-       {"population_volume_ml", "compared", "within_2_sd", "mean_sd", "worst_sd", "depth_mm",
-        "width_mm", "population_depth_mm", "population_width_mm", "depth_ratio", "width_ratio"})
+  for (const char* key : {"population_volume_ml", "compared", "within_2_sd", "mean_sd", "worst_sd",
+                          "depth_mm", "width_mm", "population_depth_mm", "population_width_mm",
+                          "depth_ratio", "width_ratio", "medial_deeper"})
     row[key] = nullptr;
   if (view.thickness_mm < OutlinePopulation::kThinnest_mm ||
       view.thickness_mm > OutlinePopulation::kThickest_mm)
@@ -97,6 +117,7 @@ json outline_row(const MeshFile& compressed, const OutlinePopulation& population
   row["width_mm"] = ours.width();
   row["population_depth_mm"] = theirs.depth;
   row["population_width_mm"] = theirs.width();
+  row["medial_deeper"] = medial_deeper(outline, ours.width());
   row["depth_ratio"] = ours.depth / theirs.depth;
   row["width_ratio"] = ours.width() / theirs.width();
   return row;

@@ -39,6 +39,7 @@ ReadMammogram read_row(const std::filesystem::path& folder, const Cells& cells) 
   read.file = folder / cells.at("file");
   read.view = cells.at("view");
   read.pixel_mm = std::stod(cells.at("pixel_mm_assumed"));
+  read.wall_at_left = cells.at("chest_wall") == "left";
   read.nipple = point(cells, "nipple");
   const auto top = point(cells, "pectoral_top"), bottom = point(cells, "pectoral_bottom");
   if (top && bottom) read.pectoral = {*top, *bottom};

@@ -18,6 +18,7 @@ struct ReadMammogram {
   std::filesystem::path file;
   std::string view;  ///< cc or mlo
   double pixel_mm = 0;
+  bool wall_at_left = true;
   std::optional<Eigen::Vector2d> nipple;
   std::optional<std::pair<Eigen::Vector2d, Eigen::Vector2d>> pectoral;  ///< upper, lower point
   std::vector<Eigen::Vector2d> skin;  ///< at a quarter, half and three quarters of its rows

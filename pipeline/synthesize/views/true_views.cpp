@@ -6,10 +6,11 @@
 #include <stdexcept>
 
 #include "fitting/fit_breast.h"
+#include "fitting/mesh/inverse_map.h"
 #include "pipeline/patient/gravity_settings.h"
 #include "pipeline/steps/breast_problem.h"
 #include "pipeline/synthesize/coil_pressed.h"
-#include "registration/view/view_frame.h"
+#include "registration/view/plate_turn.h"
 #include "solver/gravity/unload.h"
 #include "solver/press/compress.h"
 
@@ -59,16 +60,6 @@ MeshFile unloaded_truth(const Segmentation& truth, const DrawnPatient& drawn) {
   return file;
 }
 
-/// Axes of the true view: the header's angle and roll, then turned about the beam.
-Eigen::Matrix3d true_axes(Side side, const DrawnView& drawn) {
-  const Eigen::Matrix3d axes = view_axes(side, drawn.header_angle_deg + drawn.roll_deg);
-  const double t = drawn.turn_deg * std::numbers::pi / 180;
-  Eigen::Matrix3d turned = axes;
-  turned.row(0) = std::cos(t) * axes.row(0) + std::sin(t) * axes.row(1);
-  turned.row(1) = std::cos(t) * axes.row(1) - std::sin(t) * axes.row(0);
-  return turned;
-}
-
 }  // namespace
 
 TrueBreast::TrueBreast(const SyntheticPatient& patient, const DrawnPatient& drawn)
@@ -97,7 +88,12 @@ HermiteMesh TrueBreast::between_coil_plates(double share) const {
 TrueView TrueBreast::compress_view(const DrawnView& drawn) const {
   const CompressionSettings settings = true_settings(tissue_);
   CompressionProblem problem = this->problem(settings, Pose::standing);
-  const Eigen::Matrix3d axes = true_axes(side_, drawn);
+  const double angle_deg = drawn.header_angle_deg + drawn.roll_deg;
+  const double turn_deg =
+      usual_turn_deg(unloaded_, InverseMap(prone_).nearest(truth_.nipple_in_lps), side_,
+                     angle_deg) -
+      drawn.turn_deg;
+  const Eigen::Matrix3d axes = axes_of(side_, angle_deg, turn_deg);
   settings.shape_plates(problem.plates);
   problem.plates.depth = axes.row(0);
   problem.plates.up = axes.row(2);
@@ -109,9 +105,9 @@ TrueView TrueBreast::compress_view(const DrawnView& drawn) const {
   if (!result.report.usable())
     throw std::runtime_error("truth: " + drawn.name + ": " + result.report.reason);
 
-  CompressedView view{
-      drawn.name, side_, drawn.header_angle_deg + drawn.roll_deg, result.report.thickness_mm, {}};
+  CompressedView view{drawn.name, side_, angle_deg, result.report.thickness_mm, {}};
   view.frame.axes = axes;
+  view.turn_deg = turn_deg;
   const Eigen::Vector3d across = problem.plates.depth.cross(problem.plates.up);
   view.frame.origin_in_lps = problem.plates.depth * (result.plates.edge + drawn.edge_mm) +
                              problem.plates.up * result.plates.support_height +

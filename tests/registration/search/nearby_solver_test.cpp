@@ -30,7 +30,7 @@ NearbySolver dome_solver() {
   options.thickness_tolerance = 1;  // what it comes to is enough here
   const CompressionResult result = compress(problem, options);
   EXPECT_TRUE(result.report.usable()) << result.report.reason;
-  return NearbySolver({result, view_of_plates("cc", Side::left, 0, problem.plates, result)},
+  return NearbySolver({result, view_of_plates("cc", Side::left, 0, 0, problem.plates, result)},
                       dome_at);
 }
 
@@ -80,8 +80,8 @@ TEST(NearbySolver, GoesOnWhereTheBreastSlipsBackwards) {
   const CompressionResult result = compress(problem, options);
   ASSERT_TRUE(result.report.usable()) << result.report.reason;
   EXPECT_GT(result.report.retained_fraction, 0.5);
-  const NearbySolver solver({result, view_of_plates("cc", Side::left, 0, problem.plates, result)},
-                            loose_at);
+  const NearbySolver solver(
+      {result, view_of_plates("cc", Side::left, 0, 0, problem.plates, result)}, loose_at);
   const auto thinner = solver.solve(-5 * ViewState::Unit(kThickness));
   ASSERT_TRUE(thinner);
   EXPECT_LT(thinner->result.report.retained_fraction, 0.5);

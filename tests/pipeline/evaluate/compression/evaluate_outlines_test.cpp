@@ -67,15 +67,26 @@ TEST_F(Outlines, RefusesThicknessesWithoutPatients) {
   EXPECT_THROW(population().at(95, 0), std::invalid_argument);
 }
 
-// A box 100 sqrt(2) mm wide and 60 sqrt(2) mm deep at 40 mm: its corners are not a breast's.
-TEST_F(Outlines, ABoxIsMeasuredAsOne) {
+/// A box 100 sqrt(2) mm wide and 60 sqrt(2) mm deep at 40 mm, whose front and back recede by
+/// `slope` towards lateral.
+MeshFile pressed_box(double slope) {
   const SqueezedBox box = squeezed_box(Side::left, 0, 0.5);
+  std::vector<HermiteMesh::Node> nodes = box.compressed.nodes();
+  for (HermiteMesh::Node& node : nodes) {
+    node.row(1) += slope * node.row(0);
+    node(1, 0) -= slope * 70;
+  }
+  MeshFile file{HermiteMesh(nodes, box.compressed.elements()), {}, {}, {}, {}, {}};
   FaceLabels skin;
   skin.fill(FaceLabel::skin);
-  MeshFile file{box.compressed, {}, {}, {}, {}, {}};
-  file.faces.assign(box.compressed.num_elements(), skin);
+  file.faces.assign(file.mesh.num_elements(), skin);
   write_view(box.view, file.metadata);
-  const nlohmann::json row = outline_row(file, population());
+  return file;
+}
+
+// Its corners are not a breast's.
+TEST_F(Outlines, ABoxIsMeasuredAsOne) {
+  const nlohmann::json row = outline_row(pressed_box(0), population());
   EXPECT_NEAR(row["depth_mm"].get<double>(), 60 * std::sqrt(2), 0.1);
   // Rays end at 75 degrees: the sides are met 70.7 / tan 75 = 19 mm in front of the edge.
   EXPECT_NEAR(row["width_mm"].get<double>(), 100 * std::sqrt(2), 0.1);
@@ -83,6 +94,13 @@ TEST_F(Outlines, ABoxIsMeasuredAsOne) {
   EXPECT_NEAR(row["volume_ml"].get<double>(), 480, 1e-6);  // 100 x 60 x 80 mm, squeezing keeps it
   EXPECT_NEAR(row["population_depth_mm"].get<double>(), 79.7, 0.5);
   EXPECT_NEAR(row["depth_ratio"].get<double>(), 60 * std::sqrt(2) / 79.7, 0.01);
+  EXPECT_NEAR(row["medial_deeper"].get<double>(), 0, 1e-3);
+}
+
+TEST_F(Outlines, SaysHowMuchDeeperTheMedialHalfIs) {
+  const double half = 100 * std::sqrt(2) / 2, depth = 60 * std::sqrt(2);
+  const nlohmann::json row = outline_row(pressed_box(0.2), population());
+  EXPECT_NEAR(row["medial_deeper"].get<double>(), 0.2 * half / depth, 0.01);
 }
 
 class PressedView : public ScratchFolder {};

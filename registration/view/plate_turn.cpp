@@ -1,0 +1,70 @@
+#include "registration/view/plate_turn.h"
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+#include "registration/view/view_frame.h"
+
+namespace mammotwin {
+namespace {
+
+constexpr double kBehindNipple_mm = 60;  // of the wall, what counts most
+constexpr int kFaceSamples = 6;          // along a face's side
+constexpr double kOblique_deg = 15;
+
+/// Of a sample's share of a face, into the breast [mm²].
+Eigen::Vector3d area_vector(const HermiteMesh& mesh, const MeshPoint& p, int face) {
+  const int i = face / 2;
+  const Eigen::Matrix3d J = mesh.jacobian(p);
+  const Eigen::Vector3d outwards =
+      (face % 2 == 1 ? 1 : -1) * J.col((i + 1) % 3).cross(J.col((i + 2) % 3));
+  return -outwards / (kFaceSamples * kFaceSamples);
+}
+
+template <class Visit>
+void for_wall_samples(const MeshFile& mesh, Visit visit) {
+  for (int e = 0; e < mesh.mesh.num_elements(); ++e)
+    for (int face = 0; face < 6; ++face) {
+      if (mesh.faces[e][face] != FaceLabel::chest_wall) continue;
+      for (int k = 0; k < kFaceSamples * kFaceSamples; ++k) {
+        MeshPoint p{e, Eigen::Vector3d::Constant(face % 2)};
+        p.xi[(face / 2 + 1) % 3] = (k % kFaceSamples + 0.5) / kFaceSamples;
+        p.xi[(face / 2 + 2) % 3] = (k / kFaceSamples + 0.5) / kFaceSamples;
+        visit(mesh.mesh.position(p), area_vector(mesh.mesh, p, face));
+      }
+    }
+}
+
+/// From lateral towards depth.
+double turn_of(const Eigen::Vector3d& direction_in_view) {
+  if (!(direction_in_view.x() > 0))
+    throw std::invalid_argument(
+        "no chest wall lies behind the nipple: plates have none to stand by");
+  return -std::atan2(direction_in_view.y(), direction_in_view.x()) * 180 / std::numbers::pi;
+}
+
+}  // namespace
+
+double straight_turn_deg(const MeshFile& unloaded, const MeshPoint& nipple,
+                         const Eigen::Matrix3d& view_axes) {
+  const Eigen::Vector3d tip = unloaded.mesh.position(nipple);
+  Eigen::Vector3d moment = Eigen::Vector3d::Zero(), normal = moment;
+  double area = 0;
+  for_wall_samples(unloaded, [&](const Eigen::Vector3d& x, const Eigen::Vector3d& piece) {
+    const double r = (x - tip).norm() / kBehindNipple_mm;
+    normal += std::exp(-r * r / 2) * piece;
+    moment += piece.norm() * x;
+    area += piece.norm();
+  });
+  return (turn_of(view_axes * normal) + turn_of(view_axes * (tip - moment / area))) / 2;
+}
+
+double usual_turn_deg(const MeshFile& unloaded, const MeshPoint& nipple, Side side,
+                      double angle_deg) {
+  if (std::abs(angle_deg) >= kOblique_deg) return 0;
+  return straight_turn_deg(unloaded, nipple, view_axes(side, angle_deg));
+}
+
+}  // namespace mammotwin
