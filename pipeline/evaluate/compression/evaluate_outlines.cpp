@@ -4,10 +4,10 @@
 #include <cstdio>
 
 #include "pipeline/evaluate/cases/evaluation_table.h"
+#include "pipeline/evaluate/cases/read_mammogram.h"
 #include "pipeline/evaluate/cases/stage_command.h"
 #include "pipeline/evaluate/compression/outline_row.h"
 #include "pipeline/evaluate/compression/typical_press.h"
-#include "pipeline/evaluate/registration/mammogram_rows.h"
 #include "pipeline/frame/command_line.h"
 #include "registration/mammogram/mammogram_picture.h"
 

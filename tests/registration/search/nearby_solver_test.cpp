@@ -113,6 +113,17 @@ TEST(NearbySolver, KeepsTheBreastsMiddleInItsPlaceAtEveryAngle) {
   }
 }
 
+TEST(NearbySolver, KeepsThePlatesTurnAtEveryAngle) {
+  SolvedView base = dome_solver().base();
+  base.view.turn_deg = -20;
+  base.view.frame.axes = axes_of(Side::left, 0, -20);
+  const NearbySolver solver(base, dome_at);
+  const PlateOptions plates = dome_at(ViewState::Zero()).plates;
+  const CompressedView view = solver.view_at(5 * ViewState::Unit(kRoll), plates, base.result);
+  EXPECT_EQ(view.turn_deg, -20);
+  EXPECT_EQ(view.frame.axes, axes_of(Side::left, 5, -20));
+}
+
 // A thickness more than 2 mm above the base cannot be posed, so its sample is the one at half of
 // the standard deviation of 4 mm. The quadratic still goes through all that was solved.
 TEST(ReducedView, TakesWhatIsFoundNearerToTheBase) {
