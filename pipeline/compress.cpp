@@ -10,6 +10,7 @@
 #include "pipeline/steps/compression_quality.h"
 #include "pipeline/steps/view_header.h"
 #include "pipeline/steps/view_problem.h"
+#include "registration/view/outline_middle.h"
 #include "registration/view/plate_turn.h"
 #include "segmentation/segmentation_file.h"
 #include "solver/newton/blas_kernels.h"
@@ -72,6 +73,13 @@ PlateEscape escape_of(const MeshFile& mesh, const MeshPoint& nipple,
   return plate_escape(with(result.found), with(result.deformed), nipple, view.frame);
 }
 
+/// Endless plates have no middle of their own: a radiographer lays the breast on the detector's.
+void centre_detector(const HermiteMesh& mesh, const CompressionResult& result,
+                     CompressedView& view) {
+  const double middle = outline_middle_mm({result.deformed, mesh.elements()}, view.frame);
+  view.frame.origin_in_lps += middle * view.frame.axes.row(1).transpose();
+}
+
 /// How far a run that was interrupted had come, if it was of the same problem.
 std::optional<CompressionCheckpoint> interrupted_run(const StageRun& stage) {
   const auto bytes = stage.checkpoint.read();
@@ -118,6 +126,7 @@ Outcome run(const Arguments& args, const Patient& patient, StageRun& stage) {
   if (result.report.usable()) {
     CompressedView pressed =
         view_of_plates(args.view, side, view.angle(), turn_deg, problem.plates, result);
+    if (problem.plates.endless_sideways()) centre_detector(mesh.mesh, result, pressed);
     escape = pressed.escape = escape_of(mesh, nipple, result, pressed);
     write_mesh_file(stage.products.write_main(), compressed_file(mesh, result, pressed));
   }

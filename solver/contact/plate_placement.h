@@ -33,6 +33,7 @@ struct PlateOptions {
   std::shared_ptr<const PlateMesh> support_mesh, paddle_mesh;  ///< instead of flat plates
 
   static constexpr double kEndless = std::numeric_limits<double>::infinity();
+  bool endless_sideways() const { return width == kEndless && !support_mesh && !paddle_mesh; }
 };
 
 /// The pair of plates in place.

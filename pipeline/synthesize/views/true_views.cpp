@@ -10,6 +10,8 @@
 #include "pipeline/patient/gravity_settings.h"
 #include "pipeline/steps/breast_problem.h"
 #include "pipeline/synthesize/coil_pressed.h"
+#include "registration/search/nearby_solver.h"
+#include "registration/view/outline_middle.h"
 #include "registration/view/plate_turn.h"
 #include "solver/gravity/unload.h"
 #include "solver/press/compress.h"
@@ -105,15 +107,12 @@ TrueView TrueBreast::compress_view(const DrawnView& drawn) const {
   if (!result.report.usable())
     throw std::runtime_error("truth: " + drawn.name + ": " + result.report.reason);
 
-  CompressedView view{drawn.name, side_, angle_deg, result.report.thickness_mm, {}};
-  view.frame.axes = axes;
-  view.turn_deg = turn_deg;
-  const Eigen::Vector3d across = problem.plates.depth.cross(problem.plates.up);
-  view.frame.origin_in_lps = problem.plates.depth * (result.plates.edge + drawn.edge_mm) +
-                             problem.plates.up * result.plates.support_height +
-                             across * result.plates.lateral_middle +
-                             axes.row(1).transpose() * drawn.shift_mm;
-  return {view, HermiteMesh(result.deformed, unloaded_.mesh.elements()),
+  const HermiteMesh pressed(result.deformed, unloaded_.mesh.elements());
+  CompressedView view =
+      view_of_plates(drawn.name, side_, angle_deg, turn_deg, problem.plates, result);
+  const double aside_mm = outline_middle_mm(pressed, view.frame) + drawn.shift_mm;
+  view.frame.origin_in_lps += axes.transpose() * Eigen::Vector3d(drawn.edge_mm, aside_mm, 0);
+  return {view, pressed,
           std::round(10 * (result.report.thickness_mm + drawn.thickness_error_mm)) / 10,
           drawn.marker, drawn.edge_mm < 0};
 }
