@@ -10,7 +10,7 @@
 #include "pipeline/steps/compression_quality.h"
 #include "pipeline/steps/view_header.h"
 #include "pipeline/steps/view_problem.h"
-#include "registration/view/outline_middle.h"
+#include "registration/view/breast_middle.h"
 #include "registration/view/plate_turn.h"
 #include "segmentation/segmentation_file.h"
 #include "solver/newton/blas_kernels.h"
@@ -76,7 +76,7 @@ PlateEscape escape_of(const MeshFile& mesh, const MeshPoint& nipple,
 /// Endless plates have no middle of their own: a radiographer lays the breast on the detector's.
 void centre_detector(const HermiteMesh& mesh, const CompressionResult& result,
                      CompressedView& view) {
-  const double middle = outline_middle_mm({result.deformed, mesh.elements()}, view.frame);
+  const double middle = breast_middle_mm({result.deformed, mesh.elements()}, view.frame);
   view.frame.origin_in_lps += middle * view.frame.axes.row(1).transpose();
 }
 

@@ -11,7 +11,7 @@
 #include "pipeline/steps/breast_problem.h"
 #include "pipeline/synthesize/coil_pressed.h"
 #include "registration/search/nearby_solver.h"
-#include "registration/view/outline_middle.h"
+#include "registration/view/breast_middle.h"
 #include "registration/view/plate_turn.h"
 #include "solver/gravity/unload.h"
 #include "solver/press/compress.h"
@@ -110,7 +110,7 @@ TrueView TrueBreast::compress_view(const DrawnView& drawn) const {
   const HermiteMesh pressed(result.deformed, unloaded_.mesh.elements());
   CompressedView view =
       view_of_plates(drawn.name, side_, angle_deg, turn_deg, problem.plates, result);
-  const double aside_mm = outline_middle_mm(pressed, view.frame) + drawn.shift_mm;
+  const double aside_mm = breast_middle_mm(pressed, view.frame) + drawn.shift_mm;
   view.frame.origin_in_lps += axes.transpose() * Eigen::Vector3d(drawn.edge_mm, aside_mm, 0);
   return {view, pressed,
           std::round(10 * (result.report.thickness_mm + drawn.thickness_error_mm)) / 10,

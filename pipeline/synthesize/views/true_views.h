@@ -21,7 +21,7 @@ struct DrawnView {
   double turn_deg = 0;       ///< of the breast on the detector, about the beam
   double lift_mm = 0;        ///< of the plates' middle above the breast's centroid
   double clearance_mm = 10;  ///< plates' edge to the chest wall
-  double shift_mm = 0;       ///< of the detector's middle from the outline's, sideways
+  double shift_mm = 0;       ///< of the detector's middle from the breast's, sideways
   double compressed_fraction = 0.5;
   double thickness_error_mm = 0;  ///< of the header
   /// Detector's edge in front of the plates' edge; behind it (negative), the picture also shows
