@@ -12,6 +12,7 @@
 #include "pipeline/steps/view_problem.h"
 #include "registration/view/breast_middle.h"
 #include "registration/view/plate_turn.h"
+#include "registration/view/view_of_plates.h"
 #include "segmentation/segmentation_file.h"
 #include "solver/newton/blas_kernels.h"
 #include "solver/press/checkpoint.h"

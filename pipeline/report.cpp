@@ -57,7 +57,6 @@ StagePlan plan(const Arguments& args, const Patient& patient) {
 /// What the search was told, found again; nothing where the image shows none.
 std::optional<MammogramFindings> findings_of(const Patient& patient, const RealMammogram& real,
                                              double angle_deg) {
-  constexpr double kOblique_deg = 15;
   try {
     return find_breast(real.image, real.detector.pixels->spacing_mm,
                        std::abs(angle_deg) > kOblique_deg,

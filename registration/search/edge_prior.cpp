@@ -12,7 +12,6 @@ namespace {
 
 constexpr double kBand_mm = 5, kReach_mm = 40;  // sideways, about the nipple
 constexpr int kWallSamples = 6;                 // along a face's side: 4 mm on faces of 25 mm
-constexpr double kOblique_deg = 15;             // a view that is turned further is no CC
 
 constexpr double kCcEdgeSd_mm = 14.5;
 constexpr double kMuscle_deg = 22, kMuscleSd_deg = 6;  // MLO

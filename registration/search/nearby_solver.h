@@ -19,10 +19,6 @@ using Nodes = std::vector<HermiteMesh::Node>;
 /// The compression at a state; only the mechanical numbers are looked at.
 using ProblemAt = std::function<CompressionProblem(const ViewState&)>;
 
-/// Frame of a view from where its plates ended.
-CompressedView view_of_plates(const std::string& name, Side side, double angle_deg, double turn_deg,
-                              const PlateOptions& options, const CompressionResult& result);
-
 /// What a standard deviation of each mechanical number does to the nodes in the view's frame, to
 /// first order; empty where that is not known.
 using Slopes = std::array<Nodes, kMechanical>;

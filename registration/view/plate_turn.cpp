@@ -12,7 +12,6 @@ namespace {
 
 constexpr double kBehindNipple_mm = 60;  // of the wall, what counts most
 constexpr int kFaceSamples = 6;          // along a face's side
-constexpr double kOblique_deg = 15;
 
 /// Of a sample's share of a face, into the breast [mm²].
 Eigen::Vector3d area_vector(const HermiteMesh& mesh, const MeshPoint& p, int face) {

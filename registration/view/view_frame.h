@@ -30,4 +30,7 @@ struct ViewFrame {
 ///   depth = (0, -1, 0),  lateral = (s cos t, 0, sin t),  height = -beam = (-s sin t, 0, cos t).
 Eigen::Matrix3d view_axes(Side side, double angle_deg);
 
+/// From so far off CC on a view is oblique [deg].
+inline constexpr double kOblique_deg = 15;
+
 }  // namespace mammotwin

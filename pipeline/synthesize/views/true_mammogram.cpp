@@ -16,7 +16,7 @@ constexpr double kWhite = 65535;
 constexpr double kMostAttenuation = 6;  // -ln(I/I0) that is shown white
 constexpr double kPhotons = 2e4;        // per pixel in air
 constexpr double kMarkerRadius_mm = 1.75;
-constexpr double kOblique_deg = 20;
+constexpr double kShowsMuscle_deg = 20;
 
 double bilinear(const DetectorImage& image, const Eigen::Vector2d& uv) {
   const Eigen::Vector2d at = (uv - image.first) / image.spacing_mm;
@@ -83,7 +83,7 @@ GreyPixels true_mammogram(const TrueBreast& breast, const TrueView& view, const 
   const Eigen::Vector2d marker = true_mark(breast, view, detector, breast.truth().nipple_in_lps);
   const DetectorImage picture =
       view.behind ? with_what_lies_behind(simulated, view.view.thickness_mm,
-                                          std::abs(view.view.angle_deg) > kOblique_deg)
+                                          std::abs(view.view.angle_deg) > kShowsMuscle_deg)
                   : simulated.attenuation;
   const PixelGrid& grid = *detector.pixels;
   GreyPixels pixels{grid.columns, grid.rows, {}};

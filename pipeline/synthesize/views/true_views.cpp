@@ -1,8 +1,6 @@
 #include "pipeline/synthesize/views/true_views.h"
 
-#include <Eigen/Geometry>
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 
 #include "fitting/fit_breast.h"
@@ -10,9 +8,9 @@
 #include "pipeline/patient/gravity_settings.h"
 #include "pipeline/steps/breast_problem.h"
 #include "pipeline/synthesize/coil_pressed.h"
-#include "registration/search/nearby_solver.h"
 #include "registration/view/breast_middle.h"
 #include "registration/view/plate_turn.h"
+#include "registration/view/view_of_plates.h"
 #include "solver/gravity/unload.h"
 #include "solver/press/compress.h"
 

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "registration/search/reduced_view.h"
+#include "registration/view/view_of_plates.h"
 #include "tests/solver/dome_breast.h"
 
 namespace mammotwin {
