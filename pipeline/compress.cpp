@@ -15,6 +15,7 @@
 #include "registration/view/view_of_plates.h"
 #include "segmentation/segmentation_file.h"
 #include "solver/newton/blas_kernels.h"
+#include "solver/press/check_shape.h"
 #include "solver/press/checkpoint.h"
 
 namespace mammotwin {
@@ -115,7 +116,9 @@ Outcome run(const Arguments& args, const Patient& patient, StageRun& stage) {
   require_whole_mammogram(patient, args.view);
 
   const MeshFile mesh = read_mesh_file(args.mesh);
-  const MeshPoint nipple = InverseMap(prone_file(mesh).mesh).nearest(segmentation.nipple_in_lps);
+  const HermiteMesh imaged = prone_file(mesh).mesh;
+  check_shape(mesh.mesh, imaged);  // before anything is sought in it
+  const MeshPoint nipple = InverseMap(imaged).nearest(segmentation.nipple_in_lps);
   const double turn_deg =
       view.turn_deg ? *view.turn_deg : usual_turn_deg(mesh, nipple, side, view.angle());
   const Eigen::Matrix3d axes = axes_of(side, view.angle(), turn_deg);

@@ -57,6 +57,9 @@ double straight_turn_deg(const MeshFile& unloaded, const MeshPoint& nipple,
     moment += piece.norm() * x;
     area += piece.norm();
   });
+  if (area == 0)
+    throw std::invalid_argument(
+        "the mesh has no face labelled chest_wall; the plates are turned by the wall");
   return (turn_of(view_axes * normal) + turn_of(view_axes * (tip - moment / area))) / 2;
 }
 

@@ -17,14 +17,17 @@ void check_finite(const HermiteMesh& mesh) {
 
 }  // namespace
 
-void check_shape(const CompressionProblem& problem) {
-  check_finite(problem.mesh.mesh);
-  const HermiteMesh imaged = problem.prone.empty()
-                                 ? problem.mesh.mesh
-                                 : HermiteMesh(problem.prone, problem.mesh.mesh.elements());
+void check_shape(const HermiteMesh& solved, const HermiteMesh& imaged) {
+  check_finite(solved);
   check_finite(imaged);
   if (!proved_valid(imaged))
     throw std::invalid_argument("the mesh is folded: det dX/dxi is not positive everywhere");
+}
+
+void check_shape(const CompressionProblem& problem) {
+  const HermiteMesh& solved = problem.mesh.mesh;
+  check_shape(solved,
+              problem.prone.empty() ? solved : HermiteMesh(problem.prone, solved.elements()));
 }
 
 }  // namespace mammotwin
