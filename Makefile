@@ -76,7 +76,8 @@ help:
 	@echo 'make evaluate-coil     drawn breasts imaged between the plates of a coil: RESULTS/evaluation/coil.json;'
 	@echo '                       SYNTHETIC=10 of them, ROUNDNESS="0 0.8" of the breast let go'
 	@echo 'make evaluate-compression   compresses SYNTHETIC=200 drawn breasts and those of CASES=folder in'
-	@echo '                       both views: RESULTS/evaluation/compression.json; JOBS=2 at a time; UNLOADED=1: free of gravity'
+	@echo '                       both views: RESULTS/evaluation/compression.json; JOBS=2 at a time; UNLOADED=1: free of gravity;'
+	@echo '                       VIEWS=cc'
 	@echo 'make evaluate-stability  presses label maps and MRI of CASES again with their input changed in ways that must'
 	@echo '                       not matter: RESULTS/evaluation/stability.json; ONLY="Exam_02-left Exam_04",'
 	@echo '                       CHANGES="turn_5 mirror", VIEWS=cc, UNLOADED=1, TABLE=name (hours for all);'
@@ -173,7 +174,8 @@ calibrate-tissue: mammotwin-calibrate-tissue
 evaluate-compression: mammotwin-evaluate-compression
 	@"$$BIN/mammotwin-evaluate-compression" "$$RESULTS/evaluation/$${TABLE:-compression}.json" --cases "$$CASES" \
 	  $${SYNTHETIC:+--synthetic "$$SYNTHETIC"} $${FIRST:+--first "$$FIRST"} $${JOBS:+--jobs "$$JOBS"} \
-	  $${ONLY:+--only $$ONLY} $${KEEP:+--keep} $${PRESET:+--preset "$$PRESET"} $${UNLOADED:+--unloaded}
+	  $${ONLY:+--only $$ONLY} $${KEEP:+--keep} $${PRESET:+--preset "$$PRESET"} $${UNLOADED:+--unloaded} \
+	  $${VIEWS:+--views $$VIEWS}
 
 evaluate-stability: mammotwin-evaluate-stability
 	@"$$BIN/mammotwin-evaluate-stability" "$$CASES" "$$RESULTS/evaluation/$${TABLE:-stability}.json" \

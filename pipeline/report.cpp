@@ -58,8 +58,7 @@ StagePlan plan(const Arguments& args, const Patient& patient) {
 std::optional<MammogramFindings> findings_of(const Patient& patient, const RealMammogram& real,
                                              double angle_deg) {
   try {
-    return find_breast(real.image, real.detector.pixels->spacing_mm,
-                       std::abs(angle_deg) > kOblique_deg,
+    return find_breast(real.image, real.detector.pixels->spacing_mm, is_oblique(angle_deg),
                        said_in(patient, patient.view(real.view)));
   } catch (const std::runtime_error&) {  // register has said why
     return std::nullopt;

@@ -1,14 +1,9 @@
-#include <cmath>
 
 #include "registration/export/lesion_table.h"
 #include "registration/view/breast_position.h"
 
 namespace mammotwin {
 namespace {
-
-/// Beyond this the detector's cross axis says more of up and down than of lateral and medial in
-/// the words of a reader; positioners stand at 0 for CC and 30 to 60 for MLO.
-constexpr double kCranioCaudalLimit_deg = 15;
 
 LesionRow row_of(const std::string& patient, Side side, const Landmark& lesion,
                  const Eigen::Vector3d& nipple_in_lps) {
@@ -57,7 +52,7 @@ LesionRow view_row(const std::string& patient, const CompressedView& view,
   row.baseline_v_mm = lesion.baseline_on_detector.y();
   const Eigen::Vector2d offset = lesion.on_detector - nipple.on_detector;
   row.behind_nipple_mm = -offset.x();
-  const bool cranio_caudal = std::abs(view.angle_deg) <= kCranioCaudalLimit_deg;
+  const bool cranio_caudal = !is_oblique(view.angle_deg);
   (cranio_caudal ? row.lateral_of_nipple_mm : row.above_nipple_mm) = offset.y();
   row.nipple_distance_mm = offset.norm();
   return row;

@@ -7,6 +7,8 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "registration/view/wall_samples.h"
+
 namespace mammotwin {
 namespace {
 
@@ -30,16 +32,8 @@ std::map<int, double> wall_front(const MeshFile& compressed, const ViewFrame& fr
         front.emplace(static_cast<int>(std::lround(aside / kBand_mm)), x.x());
     if (!fresh) band->second = std::max(band->second, x.x());
   };
-  for (int e = 0; e < compressed.mesh.num_elements(); ++e)
-    for (int face = 0; face < 6; ++face) {
-      if (compressed.faces[e][face] != FaceLabel::chest_wall) continue;
-      for (int k = 0; k < kWallSamples * kWallSamples; ++k) {
-        Eigen::Vector3d xi = Eigen::Vector3d::Constant(face % 2);
-        xi[(face / 2 + 1) % 3] = (k % kWallSamples + 0.5) / kWallSamples;
-        xi[(face / 2 + 2) % 3] = (k / kWallSamples + 0.5) / kWallSamples;
-        see(frame.view_from_lps(compressed.mesh.position({e, xi})));
-      }
-    }
+  for (const WallSample& sample : wall_samples(compressed, kWallSamples))
+    see(frame.view_from_lps(compressed.mesh.position(sample.at)));
   return front;
 }
 
@@ -99,7 +93,7 @@ WallLine wall_line(const MeshFile& compressed, const CompressedView& view,
 
 EdgePrior edge_prior(const MeshFile& compressed, const CompressedView& view,
                      const Eigen::Vector3d& nipple_in_lps) {
-  if (std::abs(view.angle_deg) < kOblique_deg) return cc_prior();
+  if (!is_oblique(view.angle_deg)) return cc_prior();
   return mlo_prior(wall_line(compressed, view, nipple_in_lps),
                    view.frame.view_from_lps(nipple_in_lps).head<2>());
 }

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "registration/view/view_frame.h"
+#include "registration/view/wall_samples.h"
 
 namespace mammotwin {
 namespace {
@@ -14,26 +14,13 @@ constexpr double kBehindNipple_mm = 60;  // of the wall, what counts most
 constexpr int kFaceSamples = 6;          // along a face's side
 
 /// Of a sample's share of a face, into the breast [mm²].
-Eigen::Vector3d area_vector(const HermiteMesh& mesh, const MeshPoint& p, int face) {
+Eigen::Vector3d area_vector(const HermiteMesh& mesh, const WallSample& sample) {
+  const auto& [at, face] = sample;
   const int i = face / 2;
-  const Eigen::Matrix3d J = mesh.jacobian(p);
+  const Eigen::Matrix3d J = mesh.jacobian(at);
   const Eigen::Vector3d outwards =
       (face % 2 == 1 ? 1 : -1) * J.col((i + 1) % 3).cross(J.col((i + 2) % 3));
   return -outwards / (kFaceSamples * kFaceSamples);
-}
-
-template <class Visit>
-void for_wall_samples(const MeshFile& mesh, Visit visit) {
-  for (int e = 0; e < mesh.mesh.num_elements(); ++e)
-    for (int face = 0; face < 6; ++face) {
-      if (mesh.faces[e][face] != FaceLabel::chest_wall) continue;
-      for (int k = 0; k < kFaceSamples * kFaceSamples; ++k) {
-        MeshPoint p{e, Eigen::Vector3d::Constant(face % 2)};
-        p.xi[(face / 2 + 1) % 3] = (k % kFaceSamples + 0.5) / kFaceSamples;
-        p.xi[(face / 2 + 2) % 3] = (k / kFaceSamples + 0.5) / kFaceSamples;
-        visit(mesh.mesh.position(p), area_vector(mesh.mesh, p, face));
-      }
-    }
 }
 
 /// From lateral towards depth.
@@ -51,12 +38,14 @@ double straight_turn_deg(const MeshFile& unloaded, const MeshPoint& nipple,
   const Eigen::Vector3d tip = unloaded.mesh.position(nipple);
   Eigen::Vector3d moment = Eigen::Vector3d::Zero(), normal = moment;
   double area = 0;
-  for_wall_samples(unloaded, [&](const Eigen::Vector3d& x, const Eigen::Vector3d& piece) {
+  for (const WallSample& sample : wall_samples(unloaded, kFaceSamples)) {
+    const Eigen::Vector3d x = unloaded.mesh.position(sample.at);
+    const Eigen::Vector3d piece = area_vector(unloaded.mesh, sample);
     const double r = (x - tip).norm() / kBehindNipple_mm;
     normal += std::exp(-r * r / 2) * piece;
     moment += piece.norm() * x;
     area += piece.norm();
-  });
+  }
   if (area == 0)
     throw std::invalid_argument(
         "the mesh has no face labelled chest_wall; the plates are turned by the wall");
@@ -65,8 +54,13 @@ double straight_turn_deg(const MeshFile& unloaded, const MeshPoint& nipple,
 
 double usual_turn_deg(const MeshFile& unloaded, const MeshPoint& nipple, Side side,
                       double angle_deg) {
-  if (std::abs(angle_deg) >= kOblique_deg) return 0;
+  if (is_oblique(angle_deg)) return 0;
   return straight_turn_deg(unloaded, nipple, view_axes(side, angle_deg));
+}
+
+Eigen::Matrix3d usual_axes(const MeshFile& unloaded, const MeshPoint& nipple, Side side,
+                           double angle_deg) {
+  return axes_of(side, angle_deg, usual_turn_deg(unloaded, nipple, side, angle_deg));
 }
 
 }  // namespace mammotwin

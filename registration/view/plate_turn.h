@@ -1,7 +1,7 @@
 #pragma once
 
 #include "fitting/mesh/mesh_file.h"
-#include "segmentation/segmentation.h"
+#include "registration/view/compressed_view.h"
 
 namespace mammotwin {
 
@@ -21,5 +21,9 @@ double straight_turn_deg(const MeshFile& unloaded, const MeshPoint& nipple,
 /// oblique views, whose detector is turned by its muscle (edge_prior.h).
 double usual_turn_deg(const MeshFile& unloaded, const MeshPoint& nipple, Side side,
                       double angle_deg);
+
+/// Axes of a view with plates so turned.
+Eigen::Matrix3d usual_axes(const MeshFile& unloaded, const MeshPoint& nipple, Side side,
+                           double angle_deg);
 
 }  // namespace mammotwin

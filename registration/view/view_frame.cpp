@@ -15,4 +15,6 @@ Eigen::Matrix3d view_axes(Side side, double angle_deg) {
   return axes;
 }
 
+bool is_oblique(double angle_deg) { return std::abs(angle_deg) >= 15; }
+
 }  // namespace mammotwin

@@ -30,7 +30,8 @@ struct ViewFrame {
 ///   depth = (0, -1, 0),  lateral = (s cos t, 0, sin t),  height = -beam = (-s sin t, 0, cos t).
 Eigen::Matrix3d view_axes(Side side, double angle_deg);
 
-/// From so far off CC on a view is oblique [deg].
-inline constexpr double kOblique_deg = 15;
+/// 15 degrees off CC and more: across the detector lies up and down rather than lateral and medial.
+/// Positioners stand at 0 for CC and at 30 to 60 for MLO.
+bool is_oblique(double angle_deg);
 
 }  // namespace mammotwin

@@ -9,7 +9,6 @@
 #include "pipeline/patient/patient.h"
 #include "pipeline/steps/breast_problem.h"
 #include "pipeline/steps/view_problem.h"
-#include "registration/view/compressed_view.h"
 #include "registration/view/plate_turn.h"
 #include "segmentation/segmentation_file.h"
 #include "solver/gravity/pose_equilibria.h"
@@ -57,10 +56,8 @@ struct CalibratedBreast::Loaded {
     mesh.mesh = HermiteMesh(unloaded, prone.mesh.elements());
     const CompressionSettings kept = patient.compression;
     patient.compression = settings;
-    const double angle_deg = patient.cc.angle();
     CompressionProblem problem = view_problem(
-        patient, patient.cc,
-        axes_of(side, angle_deg, usual_turn_deg(mesh, nipple, side, angle_deg)), mesh, tissue);
+        patient, patient.cc, usual_axes(mesh, nipple, side, patient.cc.angle()), mesh, tissue);
     patient.compression = kept;
     return problem;
   }

@@ -12,7 +12,6 @@
 #include "pipeline/patient/compression_settings.h"
 #include "pipeline/synthesize/option_table.h"
 #include "pipeline/synthesize/patient.h"
-#include "registration/view/compressed_view.h"
 #include "registration/view/plate_turn.h"
 #include "segmentation/segmentation_file.h"
 
@@ -97,10 +96,9 @@ json make_folder(const EvaluatedBreast& breast) {
 
 /// As mammotwin-compress places plates by default, but for what gravity changes of their turn.
 double free_extent(const MeshFile& mesh, const Segmentation& segmentation, double angle_deg) {
-  const Side side = segmentation.region.side;
-  const double turn_deg = usual_turn_deg(
-      mesh, InverseMap(mesh.mesh).nearest(segmentation.nipple_in_lps), side, angle_deg);
-  const Eigen::Matrix3d axes = axes_of(side, angle_deg, turn_deg);
+  const Eigen::Matrix3d axes =
+      usual_axes(mesh, InverseMap(mesh.mesh).nearest(segmentation.nipple_in_lps),
+                 segmentation.region.side, angle_deg);
   PlateOptions plates;
   plates.depth = axes.row(0);
   plates.up = axes.row(2);

@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 struct Arguments {
   fs::path table, cases;
   int synthetic = 200, first = 0, jobs = 1, most_cpu_seconds = 3600;
-  std::vector<std::string> only;
+  std::vector<std::string> only, views;
   std::string preset = kDefaultTissue;
   bool unload = false, refit = false, keep = false;
 };
@@ -29,12 +29,13 @@ void declare(CommandLine& command, Arguments& args) {
               "compression.json to write; inputs and results of each breast go to the folder "
               "compression beside it")
       .required();
-  command.option("--synthetic", args.synthetic, "breasts of the population, each in both views")
+  command.option("--synthetic", args.synthetic, "breasts of the population")
       .between(0, 10000)
       .with_default();
   command.option("--first", args.first, "the first of them").between(0, 10000).with_default();
   command.option("--cases", args.cases, "folder with label_maps/*.nii.gz (none: no patients)");
   declare_only(command, args.only);
+  command.option("--views", args.views, "cc, mlo (default: both)");
   declare_jobs(command, args.jobs, "breasts at a time, each on all cores");
   command
       .option("--limit", args.most_cpu_seconds, "a compression is given up after this [s of CPU]")
@@ -69,6 +70,7 @@ void evaluate(const Arguments& args, const EvaluatedBreast& breast, std::size_t 
               EvaluationTable& table) {
   const PreparedBreast prepared = prepare_breast(breast, args.refit);
   for (const AskedView& view : prepared.views) {
+    if (!is_asked(view.view, args.views)) continue;
     nlohmann::json row = compression_row(breast, prepared, view, args.most_cpu_seconds);
     const std::string line = line_of(row);
     table.add(index, std::move(row), line);

@@ -10,7 +10,6 @@
 #include "pipeline/patient/gravity_settings.h"
 #include "pipeline/steps/breast_problem.h"
 #include "registration/carry/point_carrier.h"
-#include "registration/view/compressed_view.h"
 #include "registration/view/plate_turn.h"
 #include "segmentation/segmentation_file.h"
 #include "solver/gravity/unload.h"
@@ -96,12 +95,9 @@ struct ViewSolution {
 ViewSolution squeeze(const FittedBreast& breast, const BreastProblem& loaded, double angle_deg) {
   CompressionProblem problem{loaded, {}, {}};
   problem.gravity.setZero();
-  const Side side = breast.segmentation.region.side;
-  const Eigen::Matrix3d axes = axes_of(
-      side, angle_deg,
-      usual_turn_deg(breast.mesh,
-                     InverseMap(breast.mesh.mesh).nearest(breast.segmentation.nipple_in_lps), side,
-                     angle_deg));
+  const Eigen::Matrix3d axes = usual_axes(
+      breast.mesh, InverseMap(breast.mesh.mesh).nearest(breast.segmentation.nipple_in_lps),
+      breast.segmentation.region.side, angle_deg);
   problem.plates.depth = axes.row(0);
   problem.plates.up = axes.row(2);
   problem.friction = CompressionSettings().friction;

@@ -1,7 +1,5 @@
 #include "pipeline/report/live/views_data.h"
 
-#include <cmath>
-
 #include "pipeline/report/drawing/palette.h"
 #include "pipeline/report/live/what_if_data.h"
 #include "registration/carry/position_grid.h"
@@ -17,7 +15,6 @@ json one_view(const PatientResults& results, const ViewResult& view, const Secti
               int number) {
   const Eigen::Vector2d origin = section.on_paper(Eigen::Vector3d::Zero());
   const Eigen::AlignedBox3d box = bounding_box(in_view_frame(view.file.mesh, view.view.frame));
-  constexpr double kCranioCaudalLimit_deg = 15;
   const std::string further = number == 1 ? "" : "-" + std::to_string(number);
   return {{"name", view.view.name + further},
           {"view", view.view.name},
@@ -30,7 +27,7 @@ json one_view(const PatientResults& results, const ViewResult& view, const Secti
           {"support_gap_mm", view.detector.support_gap_mm},
           {"thickness_mm", view.view.thickness_mm},
           {"angle_deg", view.view.angle_deg},
-          {"cranio_caudal", std::abs(view.view.angle_deg) <= kCranioCaudalLimit_deg},
+          {"cranio_caudal", !is_oblique(view.view.angle_deg)},
           {"lowest_mm", box.min().z()},
           {"highest_mm", box.max().z()},
           {"what_if", number == 1 ? what_if_data(results, view) : json()}};
