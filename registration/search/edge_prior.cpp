@@ -16,8 +16,8 @@ constexpr double kBand_mm = 5, kReach_mm = 40;  // sideways, about the nipple
 constexpr int kWallSamples = 6;                 // along a face's side: 4 mm on faces of 25 mm
 
 constexpr double kCcEdgeSd_mm = 14.5;
-constexpr double kMuscle_deg = 22, kMuscleSd_deg = 6;  // MLO
-constexpr double kMuscleEndSd_mm = 30;
+constexpr double kMuscle_deg = 22, kMuscleSd_deg = 6;         // MLO
+constexpr double kNippleShare = 0.90, kNippleShareSd = 0.12;  // of its distance from the muscle
 
 double radians(double degrees) { return degrees * std::numbers::pi / 180; }
 
@@ -54,8 +54,7 @@ void turn_about(double lateral_mm, EdgePrior& prior) {
   prior.covariance(kShiftDepth, kShiftDepth) += shift * shift;
 }
 
-/// The wall turned to the muscle's slope, and so far in that it meets the edge at the nipple's
-/// level.
+/// The wall turned to the muscle's slope, and so far in that the nipple is as deep as nipples are.
 EdgePrior mlo_prior(const WallLine& wall, const Eigen::Vector2d& nipple) {
   EdgePrior prior;
   const double half_slope = wall.slope_deg / 2;
@@ -64,10 +63,9 @@ EdgePrior mlo_prior(const WallLine& wall, const Eigen::Vector2d& nipple) {
       (nipple.x() - wall.depth_mm) * std::cos(radians(wall.slope_deg));  // squarely
   const Eigen::Vector2d turned = Eigen::Rotation2Dd(radians(turn)) * nipple;
   prior.mean[kTurn] = turn;
-  prior.mean[kShiftDepth] = from_wall / std::cos(radians(kMuscle_deg)) - turned.x();
+  prior.mean[kShiftDepth] = kNippleShare * from_wall - turned.x();
   prior.sd[kTurn] = std::hypot(kMuscleSd_deg, half_slope);
-  prior.sd[kShiftDepth] =
-      depth_sd_beside(kMuscleEndSd_mm * std::tan(radians(kMuscle_deg)), prior.sd);
+  prior.sd[kShiftDepth] = depth_sd_beside(kNippleShareSd * from_wall, prior.sd);
   turn_about(turned.y(), prior);
   return prior;
 }

@@ -40,6 +40,7 @@ double cpu_seconds(std::clock_t since) {
 json row_of(const ReadMammogram& read, ColourPicture& tile) {
   json row{{"file", read.file.filename().string()}, {"view", read.view}};
   const MammogramImage image = read_mammogram_picture(read.file);
+  row.update(positioning_row(read, image.columns));
   MammogramFindings found;
   const std::clock_t begun = std::clock();
   try {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iostream>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "pipeline/evaluate/registration/line_distance.h"
 
@@ -85,6 +86,21 @@ json mammogram_row(const ReadMammogram& read, const MammogramFindings& found) {
     row["pectoral_worst_mm"] = worst({read.pectoral->first, read.pectoral->second},
                                      coarse(found.pectoral_curve), true, read.pixel_mm);
   return row;
+}
+
+json positioning_row(const ReadMammogram& read, int columns) {
+  if (!read.pectoral || !read.nipple) return json::object();
+  const auto from_edge = [&](Eigen::Vector2d pixel) {
+    if (!read.wall_at_left) pixel.x() = columns - 1 - pixel.x();
+    return pixel;
+  };
+  const Eigen::Vector2d top = from_edge(read.pectoral->first),
+                        bottom = from_edge(read.pectoral->second), nipple = from_edge(*read.nipple);
+  const Eigen::Vector2d along = (top - bottom).normalized();
+  const double away =
+      std::abs(along.x() * (nipple - bottom).y() - along.y() * (nipple - bottom).x());
+  return {{"muscle_slope_deg", std::atan2(along.x(), -along.y()) * 180 / std::numbers::pi},
+          {"nipple_share", nipple.x() / away}};
 }
 
 json mammogram_counts(const json& rows) {

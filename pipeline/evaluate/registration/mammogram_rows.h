@@ -12,6 +12,11 @@ namespace mammotwin {
 /// and remarks: how far the findings lie from what was read; null where either is missing.
 nlohmann::json mammogram_row(const ReadMammogram& read, const MammogramFindings& found);
 
+/// muscle_slope_deg and nipple_share, as read: the muscle's line against the image's edge at the
+/// chest wall, and the nipple's depth behind that edge over its distance from that line. Empty
+/// where nobody read both. `columns`: of the image.
+nlohmann::json positioning_row(const ReadMammogram& read, int columns);
+
 /// How many rows are right, unsure and wrong: skin within 3 mm, nipple and pectoral edge within 5;
 /// and what errors are over their standard deviations.
 nlohmann::json mammogram_counts(const nlohmann::json& rows);

@@ -55,18 +55,16 @@ TEST(EdgePrior, LeavesItInCcToThePlatesWithinCentimetres) {
 }
 
 // Half of the wall's slope of -20 degrees is taken off, so that it stands at 22 - 10.
-TEST(EdgePrior, ShowsInMloTheMuscleDownToTheNipple) {
+TEST(EdgePrior, LaysTheNippleInMloAsDeepAsRealOnesAre) {
   SlantedBox box;
   box.view.angle_deg = 45;
   const EdgePrior prior = edge_prior(box.file, box.view, box.nipple);
   const WallLine wall = wall_line(box.file, box.view, box.nipple);
   EXPECT_NEAR(prior.mean[kTurn], wall.slope_deg / 2 - 22, 1e-9);
   EXPECT_NEAR(prior.sd[kTurn], std::hypot(6, wall.slope_deg / 2), 1e-9);
-  // A muscle's edge at 22 degrees that ends at the nipple's level is as far from the nipple as the
-  // wall.
-  const Eigen::Vector2d nipple = SlantedBox::laid({50, 0}, prior);
-  EXPECT_NEAR(nipple.x() * std::cos(22 * M_PI / 180),
-              (50 - wall.depth_mm) * std::cos(wall.slope_deg * M_PI / 180), 1e-9);
+  const double from_wall = (50 - wall.depth_mm) * std::cos(wall.slope_deg * M_PI / 180);
+  EXPECT_NEAR(SlantedBox::laid({50, 0}, prior).x(), 0.90 * from_wall, 1e-9);
+  EXPECT_NEAR(prior.sd[kShiftDepth], std::sqrt(std::pow(0.12 * from_wall, 2) - 16), 1e-9);
 }
 
 // Two points on the detector, the nipple and one 60 mm higher up: by a turn the depth of the first

@@ -1,0 +1,47 @@
+#include "pipeline/evaluate/registration/mammogram_rows.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace mammotwin {
+namespace {
+
+/// Of 500 columns, its muscle wide above at a slope of 40 in 100, which meets the edge in row 200.
+ReadMammogram read(double nipple_row) {
+  ReadMammogram read;
+  read.pectoral = {Eigen::Vector2d(80, 0), Eigen::Vector2d(20, 150)};
+  read.nipple = {300, nipple_row};
+  return read;
+}
+
+ReadMammogram mirrored(ReadMammogram read) {
+  read.wall_at_left = false;
+  for (Eigen::Vector2d* x : {&read.pectoral->first, &read.pectoral->second, &*read.nipple})
+    x->x() = 499 - x->x();
+  return read;
+}
+
+TEST(PositioningRow, SaysHowDeepTheNippleLiesOverItsDistanceFromTheMuscle) {
+  const double slope = std::atan(0.4);
+  for (const double below : {-50.0, 0.0, 120.0}) {
+    const nlohmann::json row = positioning_row(read(200 + below), 500);
+    EXPECT_NEAR(row.at("muscle_slope_deg").get<double>(), slope * 180 / M_PI, 1e-9);
+    EXPECT_NEAR(row.at("nipple_share").get<double>(),
+                300 / (300 * std::cos(slope) + below * std::sin(slope)), 1e-9);
+    EXPECT_EQ(row, positioning_row(mirrored(read(200 + below)), 500));
+  }
+}
+
+TEST(PositioningRow, SaysNothingWhereNobodyReadTheMuscleOrTheNipple) {
+  ReadMammogram without = read(200);
+  without.nipple.reset();
+  EXPECT_TRUE(positioning_row(without, 500).empty());
+  without = read(200);
+  without.pectoral.reset();
+  EXPECT_TRUE(positioning_row(without, 500).empty());
+}
+
+}  // namespace
+}  // namespace mammotwin
