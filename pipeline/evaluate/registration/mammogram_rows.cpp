@@ -96,11 +96,9 @@ json positioning_row(const ReadMammogram& read, int columns) {
   };
   const Eigen::Vector2d top = from_edge(read.pectoral->first),
                         bottom = from_edge(read.pectoral->second), nipple = from_edge(*read.nipple);
-  const Eigen::Vector2d along = (top - bottom).normalized();
-  const double away =
-      std::abs(along.x() * (nipple - bottom).y() - along.y() * (nipple - bottom).x());
-  return {{"muscle_slope_deg", std::atan2(along.x(), -along.y()) * 180 / std::numbers::pi},
-          {"nipple_share", nipple.x() / away}};
+  const Eigen::Vector2d up = top - bottom;
+  return {{"muscle_slope_deg", std::atan2(up.x(), -up.y()) * 180 / std::numbers::pi},
+          {"nipple_share", nipple.x() / distance_to_line(nipple, {top, bottom}, true)}};
 }
 
 json mammogram_counts(const json& rows) {
