@@ -188,8 +188,8 @@ void declare_view(Settings& s, const std::string& view, ViewSettings& v) {
       "mammogram's, else 0 for CC and 45 for MLO");
   s.number(
       prefix + "turn_deg", v.turn_deg, {-45, 45, "deg"},
-      "of the plates about the beam, from lateral towards depth; default: square to the chest wall "
-      "behind the nipple, as women are turned for CC; 0 in oblique views");
+      "of the plates about the beam, from lateral towards depth; default: so that the breast comes "
+      "out straight, as women are turned");
   s.number(prefix + "lift_mm", v.lift_mm, {-50, 50, "mm"},
            "how far the plates' middle lies above the breast's centroid");
   const std::string detector = prefix + "detector.";

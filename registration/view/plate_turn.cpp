@@ -54,7 +54,6 @@ double straight_turn_deg(const MeshFile& unloaded, const MeshPoint& nipple,
 
 double usual_turn_deg(const MeshFile& unloaded, const MeshPoint& nipple, Side side,
                       double angle_deg) {
-  if (is_oblique(angle_deg)) return 0;
   return straight_turn_deg(unloaded, nipple, view_axes(side, angle_deg));
 }
 

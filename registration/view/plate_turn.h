@@ -17,8 +17,8 @@ namespace mammotwin {
 double straight_turn_deg(const MeshFile& unloaded, const MeshPoint& nipple,
                          const Eigen::Matrix3d& view_axes);
 
-/// The plates' turn where nothing is said: straight in CC (less than 15 degrees from it); none in
-/// oblique views, whose detector is turned by its muscle (edge_prior.h).
+/// The plates' turn where nothing is said: straight. How a detector is turned further in oblique
+/// views, by its muscle, edge_prior.h says.
 double usual_turn_deg(const MeshFile& unloaded, const MeshPoint& nipple, Side side,
                       double angle_deg);
 

@@ -89,11 +89,15 @@ TEST(PlateTurn, TurnsWithTheBody) {
               straight_turn_deg(mesh, tip, view_axes(Side::left, 0)) - 5, 1e-9);
 }
 
-TEST(PlateTurn, ObliqueViewsHaveNone) {
+// A wall that recedes to the side does so by less along an oblique view's lateral axis, which goes
+// half up.
+TEST(PlateTurn, LetsBreastsComeOutStraightInObliqueViewsToo) {
   const MeshFile mesh = box(Side::left, 0.3, 0);
   const MeshPoint tip = nipple(mesh, Side::left, 0);
-  EXPECT_EQ(usual_turn_deg(mesh, tip, Side::left, 45), 0);
   EXPECT_EQ(usual_turn_deg(mesh, tip, Side::left, 0), cc_turn(mesh, Side::left));
+  EXPECT_NEAR(usual_turn_deg(mesh, tip, Side::left, 45),
+              straight_turn_deg(mesh, tip, view_axes(Side::left, 45)), 1e-12);
+  EXPECT_NEAR(usual_turn_deg(mesh, tip, Side::left, 45), -degrees(0.3 * std::cos(M_PI / 4)) / 2, 1);
 }
 
 TEST(PlateTurn, WithoutAWallThereIsNothingToStandBy) {
