@@ -40,12 +40,12 @@ double cpu_seconds(std::clock_t since) {
 json row_of(const ReadMammogram& read, ColourPicture& tile) {
   json row{{"file", read.file.filename().string()}, {"view", read.view}};
   const MammogramImage image = read_mammogram_picture(read.file);
-  row.update(positioning_row(read, image.columns));
   MammogramFindings found;
   const std::clock_t begun = std::clock();
   try {
     found = find_breast(image, read.pixel_mm, read.oblique());
     row.update(mammogram_row(read, found));
+    row.update(positioning_row(read, found.outline, image.columns));
   } catch (const std::runtime_error& error) {
     row["refused"] = error.what();
     row["unsure"] = {"outline", "nipple", "pectoral"};

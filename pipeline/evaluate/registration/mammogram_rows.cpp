@@ -15,6 +15,7 @@ using nlohmann::json;
 using Line = std::vector<Eigen::Vector2d>;
 
 // Right is: [mm]
+constexpr double kBesideNipple_mm = 25;
 constexpr double kSkin_mm = 3, kNipple_mm = 5, kFarNipple_mm = 10, kPectoral_mm = 5;
 
 double worst(const Line& points, const Line& line, bool endless, double pixel_mm) {
@@ -27,6 +28,18 @@ double worst(const Line& points, const Line& line, bool endless, double pixel_mm
 bool unsure(const json& row, const char* what) {
   const json& said = row.at("unsure");
   return std::find(said.begin(), said.end(), what) != said.end();
+}
+
+/// The line's farthest column in a row that it reaches.
+std::optional<double> deepest_at(double row, const Line& line) {
+  std::optional<double> deepest;
+  for (std::size_t n = 1; n < line.size(); ++n) {
+    const Eigen::Vector2d &a = line[n - 1], &b = line[n];
+    if ((a.y() - row) * (b.y() - row) > 0 || a.y() == b.y()) continue;
+    const double column = a.x() + (row - a.y()) / (b.y() - a.y()) * (b.x() - a.x());
+    deepest = std::max(deepest.value_or(column), column);
+  }
+  return deepest;
 }
 
 /// Rows in which a figure is known, right, wrong but said to be unsure, and wrong all the same.
@@ -88,17 +101,26 @@ json mammogram_row(const ReadMammogram& read, const MammogramFindings& found) {
   return row;
 }
 
-json positioning_row(const ReadMammogram& read, int columns) {
+json positioning_row(const ReadMammogram& read, Line outline, int columns) {
   if (!read.pectoral || !read.nipple) return json::object();
   const auto from_edge = [&](Eigen::Vector2d pixel) {
     if (!read.wall_at_left) pixel.x() = columns - 1 - pixel.x();
     return pixel;
   };
+  std::transform(outline.begin(), outline.end(), outline.begin(), from_edge);
   const Eigen::Vector2d top = from_edge(read.pectoral->first),
                         bottom = from_edge(read.pectoral->second), nipple = from_edge(*read.nipple);
-  const Eigen::Vector2d up = top - bottom;
-  return {{"muscle_slope_deg", std::atan2(up.x(), -up.y()) * 180 / std::numbers::pi},
-          {"nipple_share", nipple.x() / distance_to_line(nipple, {top, bottom}, true)}};
+  const auto degrees = [](double deeper, double up) {
+    return std::atan2(deeper, up) * 180 / std::numbers::pi;
+  };
+  json row{{"muscle_slope_deg", degrees(top.x() - bottom.x(), bottom.y() - top.y())},
+           {"nipple_share", nipple.x() / distance_to_line(nipple, {top, bottom}, true)},
+           {"skin_slope_deg", nullptr}};
+  const double aside = kBesideNipple_mm / read.pixel_mm;
+  const std::optional<double> above = deepest_at(nipple.y() - aside, outline),
+                              below = deepest_at(nipple.y() + aside, outline);
+  if (above && below) row["skin_slope_deg"] = degrees(*above - *below, 2 * aside);
+  return row;
 }
 
 json mammogram_counts(const json& rows) {

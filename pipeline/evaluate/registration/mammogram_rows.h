@@ -12,10 +12,13 @@ namespace mammotwin {
 /// and remarks: how far the findings lie from what was read; null where either is missing.
 nlohmann::json mammogram_row(const ReadMammogram& read, const MammogramFindings& found);
 
-/// muscle_slope_deg and nipple_share, as read: the muscle's line against the image's edge at the
-/// chest wall, and the nipple's depth behind that edge over its distance from that line. Empty
-/// where nobody read both. `columns`: of the image.
-nlohmann::json positioning_row(const ReadMammogram& read, int columns);
+/// How a breast lies in an oblique view, against the image's edge at the chest wall: as read, the
+/// muscle's line (muscle_slope_deg) and the nipple's depth behind that edge over its distance from
+/// that line (nipple_share); and the chord of the outline found from 25 mm above the nipple to 25
+/// mm below (skin_slope_deg, null where it does not reach). Slopes are positive where what lies
+/// above is deeper. Empty where nobody read muscle and nipple. `columns`: of the image.
+nlohmann::json positioning_row(const ReadMammogram& read, std::vector<Eigen::Vector2d> outline,
+                               int columns);
 
 /// How many rows are right, unsure and wrong: skin within 3 mm, nipple and pectoral edge within 5;
 /// and what errors are over their standard deviations.

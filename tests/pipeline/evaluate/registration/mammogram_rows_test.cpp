@@ -11,10 +11,14 @@ namespace {
 /// Of 500 columns, its muscle wide above at a slope of 40 in 100, which meets the edge in row 200.
 ReadMammogram read(double nipple_row) {
   ReadMammogram read;
+  read.pixel_mm = 0.5;
   read.pectoral = {Eigen::Vector2d(80, 0), Eigen::Vector2d(20, 150)};
   read.nipple = {300, nipple_row};
   return read;
 }
+
+using Line = std::vector<Eigen::Vector2d>;
+const Line kOutline{{370, 100}, {250, 700}};  // slanted by 20 in 100
 
 ReadMammogram mirrored(ReadMammogram read) {
   read.wall_at_left = false;
@@ -23,24 +27,42 @@ ReadMammogram mirrored(ReadMammogram read) {
   return read;
 }
 
+Line mirrored(Line line) {
+  for (Eigen::Vector2d& x : line) x.x() = 499 - x.x();
+  return line;
+}
+
 TEST(PositioningRow, SaysHowDeepTheNippleLiesOverItsDistanceFromTheMuscle) {
   const double slope = std::atan(0.4);
   for (const double below : {-50.0, 0.0, 120.0}) {
-    const nlohmann::json row = positioning_row(read(200 + below), 500);
+    const nlohmann::json row = positioning_row(read(200 + below), kOutline, 500);
     EXPECT_NEAR(row.at("muscle_slope_deg").get<double>(), slope * 180 / M_PI, 1e-9);
     EXPECT_NEAR(row.at("nipple_share").get<double>(),
                 300 / (300 * std::cos(slope) + below * std::sin(slope)), 1e-9);
-    EXPECT_EQ(row, positioning_row(mirrored(read(200 + below)), 500));
+    EXPECT_NEAR(row.at("skin_slope_deg").get<double>(), std::atan(0.2) * 180 / M_PI, 1e-9);
+    EXPECT_EQ(row, positioning_row(mirrored(read(200 + below)), mirrored(kOutline), 500));
   }
+}
+
+TEST(PositioningRow, SaysNoSlopeOfSkinThatDoesNotReach) {
+  EXPECT_FALSE(positioning_row(read(640), kOutline, 500).at("skin_slope_deg").is_null());
+  for (const double row : {140.0, 660.0})  // 50 pixels each way
+    EXPECT_TRUE(positioning_row(read(row), kOutline, 500).at("skin_slope_deg").is_null());
+}
+
+TEST(PositioningRow, MeasuresTheSkinWhereItIsDeepest) {
+  const Line folded{{370, 100}, {350, 180}, {200, 180}, {200, 120}, {340, 120}, {250, 700}};
+  EXPECT_NEAR(positioning_row(read(200), folded, 500).at("skin_slope_deg").get<double>(),
+              std::atan2(357.5 - (340 - 90 * 130 / 580.), 100) * 180 / M_PI, 1e-9);
 }
 
 TEST(PositioningRow, SaysNothingWhereNobodyReadTheMuscleOrTheNipple) {
   ReadMammogram without = read(200);
   without.nipple.reset();
-  EXPECT_TRUE(positioning_row(without, 500).empty());
+  EXPECT_TRUE(positioning_row(without, kOutline, 500).empty());
   without = read(200);
   without.pectoral.reset();
-  EXPECT_TRUE(positioning_row(without, 500).empty());
+  EXPECT_TRUE(positioning_row(without, kOutline, 500).empty());
 }
 
 }  // namespace
