@@ -58,7 +58,7 @@ class Unloading {
     double margin = 0;  ///< 0 where the load is not complete
     DeadForces skin_forces;
     double skin_force_N = 0;
-    Rest rest;  ///< where it was asked for
+    Rest rest{};  ///< where it was asked for
   };
   TakenOff take_off(double share);
   void take(TakenOff found, UnloadResult& result);

@@ -38,6 +38,10 @@ void declare_keep(CommandLine& command, bool& keep) {
   command.flag("--keep", keep, "rows of other breasts that the table has already stay in it");
 }
 
+void declare_views(CommandLine& command, std::vector<std::string>& views) {
+  command.option("--views", views, "cc, mlo (default: both)").one_of({"cc", "mlo"});
+}
+
 void declare_unloaded(CommandLine& command, bool& unload) {
   command.flag("--unloaded", unload, "press the shape free of gravity, not the imaged one");
 }

@@ -20,6 +20,7 @@ void declare_only(CommandLine& command, std::vector<std::string>& only);
 bool is_asked(const std::string& name, const std::vector<std::string>& only);
 /// Rows of other breasts that the table has already stay (EvaluationTable).
 void declare_keep(CommandLine& command, bool& keep);
+void declare_views(CommandLine& command, std::vector<std::string>& views);
 void declare_unloaded(CommandLine& command, bool& unload);
 /// How many run at once, as many as `jobs` says where it is not given.
 void declare_jobs(CommandLine& command, int& jobs, const std::string& what = "breasts at a time");

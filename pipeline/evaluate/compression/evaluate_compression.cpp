@@ -35,7 +35,7 @@ void declare(CommandLine& command, Arguments& args) {
   command.option("--first", args.first, "the first of them").between(0, 10000).with_default();
   command.option("--cases", args.cases, "folder with label_maps/*.nii.gz (none: no patients)");
   declare_only(command, args.only);
-  command.option("--views", args.views, "cc, mlo (default: both)").one_of({"cc", "mlo"});
+  declare_views(command, args.views);
   declare_jobs(command, args.jobs, "breasts at a time, each on all cores");
   command
       .option("--limit", args.most_cpu_seconds, "a compression is given up after this [s of CPU]")

@@ -26,7 +26,7 @@ void declare(CommandLine& command, Arguments& args) {
       .required()
       .existing_folder();
   declare_table(command, args.table, "other_meshes");
-  command.option("--views", args.views, "cc, mlo (default: both)");
+  declare_views(command, args.views);
 }
 
 int run(const Arguments& args) {

@@ -29,7 +29,7 @@ void declare(CommandLine& command, Arguments& args) {
                  "turn_1, turn_3, turn_5, mirror, half_voxel, elements, thickness (default: all)");
   command.option("--other-preset", args.other_preset,
                  "instead: with the tissue of this materials.preset, a change that does matter");
-  command.option("--views", args.views, "cc, mlo (default: both)");
+  declare_views(command, args.views);
   declare_unloaded(command, args.unload);
   declare_keep(command, args.keep);
   declare_jobs(command, args.jobs);

@@ -11,6 +11,7 @@
 #include "pipeline/steps/breast_problem.h"
 #include "registration/carry/point_carrier.h"
 #include "registration/view/plate_turn.h"
+#include "registration/view/view_of_plates.h"
 #include "segmentation/segmentation_file.h"
 #include "solver/gravity/unload.h"
 #include "solver/press/compress.h"
@@ -104,11 +105,7 @@ ViewSolution squeeze(const FittedBreast& breast, const BreastProblem& loaded, do
   problem.plates.thickness = kCompressedShare * free_thickness(breast.mesh, problem.plates);
   const CompressionResult result = compress(problem, {});
   if (!result.report.usable()) throw std::runtime_error(result.report.reason);
-  const PlacedPlates& placed = result.plates;
-  const PlateOptions& plates = problem.plates;
-  const Eigen::Vector3d origin = plates.depth * placed.edge + plates.up * placed.support_height +
-                                 plates.depth.cross(plates.up) * placed.lateral_middle;
-  return {result.deformed, {origin, axes}};
+  return {result.deformed, {origin_of_plates(problem.plates, result.plates), axes}};
 }
 
 std::vector<Eigen::Vector3d> element_middles(const HermiteMesh& mesh) {
