@@ -1,12 +1,13 @@
 #include "registration/search/edge_prior.h"
 
-#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <cmath>
 #include <map>
 #include <numbers>
 #include <stdexcept>
 
+#include "registration/view/breast_middle.h"
+#include "registration/view/laid_on_detector.h"
 #include "registration/view/wall_samples.h"
 
 namespace mammotwin {
@@ -16,7 +17,8 @@ constexpr double kBand_mm = 5, kReach_mm = 40;  // sideways, about the nipple
 constexpr int kWallSamples = 6;                 // along a face's side: 4 mm on faces of 25 mm
 
 constexpr double kCcEdgeSd_mm = 14.5;
-constexpr double kMuscle_deg = 22, kMuscleSd_deg = 6;         // MLO
+// MLO
+constexpr double kTurn_deg = -25, kTurnSd_deg = 12;
 constexpr double kNippleShare = 0.90, kNippleShareSd = 0.12;  // of its distance from the muscle
 
 double radians(double degrees) { return degrees * std::numbers::pi / 180; }
@@ -47,30 +49,43 @@ EdgePrior cc_prior() {
   return prior;
 }
 
-/// Another turn leaves the nipple's depth, so that it goes with a shift of `lateral` by its angle.
-void turn_about(double lateral_mm, EdgePrior& prior) {
-  const double shift = lateral_mm * radians(prior.sd[kTurn]) / prior.sd[kShiftDepth];
-  prior.covariance(kTurn, kShiftDepth) = prior.covariance(kShiftDepth, kTurn) = shift;
-  prior.covariance(kShiftDepth, kShiftDepth) += shift * shift;
+/// The shifts that, in a view turned so, lay the nipple so deep and the breast in the middle.
+Eigen::Vector2d shift_at(double turn_deg, const HermiteMesh& pressed, const CompressedView& view,
+                         const Eigen::Vector3d& nipple_in_lps, double nipple_depth_mm) {
+  const CompressedView turned = laid_on_detector(view, turn_deg, {0, 0});
+  const double depth = nipple_depth_mm - turned.frame.view_from_lps(nipple_in_lps).x();
+  return {depth, -breast_middle_mm(pressed, laid_on_detector(turned, 0, {depth, 0}).frame)};
 }
 
-/// The wall turned to the muscle's slope, and so far in that the nipple is as deep as nipples are.
-EdgePrior mlo_prior(const WallLine& wall, const Eigen::Vector2d& nipple) {
+EdgePrior mlo_prior(const MeshFile& compressed, const CompressedView& view,
+                    const Eigen::Vector3d& nipple_in_lps) {
+  const double from_wall = wall_line(compressed, view, nipple_in_lps)
+                               .to_nipple_mm(view.frame.view_from_lps(nipple_in_lps).head<2>());
+  const auto shift = [&](double turn_deg) {
+    return shift_at(turn_deg, compressed.mesh, view, nipple_in_lps, kNippleShare * from_wall);
+  };
   EdgePrior prior;
-  const double half_slope = wall.slope_deg / 2;
-  const double turn = half_slope - kMuscle_deg;
-  const double from_wall =
-      (nipple.x() - wall.depth_mm) * std::cos(radians(wall.slope_deg));  // squarely
-  const Eigen::Vector2d turned = Eigen::Rotation2Dd(radians(turn)) * nipple;
-  prior.mean[kTurn] = turn;
-  prior.mean[kShiftDepth] = kNippleShare * from_wall - turned.x();
-  prior.sd[kTurn] = std::hypot(kMuscleSd_deg, half_slope);
+  prior.mean[kTurn] = kTurn_deg;
+  prior.mean.segment<2>(kShiftDepth) = shift(kTurn_deg);
+  prior.sd[kTurn] = kTurnSd_deg;
   prior.sd[kShiftDepth] = depth_sd_beside(kNippleShareSd * from_wall, prior.sd);
-  turn_about(turned.y(), prior);
+  prior.shift_by_turn = (shift(kTurn_deg + kTurnSd_deg) - shift(kTurn_deg - kTurnSd_deg)).array() /
+                        2 / prior.sd.segment<2>(kShiftDepth).array();
   return prior;
 }
 
 }  // namespace
+
+Eigen::Matrix<double, kStates, kStates> EdgePrior::covariance() const {
+  Eigen::Matrix<double, kStates, kStates> root =
+      Eigen::Matrix<double, kStates, kStates>::Identity();
+  root.block<2, 1>(kShiftDepth, kTurn) = shift_by_turn;
+  return root * root.transpose();
+}
+
+double WallLine::to_nipple_mm(const Eigen::Vector2d& nipple) const {
+  return (nipple.x() - depth_mm) * std::cos(radians(slope_deg));
+}
 
 WallLine wall_line(const MeshFile& compressed, const CompressedView& view,
                    const Eigen::Vector3d& nipple_in_lps) {
@@ -92,8 +107,7 @@ WallLine wall_line(const MeshFile& compressed, const CompressedView& view,
 EdgePrior edge_prior(const MeshFile& compressed, const CompressedView& view,
                      const Eigen::Vector3d& nipple_in_lps) {
   if (!is_oblique(view.angle_deg)) return cc_prior();
-  return mlo_prior(wall_line(compressed, view, nipple_in_lps),
-                   view.frame.view_from_lps(nipple_in_lps).head<2>());
+  return mlo_prior(compressed, view, nipple_in_lps);
 }
 
 }  // namespace mammotwin

@@ -10,6 +10,9 @@ namespace mammotwin {
 struct WallLine {
   double depth_mm = 0;   ///< at the nipple's lateral place, in the view's frame
   double slope_deg = 0;  ///< towards depth where lateral grows
+
+  /// How far the nipple is from the line, squarely [mm].
+  double to_nipple_mm(const Eigen::Vector2d& nipple) const;
 };
 
 /// Least squares through the front of the wall's faces, every 5 mm within 40 mm of the nipple
@@ -28,19 +31,24 @@ WallLine wall_line(const MeshFile& compressed, const CompressedView& view,
 /// nipple to muscle in MLO, 1,463 pairs, published labels), but where that muscle's edge lies
 /// against our wall is not known.
 ///
-/// MLO: body and muscle are pulled onto the detector until the muscle's edge stands 22 +- 6 degrees
-/// to the image's (published labels), wide above: the breast is turned. How far our wall then keeps
-/// the slope that it has in the view is not known: half of it, give or take that half. The
-/// nipple then lies 0.90 +- 0.12 times as deep behind the image's edge as it is far from the
-/// muscle's line (15 mammograms whose nipple and muscle somebody read, `evaluate-mammograms`): that
-/// line meets the edge some 50 mm above the nipple. Down to its level it reaches in 24.5 % of 200
-/// views (Spuur, Poulos, Rickard 2008), where the share is 1.08.
+/// MLO: body and muscle are pulled onto the detector until what lies above is the deeper. The
+/// muscle's line then stands 22 +- 6 degrees to the image's edge (published labels), the chord of
+/// the skin beside the nipple 28 +- 15 (12 mammograms that somebody read, `evaluate-mammograms`);
+/// between plates that let the breast come out straight it stands at 0 +- 4, whatever the wall's
+/// slope. So the breast is turned by 25 +- 12 degrees. The nipple lies 0.90 +- 0.12 times as deep
+/// behind the image's edge as it is far from the muscle's line (15 of those mammograms): that line
+/// meets the edge some 50 mm above the nipple. Down to its level it reaches in 24.5 % of 200 views
+/// (Spuur, Poulos, Rickard 2008), where the share is 1.08. Sideways its tissue is laid on the
+/// detector's middle, however it is turned.
 struct EdgePrior {
-  ViewState mean = ViewState::Zero();  ///< turn and shift in depth; all else 0 [deg, mm]
-  ViewState sd = prior_sd();
-  /// Of the numbers over `sd`: a turn is about the nipple, and so goes with a shift.
-  Eigen::Matrix<double, kStates, kStates> covariance =
-      Eigen::Matrix<double, kStates, kStates>::Identity();
+  ViewState mean = ViewState::Zero();  ///< turn and shifts; all else 0 [deg, mm]
+  ViewState sd = prior_sd();           ///< of a shift, beside what goes with the turn
+  /// A turn is not about the detector's middle, and so goes with shifts in depth and sideways: sd
+  /// of theirs for one of the turn's.
+  Eigen::Vector2d shift_by_turn = Eigen::Vector2d::Zero();
+
+  /// Of the numbers over `sd`.
+  Eigen::Matrix<double, kStates, kStates> covariance() const;
 };
 EdgePrior edge_prior(const MeshFile& compressed, const CompressedView& view,
                      const Eigen::Vector3d& nipple_in_lps);

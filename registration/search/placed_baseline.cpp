@@ -6,8 +6,10 @@ namespace mammotwin {
 namespace {
 
 /// The prone breast mapped by the baseline, as a view that can only be turned and shifted.
-ReducedView rigid_view(const HermiteMesh& prone, const AffineBaseline& baseline) {
+ReducedView rigid_view(const HermiteMesh& prone, const AffineBaseline& baseline,
+                       const EdgePrior& edge) {
   ReducedView view;
+  view.expect(edge);
   view.elements = prone.elements();
   view.base = prone.nodes();
   const Eigen::Vector3d zero = baseline.view_from_prone(Eigen::Vector3d::Zero());
@@ -26,16 +28,17 @@ HermiteMesh prone_of(const MeshFile& compressed) {
 }
 
 PlacedBaseline placed_baseline(const MeshFile& compressed, CompressedView view, double thickness_mm,
-                               const Eigen::Vector3d& nipple_in_lps, const Detector& detector,
+                               const Eigen::Vector3d& nipple_in_lps, const EdgePrior& edge,
+                               const Detector& detector,
                                const std::optional<ViewEvidence>& evidence) {
   view.thickness_mm = thickness_mm;
   const HermiteMesh prone = prone_of(compressed);
   AffineBaseline baseline(prone, view);
   if (!evidence) return {baseline, {}};
-  const ViewMatch match(rigid_view(prone, baseline), compressed.faces, prone, nullptr,
+  const ViewMatch match(rigid_view(prone, baseline, edge), compressed.faces, prone, nullptr,
                         nipple_in_lps, detector, *evidence);
-  const ViewState z = search_pose({&match}, {ViewState::Zero()}, true).states.front();
-  const ViewState state = z.cwiseProduct(prior_sd());
+  const ViewState z = search_pose({&match}, {match.view().mean}, true).states.front();
+  const ViewState state = z.cwiseProduct(match.view().sd);
   baseline.place(state[kTurn], {state[kShiftDepth], state[kShiftLateral]});
   return {baseline, match.figures(z)};
 }

@@ -10,10 +10,11 @@ struct PlacedBaseline {
   std::optional<MatchFigures> left;  ///< to a mammogram, if there is one
 };
 
-/// The baseline of a compressed view at a thickness; with evidence, turned and shifted to the
-/// mammogram's outline and nipple as the model is.
+/// The baseline of a compressed view at a thickness; with evidence, turned and shifted from where
+/// the detector's edge is expected to the mammogram's outline and nipple, as the model is.
 PlacedBaseline placed_baseline(const MeshFile& compressed, CompressedView view, double thickness_mm,
-                               const Eigen::Vector3d& nipple_in_lps, const Detector& detector,
+                               const Eigen::Vector3d& nipple_in_lps, const EdgePrior& edge,
+                               const Detector& detector,
                                const std::optional<ViewEvidence>& evidence);
 
 /// The prone breast of what compress wrote.

@@ -19,9 +19,9 @@ constexpr double kFarthest = 2.5;  // a mechanical number's modes are not believ
 constexpr int kMostIterations = 25;
 constexpr double kGain = 1e-3;  // of the cost: less is converged
 constexpr double kFirstRadius = 100;
-// Standard deviations beyond which a shift in depth costs its distance, not the square: real
-// detectors' edges stand centimetres behind the chest wall at times, where the model's plates
-// cannot.
+// Standard deviations off its mean beyond which a shift in depth costs its distance, not the
+// square: real detectors' edges stand centimetres behind the chest wall at times, where the model's
+// plates cannot.
 constexpr double kShiftTail = 2;
 
 /// All views' numbers in one vector, shared ones once.
@@ -55,10 +55,19 @@ class Joint {
       }
     return c;
   }
-  Eigen::VectorXd prior_residuals(const Eigen::VectorXd& z) const {
+  Eigen::VectorXd prior_residuals(const Eigen::VectorXd& z,
+                                  const std::vector<const ViewMatch*>& views) const {
     Eigen::VectorXd r = z;
-    for (const auto& view : indices_)
-      r[view[kShiftDepth]] = huber(z[view[kShiftDepth]], kShiftTail);
+    for (std::size_t v = 0; v < views.size(); ++v) {
+      const ReducedView& view = views[v]->view();
+      const int turn = indices_[v][kTurn], depth = indices_[v][kShiftDepth],
+                lateral = indices_[v][kShiftLateral];
+      r[turn] -= view.mean[kTurn];
+      const Eigen::Vector2d expected =
+          view.mean.segment<2>(kShiftDepth) + r[turn] * view.shift_by_turn;
+      r[depth] = huber(z[depth] - expected.x(), kShiftTail);
+      r[lateral] -= expected.y();
+    }
     return r;
   }
   /// Ceres starts from nothing that lies outside.
@@ -91,7 +100,7 @@ class Residuals {
       size += parts[v].size();
     }
     Eigen::VectorXd all(size);
-    all.head(z.size()) = joint_.prior_residuals(z);
+    all.head(z.size()) = joint_.prior_residuals(z, views_);
     Eigen::Index row = z.size();
     for (const Eigen::VectorXd& part : parts) {
       all.segment(row, part.size()) = part;

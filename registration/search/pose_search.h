@@ -23,9 +23,10 @@ struct PoseEstimate {
 };
 
 /// The states that are most probable given the mammograms: Levenberg-Marquardt by Ceres on all
-/// residuals and z itself (the prior; a shift in depth beyond two standard deviations by the square
-/// root of its distance), two numbers shared by the views. First outline and nipple alone, which
-/// lead from far away; then with the pattern of dense tissue. `start` holds a state for each view.
+/// residuals and z less its prior's mean (a shift in depth beyond two standard deviations by the
+/// square root of its distance), some numbers shared by the views. First outline and nipple alone,
+/// which lead from far away; then with the pattern of dense tissue. `start` holds a state for each
+/// view.
 PoseEstimate search_pose(const std::vector<const ViewMatch*>& views,
                          const std::vector<ViewState>& start, bool only_rigid = false);
 

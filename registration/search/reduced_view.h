@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "registration/search/edge_prior.h"
 #include "registration/search/free_form_deformation.h"
 #include "registration/search/nearby_solver.h"
 
@@ -23,6 +24,8 @@ struct ReducedView {
   Nodes base;  ///< view coordinates [mm]
   std::array<Mode, kMechanical> modes;
   ViewState sd = prior_sd();
+  ViewState mean = ViewState::Zero();  ///< the prior's [sd]; 0 but of turn and shifts
+  Eigen::Vector2d shift_by_turn = Eigen::Vector2d::Zero();  ///< edge_prior.h
   int failed_solves = 0;
   FreeFormDeformation deformation;  ///< of each x(z)
 
@@ -34,6 +37,9 @@ struct ReducedView {
 
   /// Deformation, turn and shifts of a point that the modes brought to `x_in_view`.
   Eigen::Vector3d placed(const Eigen::Vector3d& x_in_view, const ViewState& z) const;
+
+  /// Takes the prior of the place on the detector from there.
+  void expect(const EdgePrior& edge);
 
   /// From here on x(z) is what was solved there, without a deformation.
   void rebase(const ViewState& z, const Nodes& solved_in_view);

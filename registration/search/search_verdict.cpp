@@ -56,12 +56,14 @@ std::string state_sentence(int number, double value, double limit) {
 /// Of numbers that nobody expects.
 std::vector<std::string> strange_state(const ViewState& state, const EdgePrior& edge) {
   std::vector<std::string> why;
+  ViewState expected = edge.mean;
+  expected.segment<2>(kShiftDepth).array() += (state[kTurn] - edge.mean[kTurn]) / edge.sd[kTurn] *
+                                              edge.shift_by_turn.array() *
+                                              edge.sd.segment<2>(kShiftDepth).array();
   for (int i = 0; i < kStates; ++i) {
     const double reach = no_registration::kStateDeviations * edge.sd[i];
-    const double low = std::min(0.0, edge.mean[i]) - reach;
-    const double high = std::max(0.0, edge.mean[i]) + reach;
-    if (state[i] < low || state[i] > high)
-      why.push_back(state_sentence(i, state[i], state[i] < low ? low : high));
+    const double off = state[i] - expected[i];
+    if (std::abs(off) > reach) why.push_back(state_sentence(i, off, std::copysign(reach, off)));
   }
   return why;
 }

@@ -38,12 +38,10 @@ inline constexpr double kStateDeviations = 2;  ///< of a number's prior
 }  // namespace no_registration
 
 /// Judges what a search of `view` left: differences, and the state in physical units. A state's
-/// number is held against its prior; the place on the detector and the turn may lie anywhere
-/// between where the plates are (0) and where the edge is expected, or the prior's two standard
-/// deviations beyond. A state beyond that is `look` where the view is surely in place
-/// (view_match.h), else no registration. Without a pattern to compare `look` is the
-/// best end. `baseline`: what the affine baseline left; `look` where its outline lies more than a
-/// millimetre nearer than the model's.
+/// number is held against its prior: one more than two standard deviations off is `look` where the
+/// view is surely in place (view_match.h), else no registration. Without a pattern to compare
+/// `look` is the best end. `baseline`: what the affine baseline left; `look` where its outline lies
+/// more than a millimetre nearer than the model's.
 SearchVerdict judge_search(const std::string& view, const MatchFigures& left,
                            const ViewState& state, const EdgePrior& edge, bool complete,
                            const std::optional<MatchFigures>& baseline = {});

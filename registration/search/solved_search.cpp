@@ -56,12 +56,13 @@ class Rounds {
 
  private:
   Place start() const {
-    Place place{States(views_.size(), ViewState::Zero()), {}, {}, 0};
-    place.cost = pose_at(matches_, place.states).cost;
+    Place place;
     for (const ViewToSearch& view : views_) {
+      place.states.push_back(view.match.view().mean);
       place.reduced.push_back(view.match.view());
       place.solved.push_back(view.solved);
     }
+    place.cost = pose_at(matches_, place.states).cost;
     return place;
   }
 
@@ -96,7 +97,7 @@ class Rounds {
     const ViewState& sd = views_[v].match.view().sd;
     if (!solver.soft_base()) return {};
     const ViewState to = aim.cwiseProduct(sd);
-    if (here.states[v].isZero()) return solver.walk_to(to, kShortestStep);
+    if (here.states[v].head<kMechanical>().isZero()) return solver.walk_to(to, kShortestStep);
     if (Walk walk = solver.walk_to(to); walk.share == 1) return walk;
     return solver.walk_from(here.solved[v], here.states[v].cwiseProduct(sd), to, kShortestStep);
   }

@@ -6,17 +6,13 @@
 #include "registration/search/placed_baseline.h"
 #include "registration/search/solved_search.h"
 #include "registration/search/view_disagreement.h"
+#include "registration/view/laid_on_detector.h"
 
 namespace mammotwin {
 namespace {
 
-/// A view's frame once the breast is turned and shifted on the detector.
-CompressedView laid_on_detector(CompressedView view, const ViewState& state) {
-  view.turn_deg += state[kTurn];
-  view.frame.axes = axes_of(view.side, view.angle_deg, view.turn_deg);
-  view.frame.origin_in_lps -=
-      view.frame.axes.transpose() * Eigen::Vector3d(state[kShiftDepth], state[kShiftLateral], 0);
-  return view;
+CompressedView laid_on_detector(const CompressedView& view, const ViewState& state) {
+  return laid_on_detector(view, state[kTurn], {state[kShiftDepth], state[kShiftLateral]});
 }
 
 ReducedView unsolved(const SearchInput& input) {
@@ -53,8 +49,8 @@ ViewUncertainty uncertainty(const ReducedView& reduced, const ViewState& z,
 }
 
 PlacedBaseline baseline_of(const SearchInput& input, const CompressedView& view,
-                           const Eigen::Vector3d& nipple_in_lps) {
-  return placed_baseline(input.file, view, view.thickness_mm, nipple_in_lps, input.detector,
+                           const EdgePrior& edge, const Eigen::Vector3d& nipple_in_lps) {
+  return placed_baseline(input.file, view, view.thickness_mm, nipple_in_lps, edge, input.detector,
                          input.evidence);
 }
 
@@ -69,11 +65,12 @@ SearchedView unmatched(const SearchInput& input, const ReducedView& reduced, con
   const CompressedView view = laid_on_detector(input.view, edge.mean);
   SearchedView result{
       view, input.file.mesh,
-      baseline_of(input, input.evidence ? input.view : view, nipple_in_lps).baseline};
+      baseline_of(input, input.evidence ? input.view : view, edge, nipple_in_lps).baseline};
   result.uncertainty = uncertainty(reduced, ViewState::Zero(), input.view.frame);
   result.uncertainty.sd = edge.sd;
-  result.uncertainty.covariance = edge.covariance;
-  if (!input.evidence) result.uncertainty.covariance(kShiftLateral, kShiftLateral) = 0;
+  result.uncertainty.covariance = edge.covariance();
+  // Without a mammogram only places in the breast's own frame are told: what goes with its turn.
+  if (!input.evidence) result.uncertainty.covariance(kShiftLateral, kShiftLateral) -= 1;
   result.uncertainty.discrepancy_mm = uncorrected_sd_mm(input.view.escape, input.view.thickness_mm);
   if (input.solver) result.what_if = what_if_shapes(reduced, ViewState::Zero(), input.view.frame);
   result.failed_solves = reduced.failed_solves;
@@ -93,13 +90,14 @@ double disagreement(const ViewMatch& match, const SolvedSearch& end, std::size_t
 
 /// As it lies on its mammogram, view `number` of those that were searched.
 SearchedView matched(const SearchInput& input, const ViewToSearch& found, const SolvedSearch& end,
-                     std::size_t number, const Eigen::Vector3d& nipple_in_lps) {
+                     std::size_t number, const EdgePrior& edge,
+                     const Eigen::Vector3d& nipple_in_lps) {
   const ReducedView& reduced = found.match.view();
   const ViewState& z = end.states[number];
   const ViewState state = z.cwiseProduct(reduced.sd);
   const CompressedView& view = found.solved.view;
   const PlacedBaseline baseline =
-      baseline_of(input, with_thickness(input.view, view.thickness_mm), nipple_in_lps);
+      baseline_of(input, with_thickness(input.view, view.thickness_mm), edge, nipple_in_lps);
   SearchedView result{laid_on_detector(view, state),
                       HermiteMesh(in_lps(reduced.nodes_at(z), view.frame), reduced.elements),
                       baseline.baseline};
@@ -155,8 +153,9 @@ std::vector<SearchedView> search_views(const std::vector<SearchInput>& inputs,
   for (std::size_t v = 0; v < inputs.size(); ++v) {
     const SearchInput& input = inputs[v];
     if (progress) progress(0.3 * v, "sensitivities of " + input.view.name);
-    const ReducedView reduced = reduced_view(input);
     edges.push_back(edge_of(input, nipple_in_lps));
+    ReducedView reduced = reduced_view(input);
+    reduced.expect(edges.back());
     result.push_back(unmatched(input, reduced, edges.back(), nipple_in_lps));
     if (!input.evidence || !input.solver) continue;
     searched.push_back({ViewMatch(reduced, input.file.faces, prone_of(input.file), &fractions,
@@ -164,7 +163,7 @@ std::vector<SearchedView> search_views(const std::vector<SearchInput>& inputs,
                         &*input.solver,
                         {{}, input.view}});
     places.push_back(v);
-    before.push_back(searched.back().match.figures(ViewState::Zero()));
+    before.push_back(searched.back().match.figures(reduced.mean));
   }
   const SolvedSearch end = search_and_solve(searched, progress);
   std::vector<SearchedView> found;
@@ -172,7 +171,7 @@ std::vector<SearchedView> search_views(const std::vector<SearchInput>& inputs,
   std::vector<std::string> names;
   for (std::size_t m = 0; m < searched.size(); ++m) {
     const std::size_t v = places[m];
-    found.push_back(matched(inputs[v], searched[m], end, m, nipple_in_lps));
+    found.push_back(matched(inputs[v], searched[m], end, m, edges[v], nipple_in_lps));
     found[m].before = before[m];
     names.push_back(inputs[v].view.name);
     verdicts.push_back(judge_search(names[m], *found[m].after, found[m].state, edges[v],

@@ -42,10 +42,11 @@ constexpr int kPoints = 20;          // landmarks beside the lesions
 struct ViewRanges {
   double roll_deg, turn_deg, lift_mm, shift_mm;
   double least_compressed, most_compressed;
+  double laid_turn_deg, nipple_share;  // off what is usual, in MLO
 };
-constexpr ViewRanges kEasy{5, 4, 5, 15, 0.45, 0.58};
+constexpr ViewRanges kEasy{5, 4, 5, 15, 0.45, 0.58, 10, 0.1};
 /// As radiographers differ at most, and not by a standard deviation.
-constexpr ViewRanges kHard{15, 8, 8, 25, 0.4, 0.6};
+constexpr ViewRanges kHard{15, 8, 8, 25, 0.4, 0.6, 20, 0.2};
 
 DrawnView draw_view(CounterRandom& random, bool hard, const std::string& name, double angle_deg) {
   const ViewRanges& ranges = hard ? kHard : kEasy;
@@ -64,9 +65,15 @@ DrawnView draw_view(CounterRandom& random, bool hard, const std::string& name, d
     return view;
   }
   view.thickness_error_mm = either_way(8);
-  view.edge_mm = angle_deg == 0 ? random.uniform(-20, 15) : random.uniform(-40, 0);
+  view.edge_mm = random.uniform(-20, 15);  // of CC alone
   view.marker = random.uniform() < 0.5;
   return view;
+}
+
+/// How the MLO came to lie on its detector.
+void lay_mlo(CounterRandom random, const ViewRanges& ranges, DrawnView& mlo) {
+  mlo.laid_turn_deg += random.uniform(-ranges.laid_turn_deg, ranges.laid_turn_deg);
+  mlo.nipple_share += random.uniform(-ranges.nipple_share, ranges.nipple_share);
 }
 
 /// Patient n, from n alone: body, tissue that is unlike the registering model's, and how each view
@@ -104,6 +111,7 @@ DrawnPatient draw_registration(int number, Difficulty difficulty, int attempt = 
   drawn.tissue.stiffness_ratio = factor * assumed.fibroglandular.c1_kpa / assumed.fat.c1_kpa;
   drawn.views = {draw_view(random, hard, "cc", 0),
                  draw_view(random, hard, "mlo", random.uniform(40, 50))};
+  lay_mlo({kSeed, static_cast<std::uint64_t>(number), 500}, hard ? kHard : kEasy, drawn.views[1]);
   if (hard) {
     drawn.tissue.stiffening = random.uniform(0.5, 2.5);
     drawn.tissue.springs = std::exp(random.uniform(std::log(0.4), std::log(4)));
@@ -233,6 +241,8 @@ json drawn_json(const DrawnPatient& drawn, const std::vector<TrueView>& views) {
                    {"clearance_mm", v.clearance_mm},
                    {"shift_mm", v.shift_mm},
                    {"edge_mm", v.edge_mm},
+                   {"laid_turn_deg", v.laid_turn_deg},
+                   {"nipple_share", v.nipple_share},
                    {"marker", v.marker},
                    {"thickness_mm", views[n].view.thickness_mm},
                    {"header_thickness_mm", views[n].header_thickness_mm}};

@@ -8,7 +8,10 @@
 #include "pipeline/patient/gravity_settings.h"
 #include "pipeline/steps/breast_problem.h"
 #include "pipeline/synthesize/coil_pressed.h"
+#include "registration/carry/point_carrier.h"
+#include "registration/search/edge_prior.h"
 #include "registration/view/breast_middle.h"
+#include "registration/view/laid_on_detector.h"
 #include "registration/view/plate_turn.h"
 #include "registration/view/view_of_plates.h"
 #include "solver/gravity/unload.h"
@@ -85,6 +88,22 @@ HermiteMesh TrueBreast::between_coil_plates(double share) const {
   return HermiteMesh(result.deformed, unloaded_.mesh.elements());
 }
 
+CompressedView TrueBreast::laid(CompressedView view, const HermiteMesh& pressed,
+                                const DrawnView& drawn) const {
+  double depth_mm = -drawn.edge_mm;
+  if (is_oblique(view.angle_deg)) {
+    const Eigen::Vector3d nipple = PointCarrier(prone_, pressed).carry(truth_.nipple_in_lps).in_lps;
+    MeshFile file = unloaded_;
+    file.mesh = pressed;
+    const double from_wall_mm =
+        wall_line(file, view, nipple).to_nipple_mm(view.frame.view_from_lps(nipple).head<2>());
+    view = laid_on_detector(view, drawn.laid_turn_deg, {0, 0});
+    depth_mm = drawn.nipple_share * from_wall_mm - view.frame.view_from_lps(nipple).x();
+  }
+  const double aside_mm = breast_middle_mm(pressed, view.frame) + drawn.shift_mm;
+  return laid_on_detector(view, 0, {depth_mm, -aside_mm});
+}
+
 TrueView TrueBreast::compress_view(const DrawnView& drawn) const {
   const CompressionSettings settings = true_settings(tissue_);
   CompressionProblem problem = this->problem(settings, Pose::standing);
@@ -106,13 +125,12 @@ TrueView TrueBreast::compress_view(const DrawnView& drawn) const {
     throw std::runtime_error("truth: " + drawn.name + ": " + result.report.reason);
 
   const HermiteMesh pressed(result.deformed, unloaded_.mesh.elements());
-  CompressedView view =
-      view_of_plates(drawn.name, side_, angle_deg, turn_deg, problem.plates, result);
-  const double aside_mm = breast_middle_mm(pressed, view.frame) + drawn.shift_mm;
-  view.frame.origin_in_lps += axes.transpose() * Eigen::Vector3d(drawn.edge_mm, aside_mm, 0);
+  const CompressedView view =
+      laid(view_of_plates(drawn.name, side_, angle_deg, turn_deg, problem.plates, result), pressed,
+           drawn);
   return {view, pressed,
           std::round(10 * (result.report.thickness_mm + drawn.thickness_error_mm)) / 10,
-          drawn.marker, drawn.edge_mm < 0};
+          drawn.marker, is_oblique(angle_deg) || drawn.edge_mm < 0};
 }
 
 }  // namespace mammotwin

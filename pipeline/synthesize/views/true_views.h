@@ -18,15 +18,19 @@ struct DrawnView {
   std::string name;  ///< "cc", "mlo"
   double header_angle_deg = 0;
   double roll_deg = 0;       ///< true positioner angle less the header's
-  double turn_deg = 0;       ///< of the breast on the detector, about the beam
+  double turn_deg = 0;       ///< of the breast between the plates, about the beam
   double lift_mm = 0;        ///< of the plates' middle above the breast's centroid
   double clearance_mm = 10;  ///< plates' edge to the chest wall
   double shift_mm = 0;       ///< of the detector's middle from the breast's, sideways
   double compressed_fraction = 0.5;
   double thickness_error_mm = 0;  ///< of the header
-  /// Detector's edge in front of the plates' edge; behind it (negative), the picture also shows
-  /// what lies behind the breast: in CC more of the same tissue, in MLO muscle.
+  /// CC: detector's edge in front of the plates' edge; behind it (negative), the picture also shows
+  /// what lies behind the breast, more of the same tissue.
   double edge_mm = 0;
+  /// MLO, whose pictures show muscle behind the breast: how far the breast is turned on the
+  /// detector once it is pressed, and its nipple's depth in the picture over its distance from the
+  /// chest wall's line (registration/search/edge_prior.h).
+  double laid_turn_deg = -25, nipple_share = 0.9;
   bool marker = true;  ///< of metal on the nipple
 };
 
@@ -77,6 +81,9 @@ class TrueBreast {
 
  private:
   CompressionProblem problem(const CompressionSettings& settings, Pose pose) const;
+  /// Where the breast came to lie on its detector.
+  CompressedView laid(CompressedView view, const HermiteMesh& pressed,
+                      const DrawnView& drawn) const;
 
   Segmentation truth_;
   TrueTissue tissue_;

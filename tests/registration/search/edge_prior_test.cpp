@@ -6,6 +6,8 @@
 #include <cmath>
 
 #include "fitting/mesh/block_mesh.h"
+#include "registration/view/breast_middle.h"
+#include "registration/view/laid_on_detector.h"
 
 namespace mammotwin {
 namespace {
@@ -32,10 +34,15 @@ struct SlantedBox {
     file.faces.assign(file.mesh.num_elements(), faces);
     view.frame = {{70, -10, -20}, view_axes(Side::left, 0)};
   }
+  void tilt() {
+    view.angle_deg = 45;
+    view.frame.axes = view_axes(Side::left, 45);
+  }
+  Eigen::Vector2d nipple_in_view() const { return view.frame.view_from_lps(nipple).head<2>(); }
   /// A point of the detector's plane where the prior's mean puts it.
   static Eigen::Vector2d laid(const Eigen::Vector2d& x, const EdgePrior& prior) {
     return Eigen::Rotation2Dd(prior.mean[kTurn] * M_PI / 180) * x +
-           Eigen::Vector2d(prior.mean[kShiftDepth], 0);
+           prior.mean.segment<2>(kShiftDepth);
   }
 };
 
@@ -54,16 +61,15 @@ TEST(EdgePrior, LeavesItInCcToThePlatesWithinCentimetres) {
   EXPECT_NEAR(prior.sd[kShiftDepth], std::sqrt(14.5 * 14.5 - 16), 1e-9);
 }
 
-// Half of the wall's slope of -20 degrees is taken off, so that it stands at 22 - 10.
 TEST(EdgePrior, LaysTheNippleInMloAsDeepAsRealOnesAre) {
   SlantedBox box;
-  box.view.angle_deg = 45;
+  box.tilt();
   const EdgePrior prior = edge_prior(box.file, box.view, box.nipple);
   const WallLine wall = wall_line(box.file, box.view, box.nipple);
-  EXPECT_NEAR(prior.mean[kTurn], wall.slope_deg / 2 - 22, 1e-9);
-  EXPECT_NEAR(prior.sd[kTurn], std::hypot(6, wall.slope_deg / 2), 1e-9);
-  const double from_wall = (50 - wall.depth_mm) * std::cos(wall.slope_deg * M_PI / 180);
-  EXPECT_NEAR(SlantedBox::laid({50, 0}, prior).x(), 0.90 * from_wall, 1e-9);
+  EXPECT_EQ(prior.mean[kTurn], -25);
+  EXPECT_EQ(prior.sd[kTurn], 12);
+  const double from_wall = (box.nipple_in_view().x() - wall.depth_mm) * std::cos(wall.slope_deg * M_PI / 180);
+  EXPECT_NEAR(SlantedBox::laid(box.nipple_in_view(), prior).x(), 0.90 * from_wall, 1e-9);
   EXPECT_NEAR(prior.sd[kShiftDepth], std::sqrt(std::pow(0.12 * from_wall, 2) - 16), 1e-9);
 }
 
@@ -71,17 +77,34 @@ TEST(EdgePrior, LaysTheNippleInMloAsDeepAsRealOnesAre) {
 // is no less sure, that of the other by 60 mm times the turn.
 TEST(EdgePrior, TurnsInMloAboutTheNipple) {
   SlantedBox box;
-  box.view.angle_deg = 45;
+  box.tilt();
   const EdgePrior prior = edge_prior(box.file, box.view, box.nipple);
-  const Eigen::Vector2d nipple = SlantedBox::laid({50, 0}, prior);
+  const Eigen::Vector2d nipple = SlantedBox::laid(box.nipple_in_view(), prior);
   const double turn = prior.sd[kTurn] * M_PI / 180, shift = prior.sd[kShiftDepth];
   const auto depth_variance = [&](double lateral) {
-    const Eigen::Vector2d slope(-lateral * turn, shift);
-    const Eigen::Matrix2d c = prior.covariance.block<2, 2>(kTurn, kTurn);
+    const Eigen::Vector2d slope(-(lateral - prior.mean[kShiftLateral]) * turn, shift);
+    const Eigen::Matrix2d c = prior.covariance().block<2, 2>(kTurn, kTurn);
     return slope.dot(c * slope);
   };
-  EXPECT_NEAR(depth_variance(nipple.y()), shift * shift, 1e-9);
-  EXPECT_NEAR(depth_variance(nipple.y() + 60), shift * shift + std::pow(60 * turn, 2), 1e-6);
+  EXPECT_NEAR(depth_variance(nipple.y()), shift * shift, 0.1);
+  EXPECT_NEAR(depth_variance(nipple.y() + 60), shift * shift + std::pow(60 * turn, 2), 3);
+}
+
+TEST(EdgePrior, LaysTheBreastOnTheDetectorsMiddleHoweverItIsTurned) {
+  SlantedBox box;
+  box.tilt();
+  const EdgePrior prior = edge_prior(box.file, box.view, box.nipple);
+  const auto middle = [&](double turns, const Eigen::Vector2d& more_mm) {
+    const Eigen::Vector2d shift =
+        prior.mean.segment<2>(kShiftDepth) +
+        turns * prior.shift_by_turn.cwiseProduct(prior.sd.segment<2>(kShiftDepth)) + more_mm;
+    return breast_middle_mm(
+        box.file.mesh,
+        laid_on_detector(box.view, prior.mean[kTurn] + turns * prior.sd[kTurn], shift).frame);
+  };
+  EXPECT_NEAR(middle(0, {0, 0}), 0, 1e-9);
+  EXPECT_NEAR(middle(0, {0, 12}), 12, 1e-9);
+  for (const double turns : {-1.0, 1.0}) EXPECT_NEAR(middle(turns, {0, 0}), 0, 3) << turns;
 }
 
 TEST(EdgePrior, NamesAViewWithoutAWallNearTheNipple) {

@@ -45,6 +45,49 @@ TEST(PoseSearch, FollowsAnEdgeThatStandsCentimetresOff) {
   EXPECT_LT(left, 0.05);
 }
 
+/// An MLO's detector: the breast turned by -25 degrees, 30 mm further in; another turn, by a
+/// standard deviation, brings half of one in depth.
+struct ExpectedTurned : BoxView {
+  ExpectedTurned() {
+    EdgePrior edge;
+    edge.mean[kTurn] = -25, edge.sd[kTurn] = 12;
+    edge.mean[kShiftDepth] = 30, edge.sd[kShiftDepth] = 10;
+    edge.mean[kShiftLateral] = -20;
+    edge.shift_by_turn = {0.5, -0.25};
+    view.expect(edge);
+  }
+  ViewState off_mean(double turn, double depth, double lateral) const {
+    return view.mean + turn * ViewState::Unit(kTurn) + depth * ViewState::Unit(kShiftDepth) +
+           lateral * ViewState::Unit(kShiftLateral);
+  }
+};
+
+// Half of the squares beside what evidence costs; of a shift beyond two standard deviations Huber's
+// 2 |r| - 2.
+TEST(PoseSearch, HoldsThePlaceOnTheDetectorAgainstWhereItIsExpected) {
+  const ExpectedTurned box;
+  const auto cost = [&](double turn, double depth, double lateral) {
+    const ViewState z = box.off_mean(turn, depth, lateral);
+    const ViewMatch match = box.match(z);
+    return pose_at({&match}, {z}).cost - match.residuals(z, true).squaredNorm() / 2;
+  };
+  EXPECT_NEAR(cost(0, 0, 0), 0, 1e-9);
+  EXPECT_NEAR(cost(1, 0.5, -0.25), 0.5, 1e-9);
+  EXPECT_NEAR(cost(1, 0, -0.25), 0.5 + 0.125, 1e-9);
+  EXPECT_NEAR(cost(1, 0.5, 0.75), 0.5 + 0.5, 1e-9);
+  EXPECT_NEAR(cost(0, -3, 0), 4, 1e-9);
+}
+
+TEST(PoseSearch, FindsABreastThatLiesTurnedAsInAnMlo) {
+  const ExpectedTurned box;
+  const ViewState truth = box.off_mean(-1, -0.5, 0.25);  // by 37 degrees
+  const ViewMatch match = box.match(truth);
+  const PoseEstimate found = search_pose({&match}, {box.view.mean}, true);
+  for (const int i : {kTurn, kShiftDepth, kShiftLateral})
+    EXPECT_NEAR(found.states[0][i], truth[i], 2 * std::sqrt(found.covariances[0](i, i))) << i;
+  EXPECT_LT(match.figures(found.states[0]).outline_rms_mm, 0.7);
+}
+
 TEST(PoseSearch, FindsAMechanicalNumberAndKnowsWhatItDoesNot) {
   const BoxView box;
   ViewState truth = ViewState::Zero();

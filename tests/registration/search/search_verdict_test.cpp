@@ -119,11 +119,11 @@ TEST(SearchVerdict, LetsADetectorStandWhereDetectorsDo) {
   EdgePrior edge;
   edge.mean[kShiftDepth] = 30, edge.sd[kShiftDepth] = 6;
   ViewState state = ViewState::Zero();
-  for (const double shift : {-11.0, 20.0, 41.0}) {
+  for (const double shift : {19.0, 30.0, 41.0}) {
     state[kShiftDepth] = shift;
     EXPECT_EQ(judged(good(), state, edge).end, SearchEnd::ok) << shift;
   }
-  for (const double shift : {-13.0, 43.0}) {
+  for (const double shift : {0.0, 17.0, 43.0}) {
     state[kShiftDepth] = shift;
     EXPECT_EQ(judged(weak(), state, edge).end, SearchEnd::no_registration) << shift;
   }
