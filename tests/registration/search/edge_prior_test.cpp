@@ -68,7 +68,8 @@ TEST(EdgePrior, LaysTheNippleInMloAsDeepAsRealOnesAre) {
   const WallLine wall = wall_line(box.file, box.view, box.nipple);
   EXPECT_EQ(prior.mean[kTurn], -25);
   EXPECT_EQ(prior.sd[kTurn], 12);
-  const double from_wall = (box.nipple_in_view().x() - wall.depth_mm) * std::cos(wall.slope_deg * M_PI / 180);
+  const double from_wall =
+      (box.nipple_in_view().x() - wall.depth_mm) * std::cos(wall.slope_deg * M_PI / 180);
   EXPECT_NEAR(SlantedBox::laid(box.nipple_in_view(), prior).x(), 0.90 * from_wall, 1e-9);
   EXPECT_NEAR(prior.sd[kShiftDepth], std::sqrt(std::pow(0.12 * from_wall, 2) - 16), 1e-9);
 }
