@@ -41,6 +41,10 @@ std::string outline_sentence(double rms_mm) {
       "after the search the model's outline still lies %.1f mm (RMS) off the mammogram's", rms_mm);
 }
 
+std::string nipple_sentence(double mm) {
+  return text_of("after the search the model's nipple still lies %.1f mm off the mammogram's", mm);
+}
+
 std::string state_sentence(int number, double value, double limit) {
   const Words& words = kWords[number];
   if (number == kFriction || number == kCoilRoundness)
@@ -74,6 +78,11 @@ std::vector<std::string> why_none(const MatchFigures& left) {
   if (left.outline_rms_mm > no_registration::kOutline_mm)
     why.push_back(outline_sentence(left.outline_rms_mm) +
                   text_of(", more than %.0f mm", no_registration::kOutline_mm));
+  if (left.nipple_mm &&
+      *left.nipple_mm > std::max(no_registration::kNipple_mm,
+                                 no_registration::kNippleDeviations * left.nipple_sd_mm))
+    why.push_back(nipple_sentence(*left.nipple_mm) +
+                  text_of(", more than %.0f mm", no_registration::kNipple_mm));
   if (left.pattern_correlation && *left.pattern_correlation < no_registration::kCorrelation)
     why.push_back(text_of("the patterns of dense tissue correlate by %.2f only, less than %.1f",
                           *left.pattern_correlation, no_registration::kCorrelation));
@@ -91,10 +100,7 @@ std::vector<std::string> why_look(const MatchFigures& left, const ViewState& sta
                 baseline->outline_rms_mm, left.outline_rms_mm));
   if (left.outline_rms_mm > kPoorOutline_mm) why.push_back(outline_sentence(left.outline_rms_mm));
   if (left.nipple_mm && *left.nipple_mm > std::max(kPoorNipple_mm, 2 * left.nipple_sd_mm))
-    why.push_back(
-        text_of("after the search the model's nipple still lies %.1f mm off the "
-                "mammogram's",
-                *left.nipple_mm));
+    why.push_back(nipple_sentence(*left.nipple_mm));
   if (left.pattern_correlation && *left.pattern_correlation < kPoorCorrelation)
     why.push_back(
         text_of("the patterns of dense tissue correlate by %.2f only", *left.pattern_correlation));

@@ -49,6 +49,18 @@ TEST(SearchVerdict, IsNoRegistrationWithAnOutlineElsewhere) {
   EXPECT_TRUE(says(verdict, "the prediction without the mammogram"));
 }
 
+// So an MLO that hung upside down, whose pattern correlated by 0.71 all the same.
+TEST(SearchVerdict, IsNoRegistrationWithASureNippleElsewhere) {
+  MatchFigures left = good();
+  left.nipple_mm = 45.5, left.nipple_sd_mm = 5;
+  EXPECT_EQ(judged(left).end, SearchEnd::no_registration);
+  EXPECT_TRUE(says(judged(left), "nipple still lies 45.5 mm off the mammogram's, more than 20 mm"));
+  left.nipple_sd_mm = 12;
+  EXPECT_EQ(judged(left).end, SearchEnd::look) << "it may be elsewhere";
+  left.nipple_mm = 19, left.nipple_sd_mm = 3;
+  EXPECT_EQ(judged(left).end, SearchEnd::look);
+}
+
 TEST(SearchVerdict, IsNoRegistrationWithAnotherPattern) {
   MatchFigures left = good();
   left.pattern_correlation = 0.07;
