@@ -76,6 +76,12 @@ EdgePrior mlo_prior(const MeshFile& compressed, const CompressedView& view,
 
 }  // namespace
 
+ViewState EdgePrior::deviations(const ViewState& state) const {
+  ViewState off = (state - mean).cwiseQuotient(sd);
+  off.segment<2>(kShiftDepth) -= off[kTurn] * shift_by_turn;
+  return off;
+}
+
 Eigen::Matrix<double, kStates, kStates> EdgePrior::covariance() const {
   Eigen::Matrix<double, kStates, kStates> root =
       Eigen::Matrix<double, kStates, kStates>::Identity();

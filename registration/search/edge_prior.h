@@ -34,11 +34,11 @@ WallLine wall_line(const MeshFile& compressed, const CompressedView& view,
 /// MLO: body and muscle are pulled onto the detector until what lies above is the deeper. The
 /// muscle's line then stands 22 +- 6 degrees to the image's edge (published labels), the chord of
 /// the skin beside the nipple 28 +- 15 (12 mammograms that somebody read, `evaluate-mammograms`);
-/// between plates that let the breast come out straight it stands at 0 +- 4, whatever the wall's
-/// slope. So the breast is turned by 25 +- 12 degrees. The nipple lies 0.90 +- 0.12 times as deep
-/// behind the image's edge as it is far from the muscle's line (15 of those mammograms): that line
-/// meets the edge some 50 mm above the nipple. Down to its level it reaches in 24.5 % of 200 views
-/// (Spuur, Poulos, Rickard 2008), where the share is 1.08. Sideways its tissue is laid on the
+/// between plates that let the breast come out straight it stands at -1 +- 3, whatever the
+/// wall's slope. So the breast is turned by 25 +- 12 degrees. The nipple lies 0.90 +- 0.12 times as
+/// deep behind the image's edge as it is far from the muscle's line (15 of those mammograms): that
+/// line meets the edge some 50 mm above the nipple. Down to its level it reaches in 24.5 % of 200
+/// views (Spuur, Poulos, Rickard 2008), where the share is 1.08. Sideways its tissue is laid on the
 /// detector's middle, however it is turned.
 struct EdgePrior {
   ViewState mean = ViewState::Zero();  ///< turn and shifts; all else 0 [deg, mm]
@@ -46,6 +46,9 @@ struct EdgePrior {
   /// A turn is not about the detector's middle, and so goes with shifts in depth and sideways: sd
   /// of theirs for one of the turn's.
   Eigen::Vector2d shift_by_turn = Eigen::Vector2d::Zero();
+
+  /// How far a state [deg, mm] is off, in `sd`.
+  ViewState deviations(const ViewState& state) const;
 
   /// Of the numbers over `sd`.
   Eigen::Matrix<double, kStates, kStates> covariance() const;

@@ -37,7 +37,7 @@ PlacedBaseline placed_baseline(const MeshFile& compressed, CompressedView view, 
   if (!evidence) return {baseline, {}};
   const ViewMatch match(rigid_view(prone, baseline, edge), compressed.faces, prone, nullptr,
                         nipple_in_lps, detector, *evidence);
-  const ViewState z = search_pose({&match}, {match.view().mean}, true).states.front();
+  const ViewState z = search_pose({&match}, {match.view().mean()}, true).states.front();
   const ViewState state = z.cwiseProduct(match.view().sd);
   baseline.place(state[kTurn], {state[kShiftDepth], state[kShiftLateral]});
   return {baseline, match.figures(z)};

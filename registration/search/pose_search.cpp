@@ -60,13 +60,9 @@ class Joint {
     Eigen::VectorXd r = z;
     for (std::size_t v = 0; v < views.size(); ++v) {
       const ReducedView& view = views[v]->view();
-      const int turn = indices_[v][kTurn], depth = indices_[v][kShiftDepth],
-                lateral = indices_[v][kShiftLateral];
-      r[turn] -= view.mean[kTurn];
-      const Eigen::Vector2d expected =
-          view.mean.segment<2>(kShiftDepth) + r[turn] * view.shift_by_turn;
-      r[depth] = huber(z[depth] - expected.x(), kShiftTail);
-      r[lateral] -= expected.y();
+      const ViewState off = view.edge.deviations(state(v, z).cwiseProduct(view.sd));
+      for (const int i : {kTurn, kShiftDepth, kShiftLateral}) r[indices_[v][i]] = off[i];
+      r[indices_[v][kShiftDepth]] = huber(off[kShiftDepth], kShiftTail);
     }
     return r;
   }

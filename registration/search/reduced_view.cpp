@@ -79,12 +79,9 @@ Eigen::Vector3d ReducedView::placed(const Eigen::Vector3d& x_in_view, const View
           std::sin(t) * x.x() + std::cos(t) * x.y() + z[kShiftLateral] * sd[kShiftLateral], x.z()};
 }
 
-void ReducedView::expect(const EdgePrior& edge) {
-  for (const int i : {kTurn, kShiftDepth, kShiftLateral}) {
-    sd[i] = edge.sd[i];
-    mean[i] = edge.mean[i] / edge.sd[i];
-  }
-  shift_by_turn = edge.shift_by_turn;
+void ReducedView::expect(const EdgePrior& expected) {
+  edge = expected;
+  for (const int i : {kTurn, kShiftDepth, kShiftLateral}) sd[i] = edge.sd[i];
 }
 
 void ReducedView::rebase(const ViewState& z, const Nodes& solved_in_view) {

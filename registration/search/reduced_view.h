@@ -24,8 +24,7 @@ struct ReducedView {
   Nodes base;  ///< view coordinates [mm]
   std::array<Mode, kMechanical> modes;
   ViewState sd = prior_sd();
-  ViewState mean = ViewState::Zero();  ///< the prior's [sd]; 0 but of turn and shifts
-  Eigen::Vector2d shift_by_turn = Eigen::Vector2d::Zero();  ///< edge_prior.h
+  EdgePrior edge;  ///< of the place on the detector
   int failed_solves = 0;
   FreeFormDeformation deformation;  ///< of each x(z)
 
@@ -39,7 +38,10 @@ struct ReducedView {
   Eigen::Vector3d placed(const Eigen::Vector3d& x_in_view, const ViewState& z) const;
 
   /// Takes the prior of the place on the detector from there.
-  void expect(const EdgePrior& edge);
+  void expect(const EdgePrior& expected);
+
+  /// The prior's, where a search begins [sd].
+  ViewState mean() const { return edge.mean.cwiseQuotient(edge.sd); }
 
   /// From here on x(z) is what was solved there, without a deformation.
   void rebase(const ViewState& z, const Nodes& solved_in_view);

@@ -60,15 +60,12 @@ std::string state_sentence(int number, double value, double limit) {
 /// Of numbers that nobody expects.
 std::vector<std::string> strange_state(const ViewState& state, const EdgePrior& edge) {
   std::vector<std::string> why;
-  ViewState expected = edge.mean;
-  expected.segment<2>(kShiftDepth).array() += (state[kTurn] - edge.mean[kTurn]) / edge.sd[kTurn] *
-                                              edge.shift_by_turn.array() *
-                                              edge.sd.segment<2>(kShiftDepth).array();
-  for (int i = 0; i < kStates; ++i) {
-    const double reach = no_registration::kStateDeviations * edge.sd[i];
-    const double off = state[i] - expected[i];
-    if (std::abs(off) > reach) why.push_back(state_sentence(i, off, std::copysign(reach, off)));
-  }
+  const ViewState off = edge.deviations(state);
+  constexpr double kMost = no_registration::kStateDeviations;
+  for (int i = 0; i < kStates; ++i)
+    if (std::abs(off[i]) > kMost)
+      why.push_back(
+          state_sentence(i, off[i] * edge.sd[i], std::copysign(kMost * edge.sd[i], off[i])));
   return why;
 }
 

@@ -58,7 +58,7 @@ class Rounds {
   Place start() const {
     Place place;
     for (const ViewToSearch& view : views_) {
-      place.states.push_back(view.match.view().mean);
+      place.states.push_back(view.match.view().mean());
       place.reduced.push_back(view.match.view());
       place.solved.push_back(view.solved);
     }

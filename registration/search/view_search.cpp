@@ -163,7 +163,7 @@ std::vector<SearchedView> search_views(const std::vector<SearchInput>& inputs,
                         &*input.solver,
                         {{}, input.view}});
     places.push_back(v);
-    before.push_back(searched.back().match.figures(reduced.mean));
+    before.push_back(searched.back().match.figures(reduced.mean()));
   }
   const SolvedSearch end = search_and_solve(searched, progress);
   std::vector<SearchedView> found;

@@ -57,7 +57,7 @@ struct ExpectedTurned : BoxView {
     view.expect(edge);
   }
   ViewState off_mean(double turn, double depth, double lateral) const {
-    return view.mean + turn * ViewState::Unit(kTurn) + depth * ViewState::Unit(kShiftDepth) +
+    return view.mean() + turn * ViewState::Unit(kTurn) + depth * ViewState::Unit(kShiftDepth) +
            lateral * ViewState::Unit(kShiftLateral);
   }
 };
@@ -82,7 +82,7 @@ TEST(PoseSearch, FindsABreastThatLiesTurnedAsInAnMlo) {
   const ExpectedTurned box;
   const ViewState truth = box.off_mean(-1, -0.5, 0.25);  // by 37 degrees
   const ViewMatch match = box.match(truth);
-  const PoseEstimate found = search_pose({&match}, {box.view.mean}, true);
+  const PoseEstimate found = search_pose({&match}, {box.view.mean()}, true);
   for (const int i : {kTurn, kShiftDepth, kShiftLateral})
     EXPECT_NEAR(found.states[0][i], truth[i], 2 * std::sqrt(found.covariances[0](i, i))) << i;
   EXPECT_LT(match.figures(found.states[0]).outline_rms_mm, 0.7);
