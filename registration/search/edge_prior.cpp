@@ -20,6 +20,7 @@ constexpr double kCcEdgeSd_mm = 14.5;
 // MLO
 constexpr double kTurn_deg = -25, kTurnSd_deg = 12;
 constexpr double kNippleShare = 0.90, kNippleShareSd = 0.12;  // of its distance from the muscle
+constexpr double kDistanceSd_mm = 10;                         // of the model's own such distance
 
 double radians(double degrees) { return degrees * std::numbers::pi / 180; }
 
@@ -49,26 +50,20 @@ EdgePrior cc_prior() {
   return prior;
 }
 
-/// The shifts that, in a view turned so, lay the nipple so deep and the breast in the middle.
-Eigen::Vector2d shift_at(double turn_deg, const HermiteMesh& pressed, const CompressedView& view,
-                         const Eigen::Vector3d& nipple_in_lps, double nipple_depth_mm) {
-  const CompressedView turned = laid_on_detector(view, turn_deg, {0, 0});
-  const double depth = nipple_depth_mm - turned.frame.view_from_lps(nipple_in_lps).x();
-  return {depth, -breast_middle_mm(pressed, laid_on_detector(turned, 0, {depth, 0}).frame)};
-}
-
 EdgePrior mlo_prior(const MeshFile& compressed, const CompressedView& view,
                     const Eigen::Vector3d& nipple_in_lps) {
   const double from_wall = wall_line(compressed, view, nipple_in_lps)
                                .to_nipple_mm(view.frame.view_from_lps(nipple_in_lps).head<2>());
   const auto shift = [&](double turn_deg) {
-    return shift_at(turn_deg, compressed.mesh, view, nipple_in_lps, kNippleShare * from_wall);
+    return shift_of_turned(turn_deg, compressed.mesh, view, nipple_in_lps,
+                           kNippleShare * from_wall);
   };
   EdgePrior prior;
   prior.mean[kTurn] = kTurn_deg;
   prior.mean.segment<2>(kShiftDepth) = shift(kTurn_deg);
   prior.sd[kTurn] = kTurnSd_deg;
-  prior.sd[kShiftDepth] = depth_sd_beside(kNippleShareSd * from_wall, prior.sd);
+  prior.sd[kShiftDepth] =
+      depth_sd_beside(std::hypot(kNippleShareSd * from_wall, kDistanceSd_mm), prior.sd);
   prior.shift_by_turn = (shift(kTurn_deg + kTurnSd_deg) - shift(kTurn_deg - kTurnSd_deg)).array() /
                         2 / prior.sd.segment<2>(kShiftDepth).array();
   return prior;
@@ -108,6 +103,14 @@ WallLine wall_line(const MeshFile& compressed, const CompressedView& view,
   }
   const Eigen::Vector2d line = normal.inverse() * right;
   return {line[0], std::atan(line[1]) * 180 / std::numbers::pi};
+}
+
+Eigen::Vector2d shift_of_turned(double turn_deg, const HermiteMesh& pressed,
+                                const CompressedView& view, const Eigen::Vector3d& nipple_in_lps,
+                                double nipple_depth_mm) {
+  const CompressedView turned = laid_on_detector(view, turn_deg, {0, 0});
+  const double depth = nipple_depth_mm - turned.frame.view_from_lps(nipple_in_lps).x();
+  return {depth, -breast_middle_mm(pressed, laid_on_detector(turned, 0, {depth, 0}).frame)};
 }
 
 EdgePrior edge_prior(const MeshFile& compressed, const CompressedView& view,

@@ -21,6 +21,12 @@ struct WallLine {
 WallLine wall_line(const MeshFile& compressed, const CompressedView& view,
                    const Eigen::Vector3d& nipple_in_lps);
 
+/// The shifts in depth and sideways [mm] that lay a breast, turned so on the detector, with its
+/// nipple (`nipple_in_lps`, in `pressed`) so deep and its tissue before the edge in the middle.
+Eigen::Vector2d shift_of_turned(double turn_deg, const HermiteMesh& pressed,
+                                const CompressedView& view, const Eigen::Vector3d& nipple_in_lps,
+                                double nipple_depth_mm);
+
 /// Where a detector's edge is expected to stand, before the mammogram says, against the plates'
 /// own.
 ///
@@ -37,7 +43,9 @@ WallLine wall_line(const MeshFile& compressed, const CompressedView& view,
 /// between plates that let the breast come out straight it stands at -1 +- 3, whatever the
 /// wall's slope. So the breast is turned by 25 +- 12 degrees. The nipple lies 0.90 +- 0.12 times as
 /// deep behind the image's edge as it is far from the muscle's line (15 of those mammograms): that
-/// line meets the edge some 50 mm above the nipple. Down to its level it reaches in 24.5 % of 200
+/// line meets the edge some 50 mm above the nipple. The model's own distance is taken to be 10 mm
+/// unsure, for its tissue: against breasts drawn of another one (`evaluate-registration --hard
+/// --preset real`) it was 13 +- 7 mm short. Down to its level it reaches in 24.5 % of 200
 /// views (Spuur, Poulos, Rickard 2008), where the share is 1.08. Sideways its tissue is laid on the
 /// detector's middle, however it is turned.
 struct EdgePrior {

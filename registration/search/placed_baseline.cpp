@@ -34,7 +34,10 @@ PlacedBaseline placed_baseline(const MeshFile& compressed, CompressedView view, 
   view.thickness_mm = thickness_mm;
   const HermiteMesh prone = prone_of(compressed);
   AffineBaseline baseline(prone, view);
-  if (!evidence) return {baseline, {}};
+  if (!evidence) {
+    baseline.place(edge.mean[kTurn], edge.mean.segment<2>(kShiftDepth));
+    return {baseline, {}};
+  }
   const ViewMatch match(rigid_view(prone, baseline, edge), compressed.faces, prone, nullptr,
                         nipple_in_lps, detector, *evidence);
   const ViewState z = search_pose({&match}, {match.view().mean()}, true).states.front();

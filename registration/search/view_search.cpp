@@ -62,10 +62,8 @@ EdgePrior edge_of(const SearchInput& input, const Eigen::Vector3d& nipple_in_lps
 /// As it was computed, its detector where edges are expected, with no mammogram to bring it to.
 SearchedView unmatched(const SearchInput& input, const ReducedView& reduced, const EdgePrior& edge,
                        const Eigen::Vector3d& nipple_in_lps) {
-  const CompressedView view = laid_on_detector(input.view, edge.mean);
-  SearchedView result{
-      view, input.file.mesh,
-      baseline_of(input, input.evidence ? input.view : view, edge, nipple_in_lps).baseline};
+  SearchedView result{laid_on_detector(input.view, edge.mean), input.file.mesh,
+                      baseline_of(input, input.view, edge, nipple_in_lps).baseline};
   result.uncertainty = uncertainty(reduced, ViewState::Zero(), input.view.frame);
   result.uncertainty.sd = edge.sd;
   result.uncertainty.covariance = edge.covariance();

@@ -240,12 +240,13 @@ json drawn_json(const DrawnPatient& drawn, const std::vector<TrueView>& views) {
                    {"lift_mm", v.lift_mm},
                    {"clearance_mm", v.clearance_mm},
                    {"shift_mm", v.shift_mm},
-                   {"edge_mm", v.edge_mm},
-                   {"laid_turn_deg", v.laid_turn_deg},
-                   {"nipple_share", v.nipple_share},
                    {"marker", v.marker},
                    {"thickness_mm", views[n].view.thickness_mm},
                    {"header_thickness_mm", views[n].header_thickness_mm}};
+    if (is_oblique(v.header_angle_deg))
+      all[v.name].update({{"laid_turn_deg", v.laid_turn_deg}, {"nipple_share", v.nipple_share}});
+    else
+      all[v.name]["edge_mm"] = v.edge_mm;
   }
   return all;
 }

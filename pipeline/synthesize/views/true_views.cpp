@@ -90,18 +90,18 @@ HermiteMesh TrueBreast::between_coil_plates(double share) const {
 
 CompressedView TrueBreast::laid(CompressedView view, const HermiteMesh& pressed,
                                 const DrawnView& drawn) const {
-  double depth_mm = -drawn.edge_mm;
-  if (is_oblique(view.angle_deg)) {
-    const Eigen::Vector3d nipple = PointCarrier(prone_, pressed).carry(truth_.nipple_in_lps).in_lps;
-    MeshFile file = unloaded_;
-    file.mesh = pressed;
-    const double from_wall_mm =
-        wall_line(file, view, nipple).to_nipple_mm(view.frame.view_from_lps(nipple).head<2>());
-    view = laid_on_detector(view, drawn.laid_turn_deg, {0, 0});
-    depth_mm = drawn.nipple_share * from_wall_mm - view.frame.view_from_lps(nipple).x();
+  if (!is_oblique(view.angle_deg)) {
+    const double aside_mm = breast_middle_mm(pressed, view.frame) + drawn.shift_mm;
+    return laid_on_detector(view, 0, {-drawn.edge_mm, -aside_mm});
   }
-  const double aside_mm = breast_middle_mm(pressed, view.frame) + drawn.shift_mm;
-  return laid_on_detector(view, 0, {depth_mm, -aside_mm});
+  const Eigen::Vector3d nipple = PointCarrier(prone_, pressed).carry(truth_.nipple_in_lps).in_lps;
+  MeshFile file = unloaded_;
+  file.mesh = pressed;
+  const double from_wall_mm =
+      wall_line(file, view, nipple).to_nipple_mm(view.frame.view_from_lps(nipple).head<2>());
+  const Eigen::Vector2d shift = shift_of_turned(drawn.laid_turn_deg, pressed, view, nipple,
+                                                drawn.nipple_share * from_wall_mm);
+  return laid_on_detector(view, drawn.laid_turn_deg, {shift.x(), shift.y() - drawn.shift_mm});
 }
 
 TrueView TrueBreast::compress_view(const DrawnView& drawn) const {

@@ -71,7 +71,8 @@ TEST(EdgePrior, LaysTheNippleInMloAsDeepAsRealOnesAre) {
   const double from_wall =
       (box.nipple_in_view().x() - wall.depth_mm) * std::cos(wall.slope_deg * M_PI / 180);
   EXPECT_NEAR(SlantedBox::laid(box.nipple_in_view(), prior).x(), 0.90 * from_wall, 1e-9);
-  EXPECT_NEAR(prior.sd[kShiftDepth], std::sqrt(std::pow(0.12 * from_wall, 2) - 16), 1e-9);
+  EXPECT_NEAR(prior.sd[kShiftDepth], std::sqrt(std::pow(0.12 * from_wall, 2) + 10 * 10 - 4 * 4),
+              1e-9);
 }
 
 // Two points on the detector, the nipple and one 60 mm higher up: by a turn the depth of the first
