@@ -14,6 +14,7 @@
 #include "pipeline/evaluate/registration/spoilt_case.h"
 #include "pipeline/frame/command_line.h"
 #include "pipeline/frame/products.h"
+#include "pipeline/patient/tissue_presets.h"
 
 namespace mammotwin {
 namespace {
@@ -23,7 +24,7 @@ using nlohmann::json;
 
 struct Arguments {
   fs::path table;
-  std::string preset;
+  std::string preset = kDefaultTissue;
   int synthetic = 10, first = 0, jobs = 2;
   bool coarse = false, hard = false, fatty = false, spoil = false, misfit = false, judge = false;
 };
@@ -47,8 +48,10 @@ void declare(CommandLine& command, Arguments& args) {
   command.flag("--misfit", args.misfit,
                "each patient also with mammograms that are not what patient.toml says: another "
                "patient's, the other breast's, upside down, views exchanged");
-  command.option("--preset", args.preset,
-                 "materials.preset of the model that registers; default that of the truth");
+  command
+      .option("--preset", args.preset,
+              "materials.preset of the model that registers; the truth's is neo_hookean_2026")
+      .with_default();
   command.flag("--judge", args.judge, "judge what lies there, without making or running anything");
 }
 
@@ -59,7 +62,7 @@ json evaluate(const fs::path& folder, const std::function<void()>& make, const A
   try {
     if (!args.judge) {
       make();
-      if (!args.preset.empty()) take_tissue(args.preset, folder);
+      take_tissue(args.preset, folder);
       run_registration_case(folder);
     }
     row.update(registration_row(folder));
