@@ -114,6 +114,10 @@ std::vector<std::string> why_look(const MatchFigures& left, const ViewState& sta
   return why;
 }
 
+bool correlates_below(const SearchVerdict& verdict, double least) {
+  return verdict.pattern_correlation && *verdict.pattern_correlation < least;
+}
+
 std::string what_is_shown(const std::string& view) {
   return view +
          ": what is shown is the prediction without the mammogram, with its wide ellipse; is it "
@@ -140,12 +144,13 @@ SearchVerdict judge_search(const std::string& view, const MatchFigures& left,
                            const ViewState& state, const EdgePrior& edge, bool complete,
                            const std::optional<MatchFigures>& baseline) {
   SearchVerdict verdict{SearchEnd::no_registration, {}, surely_in_place(left)};
-  verdict.weak_pattern = left.pattern_correlation && *left.pattern_correlation < kPoorCorrelation;
+  verdict.pattern_correlation = left.pattern_correlation;
   std::string prefix = view + ": no registration: ";
   std::vector<std::string> why = why_none(left);
   if (!verdict.in_place) {
     const std::vector<std::string> strange = strange_state(state, edge);
-    if (why.empty()) verdict.strange = strange;
+    const double most = edge.deviations(state).cwiseAbs().maxCoeff();
+    if (why.empty() && most <= no_registration::kBelievedDeviations) verdict.strange = strange;
     why.insert(why.end(), strange.begin(), strange.end());
   }
   if (why.empty()) {
@@ -163,7 +168,8 @@ void judge_together(const std::vector<std::string>& views, std::vector<SearchVer
                                      [](const SearchVerdict& v) { return v.in_place; });
   for (std::size_t v = 0; in_place != verdicts.end() && v < verdicts.size(); ++v) {
     SearchVerdict& verdict = verdicts[v];
-    if (verdict.strange.empty() || verdict.weak_pattern) continue;
+    if (verdict.strange.empty() || correlates_below(verdict, no_registration::kBelievedCorrelation))
+      continue;
     verdict.end = SearchEnd::look;
     verdict.reasons.clear();
     for (const std::string& sentence : verdict.strange)
@@ -171,8 +177,9 @@ void judge_together(const std::vector<std::string>& views, std::vector<SearchVer
     verdict.reasons.push_back(views[v] + ": registered for " + views[in_place - verdicts.begin()] +
                               ", searched with it, is surely this breast");
   }
-  if (verdicts.size() > 1 && std::all_of(verdicts.begin(), verdicts.end(),
-                                         [](const SearchVerdict& v) { return v.weak_pattern; }))
+  if (verdicts.size() > 1 &&
+      std::all_of(verdicts.begin(), verdicts.end(),
+                  [](const SearchVerdict& v) { return correlates_below(v, kPoorCorrelation); }))
     for (std::size_t v = 0; v < verdicts.size(); ++v) {
       if (verdicts[v].end == SearchEnd::no_registration) continue;
       verdicts[v].end = SearchEnd::no_registration;

@@ -45,9 +45,11 @@ void declare(CommandLine& command, Arguments& args) {
       "--spoil", args.spoil,
       "each patient also with mammograms of which the search is told wrongly: no nipple in "
       "profile, a pectoral edge 10 mm off, a strip of abdomen");
-  command.flag("--misfit", args.misfit,
-               "each patient also with mammograms that are not what patient.toml says: another "
-               "patient's, the other breast's, upside down, views exchanged");
+  command.flag(
+      "--misfit", args.misfit,
+      "each patient also with mammograms that are not what patient.toml says: another "
+      "patient's, the other breast's, upside down, views exchanged, her CC beside an MLO that "
+      "is another patient's or upside down");
   command
       .option("--preset", args.preset,
               "materials.preset of the model that registers; the truth's is neo_hookean_2026")
@@ -106,7 +108,7 @@ void add_misfits(int number, const fs::path& folder, const Arguments& args,
     const fs::path wrong = folder.string() + "-" + misfit;
     json row = evaluate(
         wrong, [&] { make_misfit_case(folder, another, misfit, wrong); }, args);
-    judge_misfit(row);
+    judge_misfit(misfit, row);
     add(std::move(row), misfit);
   }
 }

@@ -1,5 +1,6 @@
 #include "pipeline/evaluate/registration/misfit_case.h"
 
+#include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -17,6 +18,12 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 
 constexpr const char* kPictures[] = {"cc.png", "mlo.png"};
+
+/// Numbers of the views whose mammograms are exchanged.
+std::vector<std::size_t> wrong_views(const std::string& misfit) {
+  if (misfit.starts_with("mlo_")) return {1};
+  return {0, 1};
+}
 
 MammogramImage flipped(const MammogramImage& image, bool columns) {
   MammogramImage other = image;
@@ -64,9 +71,9 @@ std::string end_without_product(const std::string& reason) {
   return refused ? "refused" : "failed";
 }
 
-void turn_upside_down(const fs::path& folder) {
+void turn_upside_down(const std::vector<std::size_t>& views, const fs::path& folder) {
   Table marks = read_table(folder / "landmarks.csv");
-  for (std::size_t view = 0; view < 2; ++view) {
+  for (const std::size_t view : views) {
     const fs::path path = folder / kPictures[view];
     const MammogramImage image = read_mammogram_picture(path);
     write_grey(path, flipped(image, false));
@@ -95,33 +102,37 @@ void make_misfit_case(const fs::path& made, const fs::path& another, const std::
   if (fs::exists(folder / "patient.toml")) return;
   const fs::path unfinished = folder.string() + ".part";
   copy_case(made, unfinished);
-  if (misfit == "upside_down") {
-    turn_upside_down(unfinished);
+  const std::vector<std::size_t> views = wrong_views(misfit);
+  if (misfit.ends_with("upside_down")) {
+    turn_upside_down(views, unfinished);
   } else if (misfit == "views_exchanged") {
     exchange_views(made, unfinished);
   } else {
-    for (const char* picture : kPictures) {
-      const MammogramImage own = read_mammogram_picture(made / picture);
-      MammogramImage shown =
-          misfit == "other_breast" ? flipped(own, true) : read_mammogram_picture(another / picture);
-      if (misfit == "another_patient" && wall_at_left(shown) != wall_at_left(own))
+    for (const std::size_t view : views) {
+      const MammogramImage own = read_mammogram_picture(made / kPictures[view]);
+      MammogramImage shown = misfit == "other_breast"
+                                 ? flipped(own, true)
+                                 : read_mammogram_picture(another / kPictures[view]);
+      if (misfit != "other_breast" && wall_at_left(shown) != wall_at_left(own))
         shown = flipped(shown, true);
-      write_grey(unfinished / picture, shown);
+      write_grey(unfinished / kPictures[view], shown);
     }
   }
   fs::rename(unfinished, folder);
 }
 
-void judge_misfit(json& row) {
-  bool all_noticed = true;
-  for (const std::string view : {"cc", "mlo"}) {
-    const json search = row.value("search", json::object());
-    const std::string end = !row["reason"].is_null() ? end_without_product(row["reason"])
-                            : search.contains(view)  ? search[view].value("end", "none")
-                                                     : "none";
-    row["end_" + view] = end;
-    all_noticed &= end == "refused" || end == "none" || end == "no registration";
-  }
+void judge_misfit(const std::string& misfit, json& row) {
+  const std::string names[] = {"cc", "mlo"};
+  const json search = row.value("search", json::object());
+  for (const std::string& view : names)
+    row["end_" + view] = !row["reason"].is_null() ? end_without_product(row["reason"])
+                         : search.contains(view)  ? search[view].value("end", "none")
+                                                  : "none";
+  const std::vector<std::size_t> wrong = wrong_views(misfit);
+  const bool all_noticed = std::all_of(wrong.begin(), wrong.end(), [&](std::size_t view) {
+    const std::string end = row["end_" + names[view]];
+    return end == "refused" || end == "none" || end == "no registration";
+  });
   const json inside = row["lesions"]["inside_90"];
   row["lesions_in_90"] = inside;
   row["noticed"] = all_noticed || (inside.is_number() && inside.get<double>() == 1);

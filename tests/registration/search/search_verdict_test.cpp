@@ -164,8 +164,8 @@ TEST(SearchVerdict, BelievesAStrangeStateBesideAViewThatIsSurelyInPlace) {
   ViewState rolled = ViewState::Zero();
   rolled[kRoll] = 15;
   MatchFigures fair = good(), weak = good(), poor = good();
-  fair.pattern_correlation = 0.7;
-  weak.pattern_correlation = 0.6;
+  fair.pattern_correlation = 0.56;
+  weak.pattern_correlation = 0.54;
   poor.outline_rms_mm = 9;
   const auto beside = [&](const MatchFigures& left, const MatchFigures& other) {
     std::vector<SearchVerdict> both{judged(other), judged(left, rolled)};
@@ -179,6 +179,8 @@ TEST(SearchVerdict, BelievesAStrangeStateBesideAViewThatIsSurelyInPlace) {
   EXPECT_EQ(beside(fair, fair).end, SearchEnd::no_registration);
   EXPECT_EQ(beside(weak, good()).end, SearchEnd::no_registration);
   EXPECT_EQ(beside(poor, good()).end, SearchEnd::no_registration);
+  rolled[kRoll] = 19;  // more than three standard deviations
+  EXPECT_EQ(beside(fair, good()).end, SearchEnd::no_registration);
 }
 
 TEST(SearchVerdict, BelievesNoViewWhereAllPatternsAreWeak) {

@@ -74,12 +74,23 @@ TEST_F(MisfitCase, ViewsAreExchangedWithTheirMarks) {
             std::string::npos);
 }
 
+TEST_F(MisfitCase, OneWrongMammogramLiesBesideHerOwn) {
+  const fs::path turned = made("mlo_upside_down"), exchanged = made("mlo_of_another_patient");
+  EXPECT_EQ(grey(turned, "cc.png", 2, 10), 21000);
+  EXPECT_EQ(grey(turned, "mlo.png", 2, 20), 22000);
+  EXPECT_NE(text_of((turned / "landmarks.csv").string()).find("L1,1,2,3,10,6.5,12,9.0"),
+            std::string::npos);
+  EXPECT_EQ(grey(exchanged, "cc.png", 2, 10), 21000);
+  EXPECT_EQ(grey(exchanged, "mlo.png", 2, 10), 24000);
+}
+
 TEST(JudgeMisfit, IsNoticedWhereNothingIsRegisteredOrEllipsesHold) {
   const auto judged = [](const nlohmann::json& reason, const std::string& cc,
-                         const std::string& mlo, const nlohmann::json& inside) {
+                         const std::string& mlo, const nlohmann::json& inside,
+                         const std::string& misfit = "upside_down") {
     nlohmann::json row{{"reason", reason}, {"lesions", {{"inside_90", inside}}}};
     if (reason.is_null()) row["search"] = {{"cc", {{"end", cc}}}, {"mlo", {{"end", mlo}}}};
-    judge_misfit(row);
+    judge_misfit(misfit, row);
     return row;
   };
   const std::string none = "no registration";
@@ -93,6 +104,8 @@ TEST(JudgeMisfit, IsNoticedWhereNothingIsRegisteredOrEllipsesHold) {
   EXPECT_EQ(judged(nullptr, none, none, 0.5)["noticed"], true);
   EXPECT_EQ(judged(nullptr, none, "look", 0.5)["noticed"], false);
   EXPECT_EQ(judged(nullptr, "look", "ok", 1)["noticed"], true);
+  EXPECT_EQ(judged(nullptr, "ok", none, 0.5, "mlo_upside_down")["noticed"], true);
+  EXPECT_EQ(judged(nullptr, none, "look", 0.5, "mlo_upside_down")["noticed"], false);
 }
 
 }  // namespace
