@@ -35,7 +35,7 @@ inline constexpr double kOutline_mm = 8;  ///< RMS
 /// against drawn mammograms of the same breast, hung as they should, none left more than 15 mm.
 inline constexpr double kNipple_mm = 20, kNippleDeviations = 4;
 /// Of the pattern of dense tissue, at least: searches against mammograms of other patients found
-/// 0.26 to 0.42, breasts in place 0.55 and more.
+/// 0.18 to 0.42, breasts in place 0.49 and more.
 inline constexpr double kCorrelation = 0.4;
 inline constexpr double kStateDeviations = 2;  ///< of a number's prior
 /// A strange state is believed, beside a view that is surely in place, up to so many of them, if
