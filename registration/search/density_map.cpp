@@ -9,8 +9,7 @@
 namespace mammotwin {
 namespace {
 
-constexpr double kInside_mm = 10;  // from the outline: there the breast is rounded
-constexpr double kBroad_mm = 25;   // half width of the mean that is taken off
+constexpr double kBroad_mm = 25;  // half width of the mean that is taken off
 constexpr std::size_t kMostSamples = 25000;
 constexpr double kDense = 0.15;  // least fraction of a sample
 
@@ -78,7 +77,8 @@ DensityGrid density_grid(const std::vector<Eigen::Vector2d>& outline) {
   grid.inside.assign(grid.columns * grid.rows, 0);
   for (int cell = 0; cell < grid.columns * grid.rows; ++cell) {
     const Eigen::Vector2d uv = grid.middle(cell);
-    if (uv.x() < kInside_mm || !within(outline, uv) || distance_to(outline, uv) < kInside_mm)
+    if (uv.x() < kPatternInside_mm || !within(outline, uv) ||
+        distance_to(outline, uv) < kPatternInside_mm)
       continue;
     grid.inside[cell] = 1;
     grid.cells.push_back(cell);

@@ -10,6 +10,10 @@
 
 namespace mammotwin {
 
+/// From the outline, where the breast is rounded, and from the detector's chest-wall edge: nearer
+/// no pattern is compared.
+inline constexpr double kPatternInside_mm = 10;
+
 /// Grid of square cells on the detector over which dense tissue is compared; those that count lie
 /// well inside the breast, where thickness hardly varies.
 struct DensityGrid {
@@ -24,7 +28,7 @@ struct DensityGrid {
   }
 };
 
-/// Cells at least 10 mm inside the outline (u, v) of a mammogram.
+/// Cells at least kPatternInside_mm inside the outline (u, v) of a mammogram and its edge.
 DensityGrid density_grid(const std::vector<Eigen::Vector2d>& outline);
 
 /// The pattern of dense tissue in the counted cells: what is left without its mean over 25 mm, mean

@@ -2,9 +2,11 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "registration/search/density_map.h"
 #include "registration/search/model_discrepancy.h"
 #include "registration/search/view_refinement.h"
 
@@ -27,6 +29,12 @@ Eigen::Vector3d position(const Nodes& nodes, const HermiteMesh::Corners& corners
   return x;
 }
 
+/// How far a place lies from what the search compares: the image without its rear strip.
+double beside_pattern_mm(const Detector& detector, const Eigen::Vector2d& on_detector) {
+  return std::max(
+      {0.0, kPatternInside_mm - on_detector.x(), detector.beside_image_mm(on_detector)});
+}
+
 }  // namespace
 
 double unexplained_mm2(const ViewUncertainty& uncertainty, const Detector& detector,
@@ -34,9 +42,9 @@ double unexplained_mm2(const ViewUncertainty& uncertainty, const Detector& detec
   const double left = uncertainty.discrepancy_mm * uncertainty.discrepancy_mm;
   double fading = 0;
   if (uncertainty.against_mammogram) {
-    const double lengths = detector.beside_image_mm(on_detector) / kDisplacementLength_mm;
+    const double lengths = beside_pattern_mm(detector, on_detector) / kDisplacementLength_mm;
     const double uncorrected = kUncorrectedSd_mm * kUncorrectedSd_mm;
-    fading = std::max(0.0, uncorrected - left) * (1 - std::exp(-lengths * lengths / 2));
+    fading = std::max(0.0, uncorrected - left) * (1 - std::exp(-lengths * lengths));
   }
   return kModelSd_mm * kModelSd_mm + left + fading;
 }

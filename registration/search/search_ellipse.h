@@ -31,8 +31,9 @@ struct ViewUncertainty {
 
 /// Variance in each direction [mm^2] at a place on the detector that no state explains:
 /// kModelSd_mm^2 + discrepancy_mm^2. What a mammogram shows of the model's displacements says the
-/// less of tissue the farther that lies beside the image: over their length (30 mm, as
-/// view_refinement.h has it) the discrepancy becomes that of a prediction that none corrects.
+/// less of tissue the farther that lies (d) from where its pattern is compared (density_map.h):
+/// they correlate by exp(-d^2 / 2 L^2), L = 30 mm (view_refinement.h), so 1 - exp(-d^2 / L^2) of
+/// the way the variance becomes that of a prediction that none corrects.
 double unexplained_mm2(const ViewUncertainty& uncertainty, const Detector& detector,
                        const Eigen::Vector2d& on_detector);
 

@@ -153,7 +153,8 @@ TEST(SearchEllipse, ItsRimPartsInsideFromOutside) {
   }
 }
 
-// Beside the image a search's 1 mm become 6.2: by 1 - exp(-1/2) of the way, in squares, at 30 mm.
+// Beside where patterns are compared a search's 1 mm become 6.2: by 1 - exp(-1) of the way, in
+// squares, at 30 mm.
 TEST(SearchEllipse, GrowsBesideTheImageThatTheSearchSaw) {
   Detector detector;
   detector.pixels = PixelGrid{0.5, 400, 600};  // 200 x 300 mm
@@ -164,10 +165,10 @@ TEST(SearchEllipse, GrowsBesideTheImageThatTheSearchSaw) {
   };
   EXPECT_NEAR(at(-30, 0), 1, 1e-12) << "no search";
   uncertainty.against_mammogram = true;
-  for (const auto& [u, v] : {std::pair{0., 0.}, {199., 149.}, {10., -149.}})
+  for (const auto& [u, v] : {std::pair{10., 0.}, {199., 149.}, {10., -149.}})
     EXPECT_NEAR(at(u, v), 1, 1e-12);
-  const double far = kUncorrectedSd_mm * kUncorrectedSd_mm, share = 1 - std::exp(-0.5);
-  for (const auto& [u, v] : {std::pair{-30., 20.}, {230., 0.}, {50., -180.}, {-18., 174.}})
+  const double far = kUncorrectedSd_mm * kUncorrectedSd_mm, share = 1 - std::exp(-1);
+  for (const auto& [u, v] : {std::pair{-20., 20.}, {230., 0.}, {50., -180.}, {-18., 174.}})
     EXPECT_NEAR(at(u, v), 1 + share * (far - 1), 1e-9) << u << " " << v;
   uncertainty.discrepancy_mm = 8;
   EXPECT_NEAR(at(-30, 0), 64, 1e-9) << "never less than in the image";
