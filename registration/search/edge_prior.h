@@ -44,9 +44,9 @@ Eigen::Vector2d shift_of_turned(double turn_deg, const HermiteMesh& pressed,
 /// wall's slope. So the breast is turned by 25 +- 12 degrees. The nipple lies 0.90 +- 0.12 times as
 /// deep behind the image's edge as it is far from the muscle's line (15 of those mammograms): that
 /// line meets the edge some 50 mm above the nipple. The model's own distance is taken to be 10 mm
-/// unsure, for its tissue: against breasts drawn of another one (`evaluate-registration --hard
-/// --preset real`) it was 13 +- 7 mm short. Down to its level it reaches in 24.5 % of 200
-/// views (Spuur, Poulos, Rickard 2008), where the share is 1.08. Sideways its tissue is laid on the
+/// unsure, for its tissue: against breasts drawn of another one (`evaluate-registration --hard`) it
+/// was 13 +- 7 mm short. Down to its level the muscle reaches in 24.5 % of 200 views (Spuur,
+/// Poulos, Rickard 2008), where the share is 1.08. Sideways the breast's tissue is laid on the
 /// detector's middle, however it is turned.
 struct EdgePrior {
   ViewState mean = ViewState::Zero();  ///< turn and shifts; all else 0 [deg, mm]

@@ -24,7 +24,8 @@ struct SearchVerdict {
   std::vector<std::string> reasons;  ///< sentences with numbers and units
   bool in_place = false;             ///< surely (view_match.h), whatever else is strange
   std::optional<double> pattern_correlation = {};  ///< absent: none was compared
-  /// What is strange of the state, where that alone is why there is no registration.
+  /// What is strange of the state, where that alone, by kBelievedDeviations at most, is why there
+  /// is no registration.
   std::vector<std::string> strange = {};
 };
 

@@ -8,7 +8,7 @@ namespace mammotwin {
 
 /// Mammograms that are not what patient.toml says: another patient's, on the same side of the
 /// image; the other breast's, on its other side; upside down; CC for MLO and the other way round;
-/// and of these the MLO alone, beside her own CC.
+/// and, beside her own CC, an MLO that is another patient's or upside down.
 inline constexpr const char* kMisfits[] = {
     "another_patient", "other_breast",           "upside_down",
     "views_exchanged", "mlo_of_another_patient", "mlo_upside_down"};
