@@ -28,7 +28,7 @@ struct DensityGrid {
   }
 };
 
-/// Cells at least kPatternInside_mm inside the outline (u, v) of a mammogram and its edge.
+/// Cells at least kPatternInside_mm inside the outline (u, v) of a mammogram and from its edge.
 DensityGrid density_grid(const std::vector<Eigen::Vector2d>& outline);
 
 /// The pattern of dense tissue in the counted cells: what is left without its mean over 25 mm, mean

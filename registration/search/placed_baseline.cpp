@@ -27,11 +27,10 @@ HermiteMesh prone_of(const MeshFile& compressed) {
   return HermiteMesh(compressed.configurations.at("prone"), compressed.mesh.elements());
 }
 
-PlacedBaseline placed_baseline(const MeshFile& compressed, CompressedView view, double thickness_mm,
+PlacedBaseline placed_baseline(const MeshFile& compressed, const CompressedView& view,
                                const Eigen::Vector3d& nipple_in_lps, const EdgePrior& edge,
                                const Detector& detector,
                                const std::optional<ViewEvidence>& evidence) {
-  view.thickness_mm = thickness_mm;
   const HermiteMesh prone = prone_of(compressed);
   AffineBaseline baseline(prone, view);
   if (!evidence) {

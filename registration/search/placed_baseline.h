@@ -10,10 +10,10 @@ struct PlacedBaseline {
   std::optional<MatchFigures> left;  ///< to a mammogram, if there is one
 };
 
-/// The baseline of a compressed view, as its plates stand, at a thickness, turned and shifted to
-/// where the detector's edge is expected; with evidence, from there to the mammogram's outline and
-/// nipple, as the model is.
-PlacedBaseline placed_baseline(const MeshFile& compressed, CompressedView view, double thickness_mm,
+/// The baseline of a compressed view, as its plates stand, turned and shifted to where the
+/// detector's edge is expected; with evidence, from there to the mammogram's outline and nipple, as
+/// the model is.
+PlacedBaseline placed_baseline(const MeshFile& compressed, const CompressedView& view,
                                const Eigen::Vector3d& nipple_in_lps, const EdgePrior& edge,
                                const Detector& detector,
                                const std::optional<ViewEvidence>& evidence);

@@ -57,10 +57,9 @@ std::string state_sentence(int number, double value, double limit) {
                  words.what, value, words.unit, limit);
 }
 
-/// Of numbers that nobody expects.
-std::vector<std::string> strange_state(const ViewState& state, const EdgePrior& edge) {
+/// Of numbers that nobody expects, `off` so many standard deviations.
+std::vector<std::string> strange_state(const ViewState& off, const EdgePrior& edge) {
   std::vector<std::string> why;
-  const ViewState off = edge.deviations(state);
   constexpr double kMost = no_registration::kStateDeviations;
   for (int i = 0; i < kStates; ++i)
     if (std::abs(off[i]) > kMost)
@@ -86,10 +85,10 @@ std::vector<std::string> why_none(const MatchFigures& left) {
   return why;
 }
 
-std::vector<std::string> why_look(const MatchFigures& left, const ViewState& state,
+std::vector<std::string> why_look(const MatchFigures& left, const ViewState& off,
                                   const EdgePrior& edge, bool complete,
                                   const std::optional<MatchFigures>& baseline) {
-  std::vector<std::string> why = strange_state(state, edge);
+  std::vector<std::string> why = strange_state(off, edge);
   if (baseline && baseline->outline_rms_mm + kNearer_mm < left.outline_rms_mm)
     why.push_back(
         text_of("a breast without mechanics (the baseline) lies %.1f mm (RMS) off the mammogram's "
@@ -145,16 +144,17 @@ SearchVerdict judge_search(const std::string& view, const MatchFigures& left,
                            const std::optional<MatchFigures>& baseline) {
   SearchVerdict verdict{SearchEnd::no_registration, {}, surely_in_place(left)};
   verdict.pattern_correlation = left.pattern_correlation;
+  const ViewState off = edge.deviations(state);
   std::string prefix = view + ": no registration: ";
   std::vector<std::string> why = why_none(left);
   if (!verdict.in_place) {
-    const std::vector<std::string> strange = strange_state(state, edge);
-    const double most = edge.deviations(state).cwiseAbs().maxCoeff();
-    if (why.empty() && most <= no_registration::kBelievedDeviations) verdict.strange = strange;
+    const std::vector<std::string> strange = strange_state(off, edge);
+    const bool believable = off.cwiseAbs().maxCoeff() <= no_registration::kBelievedDeviations;
+    if (why.empty() && believable) verdict.strange = strange;
     why.insert(why.end(), strange.begin(), strange.end());
   }
   if (why.empty()) {
-    why = why_look(left, state, edge, complete, baseline);
+    why = why_look(left, off, edge, complete, baseline);
     verdict.end = why.empty() ? SearchEnd::ok : SearchEnd::look;
     prefix = view + ": ";
   }

@@ -40,7 +40,7 @@ inline constexpr double kNipple_mm = 20, kNippleDeviations = 4;
 inline constexpr double kCorrelation = 0.4;
 inline constexpr double kStateDeviations = 2;  ///< of a number's prior
 /// A strange state is believed, beside a view that is surely in place, up to so many of them, if
-/// its pattern correlates so. Such as are hers were given up at 2.0 and 2.4, with 0.64 and 0.56;
+/// its pattern correlates so. Such as are hers were given up at 2.2 and 2.4, with 0.64 and 0.56;
 /// mammograms of others correlate by 0.50 at most but for one upside down (0.62), at 4.5.
 inline constexpr double kBelievedDeviations = 3, kBelievedCorrelation = 0.55;
 }  // namespace no_registration

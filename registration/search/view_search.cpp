@@ -50,8 +50,7 @@ ViewUncertainty uncertainty(const ReducedView& reduced, const ViewState& z,
 
 PlacedBaseline baseline_of(const SearchInput& input, const CompressedView& view,
                            const EdgePrior& edge, const Eigen::Vector3d& nipple_in_lps) {
-  return placed_baseline(input.file, view, view.thickness_mm, nipple_in_lps, edge, input.detector,
-                         input.evidence);
+  return placed_baseline(input.file, view, nipple_in_lps, edge, input.detector, input.evidence);
 }
 
 EdgePrior edge_of(const SearchInput& input, const Eigen::Vector3d& nipple_in_lps) {

@@ -321,7 +321,7 @@ void take_tissue(const std::string& preset, const fs::path& folder) {
   const fs::path file = folder / "patient.toml";
   std::ifstream in(file);
   const std::string text{std::istreambuf_iterator<char>(in), {}};
-  const std::regex named("materials\\.preset = \"[^\"]*\"");
+  const std::regex named("materials\\.preset = [^\n]*");  // with its remark
   write_text_atomically(file,
                         std::regex_replace(text, named, "materials.preset = \"" + preset + "\""));
 }
