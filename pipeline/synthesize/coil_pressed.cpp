@@ -36,6 +36,18 @@ double goes_along(double outside_mm) {
   return 1 - off * off * (3 - 2 * off);
 }
 
+/// Straight before the skin, and so in air, not beside a cut face.
+bool before_skin(const MeshPoint& nearest) {
+  const auto inner = [](double xi) { return xi > 0 && xi < 1; };
+  return nearest.xi.z() == 1 && inner(nearest.xi.x()) && inner(nearest.xi.y());
+}
+
+/// How much of the way of its nearest point a point outside the mesh goes: all of it before the
+/// skin, for air must not come to lie where the breast was.
+double share_of_way(const CarriedPoint& found) {
+  return before_skin(found.point) ? 1 : goes_along(found.outside_mm);
+}
+
 Volume<std::int16_t> image_of(const Volume<std::int16_t>& image, const HermiteMesh& prone,
                               const HermiteMesh& pressed) {
   const PointCarrier back(pressed, prone);
@@ -51,7 +63,7 @@ Volume<std::int16_t> image_of(const Volume<std::int16_t>& image, const HermiteMe
         const CarriedPoint found = back.carry(x);
         const Eigen::Vector3d moved = prone.position(found.point) - pressed.position(found.point);
         const Eigen::Vector3d from =
-            found.outside_mm > 0 ? x + goes_along(found.outside_mm) * moved : found.in_lps;
+            found.outside_mm > 0 ? x + share_of_way(found) * moved : found.in_lps;
         result(i, j, k) = static_cast<std::int16_t>(
             std::lround(trilinear_corners(image, image.index(from)).of(image)));
       }

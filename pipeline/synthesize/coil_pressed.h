@@ -15,7 +15,8 @@ CompressionResult press_between_coil_plates(CompressionProblem hanging,
 
 /// The patient as MRI shows her whose breast went from `prone` to `pressed`, two configurations of
 /// one mesh: image, lesions and nipple with the tissue; what lies within 60 mm beside it goes
-/// along, less and less. Tissue and labels stay those of `prone`.
+/// along, less and less, and air before the skin with the skin. Tissue and labels stay those of
+/// `prone`.
 SyntheticPatient imaged_pressed(SyntheticPatient patient, const HermiteMesh& prone,
                                 const HermiteMesh& pressed);
 

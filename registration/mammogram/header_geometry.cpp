@@ -265,8 +265,8 @@ double spacing_of(const MammogramHeader& h, const std::string& view, HeaderGeome
 
 ImageEdge chest_wall_of(const MammogramHeader& h, const std::string& view) {
   const std::string rows = h.patient_orientation.empty() ? "" : h.patient_orientation[0];
-  if (rows == "A") return ImageEdge::left;
-  if (rows == "P") return ImageEdge::right;
+  if (rows.starts_with("A")) return ImageEdge::left;  // the longest component comes first
+  if (rows.starts_with("P")) return ImageEdge::right;
   refuse(kOrientation,
          (rows.empty() ? "is missing" : "begins with \"" + rows + "\"; expected A or P") +
              "; views." + view + ".detector.chest_wall and lateral replace it");

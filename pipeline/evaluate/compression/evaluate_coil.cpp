@@ -15,7 +15,7 @@ constexpr double kLeastVolume_ml = 700;  // smaller ones do not hang between pla
 
 struct Arguments {
   fs::path table;
-  int synthetic = 10, jobs = 1;
+  int synthetic = 10, first = 0, jobs = 1;
   double pressed = 0.4;
   std::vector<double> roundnesses{0, 0.8};
 };
@@ -24,6 +24,9 @@ void declare(CommandLine& command, Arguments& args) {
   declare_table(command, args.table, "coil", "each breast's");
   command.option("--synthetic", args.synthetic, "breasts: the first drawn ones of 700 ml and more")
       .between(1, 50)
+      .with_default();
+  command.option("--first", args.first, "number of the first that is tried")
+      .between(0, 10000)
       .with_default();
   command
       .option("--pressed", args.pressed,
@@ -35,16 +38,16 @@ void declare(CommandLine& command, Arguments& args) {
   declare_jobs(command, args.jobs, "breasts at a time");
 }
 
-std::vector<int> large_breasts(int count) {
+std::vector<int> large_breasts(int first, int count) {
   std::vector<int> numbers;
-  for (int n = 0; static_cast<int>(numbers.size()) < count; ++n)
+  for (int n = first; static_cast<int>(numbers.size()) < count; ++n)
     if (draw_breast(n).patient.anatomy.volume_ml >= kLeastVolume_ml) numbers.push_back(n);
   return numbers;
 }
 
 int run(const Arguments& args) {
   EvaluationTable table(args.table);
-  const std::vector<int> numbers = large_breasts(args.synthetic);
+  const std::vector<int> numbers = large_breasts(args.first, args.synthetic);
   work_through(numbers.size(), args.jobs, [&](std::size_t n) {
     add_coil_rows({numbers[n], table.folder() / args.table.stem() / draw_breast(numbers[n]).name,
                    args.pressed, args.roundnesses},

@@ -7,6 +7,7 @@
 #include "pipeline/evaluate/registration/registration_case.h"
 #include "pipeline/evaluate/registration/tomosynthesis_rows.h"
 #include "pipeline/frame/command_line.h"
+#include "pipeline/patient/tissue_presets.h"
 
 namespace mammotwin {
 namespace {
@@ -26,6 +27,7 @@ int run(const Arguments& args) {
   EvaluationTable table(args.table);
   const std::filesystem::path folder = table.folder() / "tomosynthesis";
   make_tomosynthesis_case(args.coarse, folder);
+  take_tissue(kDefaultTissue, folder);
   run_registration_case(folder);
   for (nlohmann::json row : tomosynthesis_rows(folder)) table.add(0, std::move(row));
   return 0;

@@ -48,6 +48,12 @@ Eigen::Vector3d first_pixel(const TomosynthesisVolume& volume, const CompressedV
       {hanging(view).wall_left ? image.first.x() : last_u, last_v, volume.stack.height_of(slice)});
 }
 
+/// The view as the machine knows it: the plates at the header's angle, the breast square to them.
+CompressedView said_view(CompressedView view, double angle_deg) {
+  view.frame.axes = view_axes(view.side, angle_deg);
+  return view;
+}
+
 void write_groups(const TomosynthesisVolume& volume, const CompressedView& view, DcmDataset& d) {
   FGInterface groups;
   groups.setCheckOnWrite(OFFalse);
@@ -131,7 +137,7 @@ void write_tomosynthesis(const std::filesystem::path& path, const TomosynthesisV
   d.putAndInsertString(DCM_BreastImplantPresent, "NO");
   put_view_code(d, view.name);
   write_acquisition(angle_deg, thickness_mm, d);
-  write_groups(volume, view, d);
+  write_groups(volume, said_view(view, angle_deg), d);
   write_pixels(volume, hanging(view).wall_left, d);
   if (file.saveFile(path.c_str(), EXS_LittleEndianExplicit).bad())
     throw std::runtime_error(path.string() + ": cannot be written");

@@ -56,5 +56,20 @@ TEST_F(TrueTomosynthesis, ShowsALesionBrightestInItsSliceWhereTheFileSaysThatItI
   EXPECT_GT(most, grey_at(read_mammogram_slice(path, g.detector.slices->count), pixel));
 }
 
+// A machine does not know how the breast came to lie on its detector.
+TEST_F(TrueTomosynthesis, SaysTheMachinesAnglesHoweverTheBreastLies) {
+  const SqueezedBox breast = squeezed_box(Side::left, 45, 0.5);
+  const Volume<Fractions> tissue = ball_in_fat({75, -30, 14});
+  TomosynthesisVolume volume =
+      tomosynthesis_volume(breast.prone, breast.compressed, &tissue, breast.view, std::nullopt, 1);
+  CompressedView lies = breast.view;
+  lies.frame.axes = axes_of(lies.side, lies.angle_deg, -25);
+  write_tomosynthesis(folder_ / "mlo.dcm", volume, lies, 45, lies.thickness_mm);
+
+  const MammogramHeader header = read_mammogram_header(folder_ / "mlo.dcm");
+  EXPECT_EQ(header.patient_orientation, (std::vector<std::string>{"A", "RF"}));
+  EXPECT_NO_THROW(header_geometry(header, "mlo", Side::left));
+}
+
 }  // namespace
 }  // namespace mammotwin

@@ -188,6 +188,8 @@ TEST_F(Header, ReadsWhatIsOddButClear) {
   const PixelGrid turned = *read(set(DCM_PatientOrientation, "P\\H")).detector.pixels;
   EXPECT_EQ(turned.chest_wall, ImageEdge::right);
   EXPECT_FALSE(turned.lateral_at_top);
+  EXPECT_EQ(read(set(DCM_PatientOrientation, "PLF\\FL")).detector.pixels->chest_wall,
+            ImageEdge::right);
 }
 
 TEST_F(Header, IsOverriddenByThePatientsFile) {
