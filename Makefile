@@ -156,7 +156,7 @@ evaluate-unload: mammotwin-evaluate-unload
 
 evaluate-coil: mammotwin-evaluate-coil
 	@"$$BIN/mammotwin-evaluate-coil" "$$RESULTS/evaluation/coil.json" \
-	  $${SYNTHETIC:+--synthetic "$$SYNTHETIC"} $${ROUNDNESS:+--roundness $$ROUNDNESS} $${JOBS:+--jobs "$$JOBS"}
+	  $${SYNTHETIC:+--synthetic "$$SYNTHETIC"} $${FIRST:+--first "$$FIRST"} $${ROUNDNESS:+--roundness $$ROUNDNESS} $${JOBS:+--jobs "$$JOBS"}
 
 evaluate-supine-spread: mammotwin-evaluate-supine-spread
 	@"$$BIN/mammotwin-evaluate-supine-spread" "$$CASES" "$$RESULTS/evaluation/supine_spread.json"
