@@ -11,6 +11,7 @@ constexpr const char* kBaseline = "baseline";
 constexpr const char* kSd = "state_sd";
 constexpr const char* kCovariance = "state_covariance";
 constexpr const char* kDiscrepancy = "discrepancy_mm";
+constexpr const char* kEdge = "plates_edge";  // its turn [deg], and shift in depth and lateral [mm]
 constexpr const char* kEnd = "search_end";
 constexpr const char* kVaried = "varied_";
 constexpr const char *kUp = "what_if_up_", *kDown = "what_if_down_";
@@ -62,6 +63,8 @@ std::optional<ViewUncertainty> read_uncertainty(const MeshFile& file, const std:
   uncertainty.sd = ViewState::Map(sd->data());
   uncertainty.covariance = Eigen::Matrix<double, kStates, kStates>::Map(covariance->data());
   uncertainty.discrepancy_mm = discrepancy->front();
+  if (const auto* edge = find_field(file.metadata, name, kEdge, 3))
+    uncertainty.edge = {edge->at(0), {edge->at(1), edge->at(2)}};
   for (int i = 0; i < kMechanical; ++i)
     uncertainty.varied[i] = configuration(file, std::string(kVaried) + kStateNames[i]);
   return uncertainty;
@@ -102,6 +105,8 @@ void write_uncertainty(const ViewUncertainty& uncertainty, MeshFile& file) {
   const auto& c = uncertainty.covariance;
   file.metadata[kCovariance] = {c.data(), c.data() + c.size()};
   file.metadata[kDiscrepancy] = {uncertainty.discrepancy_mm};
+  const PlatesEdge& edge = uncertainty.edge;
+  file.metadata[kEdge] = {edge.turn_deg, edge.shift_mm.x(), edge.shift_mm.y()};
   for (int i = 0; i < kMechanical; ++i)
     if (!uncertainty.varied[i].empty())
       file.configurations[std::string(kVaried) + kStateNames[i]] = uncertainty.varied[i];

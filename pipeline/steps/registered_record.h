@@ -33,9 +33,10 @@ RegisteredRecord::Baseline record_of(const AffineBaseline& baseline);
 AffineBaseline baseline_of(const RegisteredRecord::Baseline& record, const HermiteMesh& prone,
                            CompressedView view);
 
-/// As fields `baseline`, `state_sd`, `state_covariance`, `discrepancy_mm` and `search_end`, and as
-/// the breast with each state's number varied, "varied_roll_deg" and so on, and at the ends of what
-/// a reader may vary, "what_if_up_roll_deg", "what_if_down_roll_deg", among the configurations.
+/// As fields `baseline`, `state_sd`, `state_covariance`, `discrepancy_mm`, `plates_edge` and
+/// `search_end`, and as the breast with each state's number varied, "varied_roll_deg" and so on,
+/// and at the ends of what a reader may vary, "what_if_up_roll_deg", "what_if_down_roll_deg", among
+/// the configurations.
 void write_registered(const RegisteredRecord& record, MeshFile& file);
 
 /// Throws std::runtime_error naming `name` and the field that is damaged.

@@ -30,36 +30,37 @@ double distance_to(const std::vector<Eigen::Vector2d>& outline, const Eigen::Vec
 }
 
 /// Mean over the counted cells in a square round each cell.
-std::vector<double> broad_mean(const DensityGrid& grid, const std::vector<double>& values) {
+std::vector<double> broad_mean(const DensityGrid& grid, const std::vector<double>& values,
+                               const std::vector<double>& shares) {
   const int reach = static_cast<int>(kBroad_mm / grid.cell_mm);
   std::vector<double> mean(values.size(), 0);
   for (const int cell : grid.cells) {
     const int i = cell % grid.columns, j = cell / grid.columns;
-    double sum = 0;
-    int count = 0;
+    double sum = 0, count = 0;
     for (int b = std::max(0, j - reach); b <= std::min(grid.rows - 1, j + reach); ++b)
-      for (int a = std::max(0, i - reach); a <= std::min(grid.columns - 1, i + reach); ++a)
-        if (grid.inside[b * grid.columns + a]) {
-          sum += values[b * grid.columns + a];
-          ++count;
-        }
-    mean[cell] = sum / count;
+      for (int a = std::max(0, i - reach); a <= std::min(grid.columns - 1, i + reach); ++a) {
+        const int beside = b * grid.columns + a;
+        if (!grid.inside[beside]) continue;
+        sum += shares[beside] * values[beside];
+        count += shares[beside];
+      }
+    if (count > 0) mean[cell] = sum / count;
   }
   return mean;
 }
 
 /// Of the counted cells, what is left without its mean over 25 mm, mean 0.
-Eigen::VectorXd detail_of(const DensityGrid& grid, const std::vector<double>& values) {
-  const std::vector<double> mean = broad_mean(grid, values);
-  Eigen::VectorXd detail(grid.cells.size());
-  for (std::size_t n = 0; n < grid.cells.size(); ++n)
-    detail[n] = values[grid.cells[n]] - mean[grid.cells[n]];
-  if (detail.size() > 0) detail.array() -= detail.mean();
+Eigen::VectorXd detail_of(const DensityGrid& grid, const std::vector<double>& values,
+                          const std::vector<double>& shares) {
+  Eigen::VectorXd detail =
+      in_counted(grid, values) - in_counted(grid, broad_mean(grid, values, shares));
+  const Eigen::VectorXd weight = in_counted(grid, shares);
+  if (weight.sum() > 0) detail.array() -= weight.dot(detail) / weight.sum();
   return detail;
 }
 
-double root_mean_square(const Eigen::VectorXd& values) {
-  return values.size() == 0 ? 0 : values.norm() / std::sqrt(values.size());
+double root_mean_square(const Eigen::VectorXd& values, const Eigen::VectorXd& weight) {
+  return weight.sum() > 0 ? std::sqrt(weight.dot(values.cwiseAbs2()) / weight.sum()) : 0;
 }
 
 }  // namespace
@@ -86,10 +87,26 @@ DensityGrid density_grid(const std::vector<Eigen::Vector2d>& outline) {
   return grid;
 }
 
-Eigen::VectorXd pattern(const DensityGrid& grid, const std::vector<double>& values) {
-  const Eigen::VectorXd detail = detail_of(grid, values);
-  const double sd = root_mean_square(detail);
-  return sd > 0 ? Eigen::VectorXd(detail / sd) : detail;
+Eigen::VectorXd in_counted(const DensityGrid& grid, const std::vector<double>& by_cell) {
+  Eigen::VectorXd counted(grid.cells.size());
+  for (std::size_t n = 0; n < grid.cells.size(); ++n) counted[n] = by_cell[grid.cells[n]];
+  return counted;
+}
+
+std::vector<double> shares_before(const PlatesEdge& edge, const DensityGrid& grid) {
+  std::vector<double> shares(grid.inside.size(), 0);
+  for (const int cell : grid.cells) {
+    const double t = std::clamp(edge.before_mm(grid.middle(cell)) / kPatternInside_mm, 0., 1.);
+    shares[cell] = t * t * (3 - 2 * t);
+  }
+  return shares;
+}
+
+Eigen::VectorXd pattern(const DensityGrid& grid, const std::vector<double>& values,
+                        const std::vector<double>& shares) {
+  const Eigen::VectorXd detail = detail_of(grid, values, shares);
+  const double sd = root_mean_square(detail, in_counted(grid, shares));
+  return sd > 0 ? Eigen::VectorXd(detail / sd) : Eigen::VectorXd::Zero(detail.size());
 }
 
 std::vector<double> grey_in_cells(const DensityGrid& grid, const MammogramImage& image,
@@ -166,7 +183,10 @@ std::vector<double> DenseTissue::in_cells(const DensityGrid& grid, const Reduced
 double DenseTissue::detail_mm(const DensityGrid& grid, const ReducedView& view, const ViewState& z,
                               const Detector& detector) const {
   const double cell_mm2 = grid.cell_mm * grid.cell_mm;
-  return root_mean_square(detail_of(grid, in_cells(grid, view, z, detector))) / cell_mm2;
+  const std::vector<double> shares = shares_before(view.plates_edge(z), grid);
+  return root_mean_square(detail_of(grid, in_cells(grid, view, z, detector), shares),
+                          in_counted(grid, shares)) /
+         cell_mm2;
 }
 
 }  // namespace mammotwin

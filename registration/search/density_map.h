@@ -6,12 +6,13 @@
 #include "registration/mammogram/mammogram_image.h"
 #include "registration/search/view_samples.h"
 #include "registration/view/detector.h"
+#include "registration/view/plates_edge.h"
 #include "segmentation/segmentation.h"
 
 namespace mammotwin {
 
 /// From the outline, where the breast is rounded, and from the detector's chest-wall edge: nearer
-/// no pattern is compared.
+/// no pattern is compared. Before the plates' rear edge it counts fully from there.
 inline constexpr double kPatternInside_mm = 10;
 
 /// Grid of square cells on the detector over which dense tissue is compared; those that count lie
@@ -31,9 +32,18 @@ struct DensityGrid {
 /// Cells at least kPatternInside_mm inside the outline (u, v) of a mammogram and from its edge.
 DensityGrid density_grid(const std::vector<Eigen::Vector2d>& outline);
 
+/// How much each cell counts: not at all behind the plates' rear edge, where thickness falls and
+/// muscle lies, and fully from kPatternInside_mm before it.
+std::vector<double> shares_before(const PlatesEdge& edge, const DensityGrid& grid);
+
+/// Of the counted cells alone, in the order of `cells`.
+Eigen::VectorXd in_counted(const DensityGrid& grid, const std::vector<double>& by_cell);
+
 /// The pattern of dense tissue in the counted cells: what is left without its mean over 25 mm, mean
-/// 0 and variance 1. It does not change with brightness, contrast or slow shading.
-Eigen::VectorXd pattern(const DensityGrid& grid, const std::vector<double>& values);
+/// 0 and variance 1, each cell counting as its share. It does not change with brightness, contrast
+/// or slow shading.
+Eigen::VectorXd pattern(const DensityGrid& grid, const std::vector<double>& values,
+                        const std::vector<double>& shares);
 
 /// Mean grey of a mammogram in each cell.
 std::vector<double> grey_in_cells(const DensityGrid& grid, const MammogramImage& image,

@@ -20,10 +20,10 @@ struct ModelDiscrepancy {
   /// sqrt(2 ln 20) s, where 95 % of the nipples lie that are found with that sd.
   double nipple_mm = 0;
   /// Errors of sd e each way smear a pattern whose autocorrelation is exp(-d^2 / (2 l^2)) to a
-  /// correlation c0 / (1 + e^2 / l^2), c0 being that of the same breast in place (0.93: half of the
-  /// views of synthetic patients of the model's own tissue, whose marks are 1.2 mm off, correlate
-  /// by more; with what nine of ten have, 0.88, ellipses of patients of another tissue hold too
-  /// few): e = l sqrt(c0 / c - 1). Without a pattern to compare, kUncorrectedSd_mm.
+  /// correlation c0 / (1 + e^2 / l^2), c0 being that of the same breast in place: e = l sqrt(c0 / c
+  /// - 1). 0.97: chosen on drawn patients with even numbers, of another tissue, so that the
+  /// ellipses of both kinds hold about the marks that they should (docs/theory.md); of them the
+  /// best correlate by 0.95. Without a pattern to compare, kUncorrectedSd_mm.
   double pattern_mm = 0;
   /// How much further the views, each searched alone, put tissue from where both put it than their
   /// covariances say.

@@ -79,6 +79,11 @@ Eigen::Vector3d ReducedView::placed(const Eigen::Vector3d& x_in_view, const View
           std::sin(t) * x.x() + std::cos(t) * x.y() + z[kShiftLateral] * sd[kShiftLateral], x.z()};
 }
 
+PlatesEdge ReducedView::plates_edge(const ViewState& z) const {
+  const ViewState state = z.cwiseProduct(sd);
+  return {state[kTurn], {state[kShiftDepth], state[kShiftLateral]}};
+}
+
 void ReducedView::expect(const EdgePrior& expected) {
   edge = expected;
   for (const int i : {kTurn, kShiftDepth, kShiftLateral}) sd[i] = edge.sd[i];

@@ -5,6 +5,7 @@
 #include "registration/search/edge_prior.h"
 #include "registration/search/free_form_deformation.h"
 #include "registration/search/nearby_solver.h"
+#include "registration/view/plates_edge.h"
 
 namespace mammotwin {
 
@@ -36,6 +37,8 @@ struct ReducedView {
 
   /// Deformation, turn and shifts of a point that the modes brought to `x_in_view`.
   Eigen::Vector3d placed(const Eigen::Vector3d& x_in_view, const ViewState& z) const;
+
+  PlatesEdge plates_edge(const ViewState& z) const;
 
   /// Takes the prior of the place on the detector from there.
   void expect(const EdgePrior& expected);

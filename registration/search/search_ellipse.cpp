@@ -29,10 +29,12 @@ Eigen::Vector3d position(const Nodes& nodes, const HermiteMesh::Corners& corners
   return x;
 }
 
-/// How far a place lies from what the search compares: the image without its rear strip.
-double beside_pattern_mm(const Detector& detector, const Eigen::Vector2d& on_detector) {
-  return std::max(
-      {0.0, kPatternInside_mm - on_detector.x(), detector.beside_image_mm(on_detector)});
+/// How far a place lies from what the search compares: the image without its rear strip, before
+/// the plates' rear edge.
+double beside_pattern_mm(const PlatesEdge& edge, const Detector& detector,
+                         const Eigen::Vector2d& on_detector) {
+  const double before = std::min(on_detector.x(), edge.before_mm(on_detector));
+  return std::max({0.0, kPatternInside_mm - before, detector.beside_image_mm(on_detector)});
 }
 
 }  // namespace
@@ -42,7 +44,8 @@ double unexplained_mm2(const ViewUncertainty& uncertainty, const Detector& detec
   const double left = uncertainty.discrepancy_mm * uncertainty.discrepancy_mm;
   double fading = 0;
   if (uncertainty.against_mammogram) {
-    const double lengths = beside_pattern_mm(detector, on_detector) / kDisplacementLength_mm;
+    const double lengths =
+        beside_pattern_mm(uncertainty.edge, detector, on_detector) / kDisplacementLength_mm;
     const double uncorrected = kUncorrectedSd_mm * kUncorrectedSd_mm;
     fading = std::max(0.0, uncorrected - left) * (1 - std::exp(-lengths * lengths));
   }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "registration/search/pose_search.h"
+#include "registration/view/plates_edge.h"
 
 namespace mammotwin {
 
@@ -27,6 +28,7 @@ struct ViewUncertainty {
   /// [mm]; model_discrepancy.h.
   double discrepancy_mm = 0;
   bool against_mammogram = false;  ///< that is what a search left, and so of tissue in the image
+  PlatesEdge edge;                 ///< where a search found it
 };
 
 /// Variance in each direction [mm^2] at a place on the detector that no state explains:

@@ -10,7 +10,6 @@ namespace {
 // What is worth a look.
 constexpr double kPoorOutline_mm = 5, kPoorNipple_mm = 10;
 constexpr double kNearer_mm = 1;  // that a baseline explains an outline better
-constexpr double kPoorCorrelation = 0.65;
 
 /// What a number of the state is called, and in what it is counted; of logarithms, the factor.
 struct Words {
@@ -97,7 +96,7 @@ std::vector<std::string> why_look(const MatchFigures& left, const ViewState& off
   if (left.outline_rms_mm > kPoorOutline_mm) why.push_back(outline_sentence(left.outline_rms_mm));
   if (left.nipple_mm && *left.nipple_mm > std::max(kPoorNipple_mm, 2 * left.nipple_sd_mm))
     why.push_back(nipple_sentence(*left.nipple_mm));
-  if (left.pattern_correlation && *left.pattern_correlation < kPoorCorrelation)
+  if (left.pattern_correlation && *left.pattern_correlation < kCorrelationInPlace)
     why.push_back(
         text_of("the patterns of dense tissue correlate by %.2f only", *left.pattern_correlation));
   if (!left.pattern_correlation)
@@ -111,10 +110,6 @@ std::vector<std::string> why_look(const MatchFigures& left, const ViewState& off
         "the search stopped where no equilibrium was found, with the best state that it "
         "had solved");
   return why;
-}
-
-bool correlates_below(const SearchVerdict& verdict, double least) {
-  return verdict.pattern_correlation && *verdict.pattern_correlation < least;
 }
 
 std::string what_is_shown(const std::string& view) {
@@ -143,13 +138,13 @@ SearchVerdict judge_search(const std::string& view, const MatchFigures& left,
                            const ViewState& state, const EdgePrior& edge, bool complete,
                            const std::optional<MatchFigures>& baseline) {
   SearchVerdict verdict{SearchEnd::no_registration, {}, surely_in_place(left)};
-  verdict.pattern_correlation = left.pattern_correlation;
   const ViewState off = edge.deviations(state);
   std::string prefix = view + ": no registration: ";
   std::vector<std::string> why = why_none(left);
   if (!verdict.in_place) {
     const std::vector<std::string> strange = strange_state(off, edge);
-    const bool believable = off.cwiseAbs().maxCoeff() <= no_registration::kBelievedDeviations;
+    const bool believable = left.pattern_correlation &&
+                            off.cwiseAbs().maxCoeff() <= no_registration::kBelievedDeviations;
     if (why.empty() && believable) verdict.strange = strange;
     why.insert(why.end(), strange.begin(), strange.end());
   }
@@ -168,8 +163,7 @@ void judge_together(const std::vector<std::string>& views, std::vector<SearchVer
                                      [](const SearchVerdict& v) { return v.in_place; });
   for (std::size_t v = 0; in_place != verdicts.end() && v < verdicts.size(); ++v) {
     SearchVerdict& verdict = verdicts[v];
-    if (verdict.strange.empty() || correlates_below(verdict, no_registration::kBelievedCorrelation))
-      continue;
+    if (verdict.strange.empty()) continue;
     verdict.end = SearchEnd::look;
     verdict.reasons.clear();
     for (const std::string& sentence : verdict.strange)
@@ -177,17 +171,6 @@ void judge_together(const std::vector<std::string>& views, std::vector<SearchVer
     verdict.reasons.push_back(views[v] + ": registered for " + views[in_place - verdicts.begin()] +
                               ", searched with it, is surely this breast");
   }
-  if (verdicts.size() > 1 &&
-      std::all_of(verdicts.begin(), verdicts.end(),
-                  [](const SearchVerdict& v) { return correlates_below(v, kPoorCorrelation); }))
-    for (std::size_t v = 0; v < verdicts.size(); ++v) {
-      if (verdicts[v].end == SearchEnd::no_registration) continue;
-      verdicts[v].end = SearchEnd::no_registration;
-      verdicts[v].reasons.push_back(views[v] +
-                                    ": no registration: no view's pattern of dense tissue is "
-                                    "surely this breast's; are CC and MLO exchanged?");
-      verdicts[v].reasons.push_back(what_is_shown(views[v]));
-    }
   const auto failed = [](const SearchVerdict& v) { return v.end == SearchEnd::no_registration; };
   const auto first = std::find_if(verdicts.begin(), verdicts.end(), failed);
   if (first == verdicts.end()) return;

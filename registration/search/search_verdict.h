@@ -23,7 +23,6 @@ struct SearchVerdict {
   SearchEnd end = SearchEnd::none;
   std::vector<std::string> reasons;  ///< sentences with numbers and units
   bool in_place = false;             ///< surely (view_match.h), whatever else is strange
-  std::optional<double> pattern_correlation = {};  ///< absent: none was compared
   /// What is strange of the state, where that alone, by kBelievedDeviations at most, is why there
   /// is no registration.
   std::vector<std::string> strange = {};
@@ -35,14 +34,11 @@ inline constexpr double kOutline_mm = 8;  ///< RMS
 /// Off the mammogram's nipple, where that is also four of its standard deviations. Of 84 searches
 /// against drawn mammograms of the same breast, hung as they should, none left more than 15 mm.
 inline constexpr double kNipple_mm = 20, kNippleDeviations = 4;
-/// Of the pattern of dense tissue, at least: searches against mammograms of other patients found
-/// 0.18 to 0.42, breasts in place 0.49 and more.
-inline constexpr double kCorrelation = 0.4;
-inline constexpr double kStateDeviations = 2;  ///< of a number's prior
-/// A strange state is believed, beside a view that is surely in place, up to so many of them, if
-/// its pattern correlates so. Such as are hers were given up at 2.2 and 2.4, with 0.64 and 0.56;
-/// mammograms of others correlate by 0.50 at most but for one upside down (0.62), at 4.5.
-inline constexpr double kBelievedDeviations = 3, kBelievedCorrelation = 0.55;
+/// Of the pattern of dense tissue, at least: searches against mammograms of others found 0.56 at
+/// most, breasts in place 0.67 and more.
+inline constexpr double kCorrelation = 0.6;
+inline constexpr double kStateDeviations = 2;     ///< of a number's prior
+inline constexpr double kBelievedDeviations = 3;  ///< beside a view that is surely in place
 }  // namespace no_registration
 
 /// Judges what a search of `view` left: differences, and the state in physical units. A state's
@@ -56,9 +52,8 @@ SearchVerdict judge_search(const std::string& view, const MatchFigures& left,
 
 /// Views are searched together, and their mammograms are of one breast. A view that has no
 /// registration for its strange state alone is `look` beside one that is surely in place, if no
-/// number is more than three standard deviations off and its pattern correlates by 0.55. Beside one
-/// with no registration `ok` becomes `look`, and `look` no registration unless it is surely in
-/// place; views that all have a weak pattern have no registration (so CC and MLO exchanged).
+/// number is more than three standard deviations off and it has a pattern. Beside one with no
+/// registration `ok` becomes `look`, and `look` no registration unless it is surely in place.
 /// `views` are their names.
 void judge_together(const std::vector<std::string>& views, std::vector<SearchVerdict>& verdicts);
 

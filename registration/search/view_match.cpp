@@ -89,7 +89,7 @@ ViewEvidence view_evidence(const MammogramImage& image, const MammogramFindings&
   evidence.nipple_sd_mm = std::max(kLeastNipple_mm, findings.nipple_sd_mm);
   evidence.grid = density_grid(whole);
   leave_out_muscle(findings, detector, evidence.grid);
-  evidence.pattern = pattern(evidence.grid, grey_in_cells(evidence.grid, image, detector));
+  evidence.grey = grey_in_cells(evidence.grid, image, detector);
   return evidence;
 }
 
@@ -111,7 +111,10 @@ ViewMatch::ViewMatch(ReducedView view, const std::vector<FaceLabels>& faces,
     if (seen_[ray] && *seen_[ray] * ray_direction(ray).x() < kBehind_mm) seen_[ray].reset();
   if (!fractions) return;
   tissue_ = std::make_shared<DenseTissue>(view_, prone, *fractions);
-  detail_mm_ = tissue_->detail_mm(evidence_.grid, view_, ViewState::Zero(), detector_);
+  compared_ =
+      in_counted(evidence_.grid, shares_before(view_.plates_edge(view_.mean()), evidence_.grid))
+          .sum();
+  detail_mm_ = tissue_->detail_mm(evidence_.grid, view_, view_.mean(), detector_);
   if (*detail_mm_ < kLeastDetail_mm) tissue_.reset();
 }
 
@@ -122,10 +125,23 @@ void ViewMatch::renew(ReducedView view) {
   if (tissue_) tissue_->renew(view_);
 }
 
+Eigen::VectorXd ViewMatch::pattern_difference(const ViewState& z) const {
+  const DensityGrid& grid = evidence_.grid;
+  const std::vector<double> shares = shares_before(view_.plates_edge(z), grid);
+  Eigen::VectorXd difference = pattern(grid, tissue_->in_cells(grid, view_, z, detector_), shares) -
+                               pattern(grid, evidence_.grey, shares);
+  const Eigen::VectorXd weight = in_counted(grid, shares);
+  if (weight.sum() == 0)
+    return Eigen::VectorXd::Constant(weight.size(), std::sqrt(2 * compared_ / weight.size()));
+  difference.array() *= (weight * (compared_ / weight.sum())).array().sqrt();
+  return difference;
+}
+
 Eigen::VectorXd ViewMatch::residuals(const ViewState& z, bool with_pattern,
                                      const MatchNoise& noise) const {
   const bool patterned = with_pattern && tissue_;
-  Eigen::VectorXd r = Eigen::VectorXd::Zero(kRays + 2 + (patterned ? evidence_.pattern.size() : 0));
+  Eigen::VectorXd r =
+      Eigen::VectorXd::Zero(kRays + 2 + (patterned ? evidence_.grid.cells.size() : 0));
   const RayDistances found = silhouette_.at(view_, z, detector_, centre_);
   for (int ray = 0; ray < kRays; ++ray) {
     if (!seen_[ray] || !found[ray]) continue;
@@ -141,10 +157,7 @@ Eigen::VectorXd ViewMatch::residuals(const ViewState& z, bool with_pattern,
   }
   if (patterned) {
     const double share = evidence_.grid.cell_mm / kPatternPiece_mm;
-    r.tail(evidence_.pattern.size()) =
-        (pattern(evidence_.grid, tissue_->in_cells(evidence_.grid, view_, z, detector_)) -
-         evidence_.pattern) *
-        (share / noise.pattern);
+    r.tail(evidence_.grid.cells.size()) = pattern_difference(z) * (share / noise.pattern);
   }
   return r;
 }
@@ -154,7 +167,7 @@ double ViewMatch::observations(bool with_pattern) const {
   for (const auto& radius : seen_)
     if (radius) count += piece(*radius);
   if (with_pattern && tissue_)
-    count += evidence_.pattern.size() * std::pow(evidence_.grid.cell_mm / kPatternPiece_mm, 2);
+    count += compared_ * std::pow(evidence_.grid.cell_mm / kPatternPiece_mm, 2);
   return count;
 }
 
@@ -173,10 +186,7 @@ MatchFigures ViewMatch::figures(const ViewState& z) const {
     figures.nipple_mm = (detector_.project(nipple_.at(view_, z).col(0)) - *evidence_.nipple).norm();
   figures.dense_detail_mm = detail_mm_;
   if (tissue_)
-    figures.pattern_correlation =
-        pattern(evidence_.grid, tissue_->in_cells(evidence_.grid, view_, z, detector_))
-            .dot(evidence_.pattern) /
-        evidence_.pattern.size();
+    figures.pattern_correlation = 1 - pattern_difference(z).squaredNorm() / (2 * compared_);
   return figures;
 }
 

@@ -21,7 +21,8 @@ struct ViewEvidence {
   std::optional<Eigen::Vector2d> nipple;
   double nipple_sd_mm = 3;
   DensityGrid grid;
-  Eigen::VectorXd pattern;  ///< of dense tissue (density_map.h)
+  std::vector<double>
+      grey;  ///< in each cell, of which dense tissue makes a pattern (density_map.h)
 };
 
 /// What was found, each with its own standard deviation; what is unsure of it weighs as little as
@@ -82,6 +83,10 @@ class ViewMatch {
   void renew(ReducedView view);
 
  private:
+  /// The model's pattern less the mammogram's, in the counted cells: its square is `compared_`
+  /// times 2 - 2 times their correlation.
+  Eigen::VectorXd pattern_difference(const ViewState& z) const;
+
   ReducedView view_;
   Detector detector_;
   ViewEvidence evidence_;
@@ -90,6 +95,7 @@ class ViewMatch {
   Silhouette silhouette_;
   ViewSamples nipple_;
   std::shared_ptr<DenseTissue> tissue_;  ///< none: the pattern is not compared
+  double compared_ = 0;  ///< cells, where the search begins: in no state more or less count
   std::optional<double> detail_mm_;
 };
 

@@ -112,6 +112,7 @@ SearchedView matched(const SearchInput& input, const ViewToSearch& found, const 
   if (end.states.size() > 1) result.discrepancy.views_mm = disagreement(found.match, end, number);
   result.uncertainty.discrepancy_mm = result.discrepancy.sd_mm();
   result.uncertainty.against_mammogram = true;
+  result.uncertainty.edge = reduced.plates_edge(z);
   return result;
 }
 

@@ -60,6 +60,7 @@ TEST_F(MeshRecords, WhatRegisterKnowsComesBack) {
   uncertainty.covariance(kTilt, kRoll) = 0.25;
   uncertainty.varied[kRoll] = file.mesh.nodes();
   uncertainty.discrepancy_mm = 4.5;
+  uncertainty.edge = {-20, {30, -4}};
   WhatIfShapes what_if;
   what_if[1] = {file.mesh.nodes(), file.mesh.nodes()};
   what_if[1].down[0](2, 0) -= 5;
@@ -77,6 +78,8 @@ TEST_F(MeshRecords, WhatRegisterKnowsComesBack) {
   EXPECT_EQ(found.uncertainty->sd, uncertainty.sd);
   EXPECT_EQ(found.uncertainty->covariance, uncertainty.covariance);
   EXPECT_EQ(found.uncertainty->discrepancy_mm, 4.5);
+  EXPECT_EQ(found.uncertainty->edge.turn_deg, -20);
+  EXPECT_EQ(found.uncertainty->edge.shift_mm, uncertainty.edge.shift_mm);
   EXPECT_EQ(found.end, SearchEnd::look);
   EXPECT_EQ(found.uncertainty->varied[kRoll].size(), file.mesh.nodes().size());
   EXPECT_TRUE(found.uncertainty->varied[kTilt].empty());

@@ -170,6 +170,9 @@ TEST(SearchEllipse, GrowsBesideTheImageThatTheSearchSaw) {
   const double far = kUncorrectedSd_mm * kUncorrectedSd_mm, share = 1 - std::exp(-1);
   for (const auto& [u, v] : {std::pair{-20., 20.}, {230., 0.}, {50., -180.}, {-18., 174.}})
     EXPECT_NEAR(at(u, v), 1 + share * (far - 1), 1e-9) << u << " " << v;
+  uncertainty.edge.shift_mm.x() = 60;
+  EXPECT_NEAR(at(40, 0), 1 + share * (far - 1), 1e-9) << "behind the plates' edge";
+  EXPECT_NEAR(at(70, 0), 1, 1e-12);
   uncertainty.discrepancy_mm = 8;
   EXPECT_NEAR(at(-30, 0), 64, 1e-9) << "never less than in the image";
   detector.pixels.reset();

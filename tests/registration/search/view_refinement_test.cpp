@@ -28,18 +28,22 @@ struct MovedGland {
   BoxView box;
   ViewState z = ViewState::Zero();
 
-  /// A mammogram on which gland lies where `deformation` puts it.
-  ViewMatch match(const FreeFormDeformation& deformation, const Volume<Fractions>& imaged,
-                  const Volume<Fractions>& in_mri) const {
+  /// Of a mammogram on which gland lies where `deformation` puts it.
+  ViewEvidence evidence(const FreeFormDeformation& deformation,
+                        const Volume<Fractions>& imaged) const {
     ReducedView seen = box.view;
     seen.deformation = deformation;
     ViewEvidence evidence = box.evidence(seen, z);
     evidence.grid = density_grid(evidence.outline);
     const DenseTissue tissue(box.view, box.box.prone, imaged);
-    evidence.pattern =
-        pattern(evidence.grid, tissue.in_cells(evidence.grid, seen, z, box.detector));
+    evidence.grey = tissue.in_cells(evidence.grid, seen, z, box.detector);
+    return evidence;
+  }
+
+  ViewMatch match(const FreeFormDeformation& deformation, const Volume<Fractions>& imaged,
+                  const Volume<Fractions>& in_mri) const {
     return ViewMatch(box.view, skin_of(box.box.prone), box.box.prone, &in_mri, box.nipple(),
-                     box.detector, evidence);
+                     box.detector, evidence(deformation, imaged));
   }
 
   /// RMS over tissue in the view of a displacement less another [mm].
@@ -72,6 +76,32 @@ TEST(ViewRefinement, MovesNothingThatLiesWhereItShould) {
   ViewMatch match = c.match({}, gland(1), gland(1));
   const ViewRefinement found = refine_view(match, c.z);
   EXPECT_LT(c.apart_mm({}, found.deformation), 0.05);
+}
+
+// A mammogram that shows muscle behind the plates' edge.
+TEST(ViewMatch, ComparesNoPatternBehindThePlatesEdge) {
+  MovedGland c;
+  c.z[kShiftDepth] = 2;
+  const PlatesEdge edge = c.box.view.plates_edge(c.z);
+  const Volume<Fractions> in_mri = gland(1);
+  ViewEvidence evidence = c.evidence({}, in_mri);
+  std::vector<Eigen::Vector2d> whole = evidence.outline;
+  whole.insert(whole.begin(), {0, whole.front().y()});
+  whole.emplace_back(0, whole.back().y());
+  evidence.grid = density_grid(whole);
+  evidence.grey = DenseTissue(c.box.view, c.box.box.prone, in_mri)
+                      .in_cells(evidence.grid, c.box.view, c.z, c.box.detector);
+  int muscle = 0;
+  for (const int cell : evidence.grid.cells)
+    if (edge.before_mm(evidence.grid.middle(cell)) < 0) {
+      evidence.grey[cell] += 1e4 * (1 + muscle % 3);
+      ++muscle;
+    }
+  ASSERT_GT(muscle, 20);
+  const ViewMatch match(c.box.view, skin_of(c.box.box.prone), c.box.box.prone, &in_mri,
+                        c.box.nipple(), c.box.detector, evidence);
+  EXPECT_NEAR(*match.figures(c.z).pattern_correlation, 1, 1e-9);
+  EXPECT_LT(*match.figures(ViewState::Zero()).pattern_correlation, 0.9);
 }
 
 TEST(ViewRefinement, OtherGlandMovesLittle) {
