@@ -125,16 +125,19 @@ void ViewMatch::renew(ReducedView view) {
   if (tissue_) tissue_->renew(view_);
 }
 
-Eigen::VectorXd ViewMatch::pattern_difference(const ViewState& z) const {
+ViewMatch::Patterns ViewMatch::patterns(const ViewState& z) const {
   const DensityGrid& grid = evidence_.grid;
   const std::vector<double> shares = shares_before(view_.plates_edge(z), grid);
-  Eigen::VectorXd difference = pattern(grid, tissue_->in_cells(grid, view_, z, detector_), shares) -
-                               pattern(grid, evidence_.grey, shares);
   const Eigen::VectorXd weight = in_counted(grid, shares);
-  if (weight.sum() == 0)
-    return Eigen::VectorXd::Constant(weight.size(), std::sqrt(2 * compared_ / weight.size()));
-  difference.array() *= (weight * (compared_ / weight.sum())).array().sqrt();
-  return difference;
+  const double all = weight.sum();
+  if (all == 0)
+    return {Eigen::VectorXd::Zero(weight.size()),
+            Eigen::VectorXd::Constant(weight.size(), std::sqrt(compared_ / weight.size()))};
+  const auto weighed = [&](const std::vector<double>& values) {
+    return Eigen::VectorXd(pattern(grid, values, shares).array() *
+                           (weight.array() * (compared_ / all)).sqrt());
+  };
+  return {weighed(tissue_->in_cells(grid, view_, z, detector_)), weighed(evidence_.grey)};
 }
 
 Eigen::VectorXd ViewMatch::residuals(const ViewState& z, bool with_pattern,
@@ -157,7 +160,8 @@ Eigen::VectorXd ViewMatch::residuals(const ViewState& z, bool with_pattern,
   }
   if (patterned) {
     const double share = evidence_.grid.cell_mm / kPatternPiece_mm;
-    r.tail(evidence_.grid.cells.size()) = pattern_difference(z) * (share / noise.pattern);
+    const Patterns both = patterns(z);
+    r.tail(both.seen.size()) = (both.found - both.seen) * (share / noise.pattern);
   }
   return r;
 }
@@ -185,8 +189,10 @@ MatchFigures ViewMatch::figures(const ViewState& z) const {
   if (evidence_.nipple)
     figures.nipple_mm = (detector_.project(nipple_.at(view_, z).col(0)) - *evidence_.nipple).norm();
   figures.dense_detail_mm = detail_mm_;
-  if (tissue_)
-    figures.pattern_correlation = 1 - pattern_difference(z).squaredNorm() / (2 * compared_);
+  if (tissue_) {
+    const Patterns both = patterns(z);
+    figures.pattern_correlation = both.found.dot(both.seen) / compared_;
+  }
   return figures;
 }
 

@@ -21,8 +21,7 @@ struct ViewEvidence {
   std::optional<Eigen::Vector2d> nipple;
   double nipple_sd_mm = 3;
   DensityGrid grid;
-  std::vector<double>
-      grey;  ///< in each cell, of which dense tissue makes a pattern (density_map.h)
+  std::vector<double> grey;  ///< in each cell; its pattern is that of dense tissue
 };
 
 /// What was found, each with its own standard deviation; what is unsure of it weighs as little as
@@ -83,9 +82,12 @@ class ViewMatch {
   void renew(ReducedView view);
 
  private:
-  /// The model's pattern less the mammogram's, in the counted cells: its square is `compared_`
-  /// times 2 - 2 times their correlation.
-  Eigen::VectorXd pattern_difference(const ViewState& z) const;
+  /// Of model and mammogram, in the counted cells, each weighed so that its square is `compared_`;
+  /// a pattern that is none is 0.
+  struct Patterns {
+    Eigen::VectorXd found, seen;
+  };
+  Patterns patterns(const ViewState& z) const;
 
   ReducedView view_;
   Detector detector_;
