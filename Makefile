@@ -74,7 +74,7 @@ help:
 	@echo '                       RESULTS/evaluation/supine_spread.json'
 	@echo 'make evaluate-unload   takes gravity off every breast of CASES: RESULTS/evaluation/unload.json'
 	@echo 'make evaluate-coil     drawn breasts imaged between the plates of a coil: RESULTS/evaluation/coil.json;'
-	@echo '                       SYNTHETIC=10 of them, ROUNDNESS="0 0.8" of the breast let go'
+	@echo '                       SYNTHETIC=10 of them from number FIRST=0, ROUNDNESS="0 0.8" of the breast let go'
 	@echo 'make evaluate-compression   compresses SYNTHETIC=200 drawn breasts and those of CASES=folder in'
 	@echo '                       both views: RESULTS/evaluation/compression.json; JOBS=2 at a time; UNLOADED=1: free of gravity;'
 	@echo '                       VIEWS=cc'

@@ -58,13 +58,13 @@ std::optional<ViewUncertainty> read_uncertainty(const MeshFile& file, const std:
   const std::vector<double>* covariance =
       find_field(file.metadata, name, kCovariance, kStates * kStates);
   const std::vector<double>* discrepancy = find_field(file.metadata, name, kDiscrepancy, 1);
-  if (!sd || !covariance || !discrepancy) return std::nullopt;
+  const std::vector<double>* edge = find_field(file.metadata, name, kEdge, 3);
+  if (!sd || !covariance || !discrepancy || !edge) return std::nullopt;
   ViewUncertainty uncertainty;
   uncertainty.sd = ViewState::Map(sd->data());
   uncertainty.covariance = Eigen::Matrix<double, kStates, kStates>::Map(covariance->data());
   uncertainty.discrepancy_mm = discrepancy->front();
-  if (const auto* edge = find_field(file.metadata, name, kEdge, 3))
-    uncertainty.edge = {edge->at(0), {edge->at(1), edge->at(2)}};
+  uncertainty.edge = {edge->at(0), {edge->at(1), edge->at(2)}};
   for (int i = 0; i < kMechanical; ++i)
     uncertainty.varied[i] = configuration(file, std::string(kVaried) + kStateNames[i]);
   return uncertainty;

@@ -7,6 +7,7 @@
 
 #include "pipeline/steps/breast_problem.h"
 #include "pipeline/steps/breast_reach.h"
+#include "pipeline/synthesize/implicit.h"
 #include "registration/carry/point_carrier.h"
 #include "registration/carry/position_grid.h"
 #include "segmentation/image/trilinear.h"
@@ -31,10 +32,7 @@ void put_round_front_half(const MeshFile& prone, double share, PlateOptions& pla
 }
 
 /// 1 on the mesh, nothing from kGoesAlong_mm off it, and smooth.
-double goes_along(double outside_mm) {
-  const double off = std::min(1.0, outside_mm / kGoesAlong_mm);
-  return 1 - off * off * (3 - 2 * off);
-}
+double goes_along(double outside_mm) { return 1 - smooth_step(0, kGoesAlong_mm, outside_mm); }
 
 /// Straight before the skin, and so in air, not beside a cut face.
 bool before_skin(const MeshPoint& nearest) {
