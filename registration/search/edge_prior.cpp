@@ -84,6 +84,10 @@ Eigen::Matrix<double, kStates, kStates> EdgePrior::covariance() const {
   return root * root.transpose();
 }
 
+double WallLine::depth_at(double aside_mm) const {
+  return depth_mm + std::tan(radians(slope_deg)) * aside_mm;
+}
+
 double WallLine::to_nipple_mm(const Eigen::Vector2d& nipple) const {
   return (nipple.x() - depth_mm) * std::cos(radians(slope_deg));
 }

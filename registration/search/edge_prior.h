@@ -11,6 +11,8 @@ struct WallLine {
   double depth_mm = 0;   ///< at the nipple's lateral place, in the view's frame
   double slope_deg = 0;  ///< towards depth where lateral grows
 
+  double depth_at(double aside_mm) const;  ///< from the nipple's lateral place
+
   /// How far the nipple is from the line, squarely [mm].
   double to_nipple_mm(const Eigen::Vector2d& nipple) const;
 };

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "pipeline/synthesize/counter_random.h"
+#include "pipeline/synthesize/views/picture_behind.h"
 #include "registration/carry/point_carrier.h"
 #include "registration/prediction/simulated_mammogram.h"
 
@@ -16,7 +17,6 @@ constexpr double kWhite = 65535;
 constexpr double kMostAttenuation = 6;  // -ln(I/I0) that is shown white
 constexpr double kPhotons = 2e4;        // per pixel in air
 constexpr double kMarkerRadius_mm = 1.75;
-constexpr double kShowsMuscle_deg = 20;
 
 double bilinear(const DetectorImage& image, const Eigen::Vector2d& uv) {
   const Eigen::Vector2d at = (uv - image.first) / image.spacing_mm;
@@ -27,26 +27,22 @@ double bilinear(const DetectorImage& image, const Eigen::Vector2d& uv) {
          b * ((1 - a) * image.at(i, j + 1) + a * image.at(i + 1, j + 1));
 }
 
-/// The picture as if plates and breast went on to the detector's edge: no tissue is thicker than
-/// the plates are apart, and along each row that at the breast's rear goes on, in an oblique view
-/// as muscle.
-DetectorImage with_what_lies_behind(const SimulatedView& simulated, double plates_mm,
-                                    bool oblique) {
-  constexpr double kMuscle = 1.35;  // times the tissue at the rear
-  constexpr double kRear_mm = 10;   // thinner is the rounded rear itself
-  DetectorImage image = simulated.attenuation;
-  for (int j = 0; j < image.rows; ++j) {
-    const auto value = [&](int i) -> double& {
-      return image.values[static_cast<std::size_t>(j) * image.columns + i];
-    };
-    int rear = 0;
-    while (rear < image.columns && simulated.thickness.at(rear, j) < kRear_mm) ++rear;
-    if (rear == image.columns) continue;
-    for (int i = rear; i < image.columns; ++i)
-      value(i) *= std::min(1.0, plates_mm / std::max(1.0, simulated.thickness.at(i, j)));
-    for (int i = 0; i < rear; ++i) value(i) = (oblique ? kMuscle : 1) * value(rear);
-  }
-  return image;
+std::optional<MuscleEdge> muscle_edge(const TrueView& view, const Detector& detector) {
+  if (!view.wall) return {};
+  const auto seen = [&](const Eigen::Vector3d& in_lps) {
+    return detector.project(view.view.frame.view_from_lps(in_lps));
+  };
+  const Eigen::Vector2d at = seen(view.wall->at(0)),
+                        along = (seen(view.wall->at(1)) - at).normalized();
+  return MuscleEdge{at, {along.y(), -along.x()}};
+}
+
+DetectorImage picture_of(const TrueBreast& breast, const TrueView& view, const Detector& detector) {
+  const SimulatedView simulated = simulate_view(breast.prone(), view.compressed,
+                                                &breast.truth().fractions, view.view, detector);
+  if (!view.behind) return simulated.attenuation;
+  return picture_behind(simulated, view.view.thickness_mm, muscle_edge(view, detector),
+                        detector.detector_from_image({0, 0}).y());
 }
 
 std::uint16_t grey_of(double attenuation, CounterRandom& random) {
@@ -78,13 +74,8 @@ Eigen::Vector2d true_mark(const TrueBreast& breast, const TrueView& view, const 
 
 GreyPixels true_mammogram(const TrueBreast& breast, const TrueView& view, const Detector& detector,
                           std::uint64_t seed) {
-  const SimulatedView simulated = simulate_view(breast.prone(), view.compressed,
-                                                &breast.truth().fractions, view.view, detector);
+  const DetectorImage picture = picture_of(breast, view, detector);
   const Eigen::Vector2d marker = true_mark(breast, view, detector, breast.truth().nipple_in_lps);
-  const DetectorImage picture =
-      view.behind ? with_what_lies_behind(simulated, view.view.thickness_mm,
-                                          std::abs(view.view.angle_deg) > kShowsMuscle_deg)
-                  : simulated.attenuation;
   const PixelGrid& grid = *detector.pixels;
   GreyPixels pixels{grid.columns, grid.rows, {}};
   CounterRandom random(seed, view.view.name == "cc" ? 1 : 2);

@@ -17,7 +17,8 @@ Eigen::Vector2d true_mark(const TrueBreast& breast, const TrueView& view, const 
                           const Eigen::Vector3d& prone_in_lps);
 
 /// The view as an X-ray image: Beer-Lambert through the true tissue, quantum noise, a metal marker
-/// of 3.5 mm on the nipple; dense tissue is bright. No scatter, no pectoral muscle.
+/// of 3.5 mm on the nipple; dense tissue is bright; what lies behind (picture_behind.h). No
+/// scatter.
 GreyPixels true_mammogram(const TrueBreast& breast, const TrueView& view, const Detector& detector,
                           std::uint64_t seed);
 

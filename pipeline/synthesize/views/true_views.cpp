@@ -88,20 +88,28 @@ HermiteMesh TrueBreast::between_coil_plates(double share) const {
   return HermiteMesh(result.deformed, unloaded_.mesh.elements());
 }
 
-CompressedView TrueBreast::laid(CompressedView view, const HermiteMesh& pressed,
-                                const DrawnView& drawn) const {
+TrueView TrueBreast::laid(TrueView shown, const DrawnView& drawn) const {
+  CompressedView& view = shown.view;
   if (!is_oblique(view.angle_deg)) {
-    const double aside_mm = breast_middle_mm(pressed, view.frame) + drawn.shift_mm;
-    return laid_on_detector(view, 0, {-drawn.edge_mm, -aside_mm});
+    const double aside_mm = breast_middle_mm(shown.compressed, view.frame) + drawn.shift_mm;
+    view = laid_on_detector(view, 0, {-drawn.edge_mm, -aside_mm});
+    return shown;
   }
-  const Eigen::Vector3d nipple = PointCarrier(prone_, pressed).carry(truth_.nipple_in_lps).in_lps;
+  const Eigen::Vector3d nipple =
+      PointCarrier(prone_, shown.compressed).carry(truth_.nipple_in_lps).in_lps;
+  const Eigen::Vector2d at = view.frame.view_from_lps(nipple).head<2>();
   MeshFile file = unloaded_;
-  file.mesh = pressed;
-  const double from_wall_mm =
-      wall_line(file, view, nipple).to_nipple_mm(view.frame.view_from_lps(nipple).head<2>());
-  const Eigen::Vector2d shift = shift_of_turned(drawn.laid_turn_deg, pressed, view, nipple,
-                                                drawn.nipple_share * from_wall_mm);
-  return laid_on_detector(view, drawn.laid_turn_deg, {shift.x(), shift.y() - drawn.shift_mm});
+  file.mesh = shown.compressed;
+  const WallLine wall = wall_line(file, view, nipple);
+  const auto on_wall = [&](double aside_mm) {
+    return view.frame.lps_from_view(
+        {wall.depth_at(aside_mm), at.y() + aside_mm, view.thickness_mm / 2});
+  };
+  shown.wall = {on_wall(0), on_wall(1)};
+  const Eigen::Vector2d shift = shift_of_turned(drawn.laid_turn_deg, shown.compressed, view, nipple,
+                                                drawn.nipple_share * wall.to_nipple_mm(at));
+  view = laid_on_detector(view, drawn.laid_turn_deg, {shift.x(), shift.y() - drawn.shift_mm});
+  return shown;
 }
 
 TrueView TrueBreast::compress_view(const DrawnView& drawn) const {
@@ -124,13 +132,11 @@ TrueView TrueBreast::compress_view(const DrawnView& drawn) const {
   if (!result.report.usable())
     throw std::runtime_error("truth: " + drawn.name + ": " + result.report.reason);
 
-  const HermiteMesh pressed(result.deformed, unloaded_.mesh.elements());
-  const CompressedView view =
-      laid(view_of_plates(drawn.name, side_, angle_deg, turn_deg, problem.plates, result), pressed,
-           drawn);
-  return {view, pressed,
-          std::round(10 * (result.report.thickness_mm + drawn.thickness_error_mm)) / 10,
-          drawn.marker, is_oblique(angle_deg) || drawn.edge_mm < 0};
+  return laid({view_of_plates(drawn.name, side_, angle_deg, turn_deg, problem.plates, result),
+               HermiteMesh(result.deformed, unloaded_.mesh.elements()),
+               std::round(10 * (result.report.thickness_mm + drawn.thickness_error_mm)) / 10,
+               drawn.marker, is_oblique(angle_deg) || drawn.edge_mm < 0},
+              drawn);
 }
 
 }  // namespace mammotwin

@@ -60,6 +60,9 @@ struct TrueView {
   HermiteMesh compressed;
   double header_thickness_mm = 0;
   bool marker = true, behind = false;  ///< shown: of metal on the nipple; what lies behind
+  /// Of an oblique view, whose picture shows muscle: two points on the wall's line (wall_line), in
+  /// LPS, halfway between the plates.
+  std::optional<std::array<Eigen::Vector3d, 2>> wall{};
 };
 
 /// Truth by another model than the one that registers: exponential stiffening, other springs,
@@ -81,9 +84,8 @@ class TrueBreast {
 
  private:
   CompressionProblem problem(const CompressionSettings& settings, Pose pose) const;
-  /// Where the breast came to lie on its detector.
-  CompressedView laid(CompressedView view, const HermiteMesh& pressed,
-                      const DrawnView& drawn) const;
+  /// Where the breast came to lie on its detector, which `shown` says but for that.
+  TrueView laid(TrueView shown, const DrawnView& drawn) const;
 
   Segmentation truth_;
   TrueTissue tissue_;

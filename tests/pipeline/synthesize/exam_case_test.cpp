@@ -43,7 +43,10 @@ TEST_F(Exam, IsReadAsAPatientsWhoseTruthIsKnown) {
     const CommandResult read = run("mammotwin-read-mammogram", {file(std::string(view) + ".dcm")});
     ASSERT_EQ(read.exit_code, 0) << read.text;
     const json said = json::parse(read.text.substr(read.text.find('{')));
-    EXPECT_EQ(said["geometry"]["angle_deg"], view == std::string("cc") ? 0 : 45) << said;
+    const bool oblique = view == std::string("mlo");
+    EXPECT_EQ(said["geometry"]["angle_deg"], oblique ? 45 : 0) << said;
+    EXPECT_EQ(said["findings"]["pectoral"].is_null(), !oblique) << said["findings"];
+    EXPECT_EQ(said["findings"]["unsure"], json::array()) << said["findings"];
   }
 
   for (const char* name : {"cc.dcm", "mlo.dcm", "mri/1.dcm"}) {
