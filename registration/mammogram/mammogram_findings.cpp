@@ -170,12 +170,12 @@ class Reading {
     const std::optional<PectoralEdge> edge = pectoral_edge(*smooth_, mask_);
     if (!oblique_) {
       if (edge && edge->evidence > kObliqueEvidence)
-        doubt("view", "a pectoral edge crosses this CC as it does an MLO; is it one?");
+        doubt_view("a pectoral edge crosses this CC as it does an MLO; is it one?");
       return;
     }
     if (!edge) {
       found_.unsure.push_back("pectoral");
-      return doubt("view", "no pectoral edge is seen in this MLO; is it one?");
+      return doubt_view("no pectoral edge is seen in this MLO; is it one?");
     }
     found_.pectoral = {upright_.stored_pixel(edge->top), upright_.stored_pixel(edge->end)};
     for (const Eigen::Vector2d& x : edge->points)
@@ -224,6 +224,11 @@ class Reading {
     found_.evidence = evidence;
     found_.nipple_sd_mm = sd_mm;
     found_.nipples = {{pixel, 1}};
+  }
+
+  void doubt_view(const std::string& words) {
+    doubt("view", words);
+    found_.view_doubt = words;
   }
 
   void doubt(const char* what, const std::string& words) {

@@ -42,6 +42,7 @@ struct MammogramFindings {
   /// Of "outline", "nipple", "pectoral", "view": what nobody should rely on.
   std::vector<std::string> unsure;
   std::vector<std::string> remarks;  ///< what was cut off, missed or doubted, and what to do
+  std::string view_doubt;            ///< of these, why it may be of another view; empty: it is not
 };
 
 /// What somebody says of a mammogram in place of what would be found, in pixels.

@@ -81,6 +81,11 @@ std::vector<std::string> why_none(const MatchFigures& left) {
   if (left.pattern_correlation && *left.pattern_correlation < no_registration::kCorrelation)
     why.push_back(text_of("the patterns of dense tissue correlate by %.2f only, less than %.1f",
                           *left.pattern_correlation, no_registration::kCorrelation));
+  else if (left.pattern_correlation && *left.pattern_correlation < kCorrelationInPlace &&
+           !left.view_doubt.empty())
+    why.push_back(left.view_doubt +
+                  text_of(" and the patterns of dense tissue correlate by %.2f only",
+                          *left.pattern_correlation));
   return why;
 }
 
@@ -105,6 +110,7 @@ std::vector<std::string> why_look(const MatchFigures& left, const ViewState& off
                 "whose pattern could be compared (its thickness varies by %.1f mm); nothing else "
                 "says that this is her breast",
                 left.dense_detail_mm.value_or(0)));
+  if (!left.view_doubt.empty()) why.push_back(left.view_doubt);
   if (!complete)
     why.push_back(
         "the search stopped where no equilibrium was found, with the best state that it "

@@ -46,7 +46,8 @@ inline constexpr double kBelievedDeviations = 3;  ///< beside a view that is sur
 /// number is held against its prior: one more than two standard deviations off is `look` where the
 /// view is surely in place (view_match.h), else no registration. Without a pattern to compare
 /// `look` is the best end. `baseline`: what the affine baseline left; `look` where its outline lies
-/// more than a millimetre nearer than the model's.
+/// more than a millimetre nearer than the model's. A mammogram that may be of another view is
+/// `look` at best, and none where a pattern that there is is not in place.
 SearchVerdict judge_search(const std::string& view, const MatchFigures& left,
                            const ViewState& state, const EdgePrior& edge, bool complete,
                            const std::optional<MatchFigures>& baseline = {});

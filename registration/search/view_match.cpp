@@ -90,6 +90,7 @@ ViewEvidence view_evidence(const MammogramImage& image, const MammogramFindings&
   evidence.grid = density_grid(whole);
   leave_out_muscle(findings, detector, evidence.grid);
   evidence.grey = grey_in_cells(evidence.grid, image, detector);
+  evidence.view_doubt = findings.view_doubt;
   return evidence;
 }
 
@@ -189,6 +190,7 @@ MatchFigures ViewMatch::figures(const ViewState& z) const {
   if (evidence_.nipple)
     figures.nipple_mm = (detector_.project(nipple_.at(view_, z).col(0)) - *evidence_.nipple).norm();
   figures.dense_detail_mm = detail_mm_;
+  figures.view_doubt = evidence_.view_doubt;
   if (tissue_) {
     const Patterns both = patterns(z);
     figures.pattern_correlation = both.found.dot(both.seen) / compared_;

@@ -22,6 +22,7 @@ struct ViewEvidence {
   double nipple_sd_mm = 3;
   DensityGrid grid;
   std::vector<double> grey;  ///< in each cell; its pattern is that of dense tissue
+  std::string view_doubt{};  ///< MammogramFindings::view_doubt
 };
 
 /// What was found, each with its own standard deviation; what is unsure of it weighs as little as
@@ -36,6 +37,7 @@ struct MatchFigures {
   std::optional<double> pattern_correlation;  ///< absent: none to compare
   /// How much pattern the MRI foretells there (DenseTissue::detail_mm); absent: not looked for.
   std::optional<double> dense_detail_mm = {};
+  std::string view_doubt{};  ///< the mammogram's
 };
 
 /// The pattern correlates as only that of the same breast in place does, and the outline lies

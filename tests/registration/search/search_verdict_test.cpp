@@ -49,6 +49,21 @@ TEST(SearchVerdict, IsNoRegistrationWithAnOutlineElsewhere) {
   EXPECT_TRUE(says(verdict, "the prediction without the mammogram"));
 }
 
+TEST(SearchVerdict, AsksToLookAtAMammogramThatMayBeOfAnotherView) {
+  MatchFigures left = good();
+  left.view_doubt = "no pectoral edge is seen in this MLO; is it one?";
+  EXPECT_EQ(judged(left).end, SearchEnd::look);
+  EXPECT_TRUE(says(judged(left), "no pectoral edge is seen"));
+  left.pattern_correlation = 0.7;
+  EXPECT_EQ(judged(left).end, SearchEnd::no_registration);
+  EXPECT_TRUE(says(judged(left), "correlate by 0.70 only"));
+  left.view_doubt.clear();
+  EXPECT_EQ(judged(left).end, SearchEnd::look);
+  left.pattern_correlation.reset();
+  left.view_doubt = "no pectoral edge is seen in this MLO; is it one?";
+  EXPECT_EQ(judged(left).end, SearchEnd::look) << "nothing else speaks against it";
+}
+
 // So an MLO that hung upside down, whose pattern correlated by 0.71 all the same.
 TEST(SearchVerdict, IsNoRegistrationWithASureNippleElsewhere) {
   MatchFigures left = good();
