@@ -80,7 +80,32 @@ json calibration(const json& rows, const char* figure, const char* sd, const cha
           {"rms", known > 0 ? json(std::sqrt(squares / known)) : json()}};
 }
 
+bool view_doubted(const MammogramImage& image, double pixel_mm, bool oblique) {
+  try {
+    return !find_breast(image, pixel_mm, oblique).view_doubt.empty();
+  } catch (const std::runtime_error&) {
+    return true;
+  }
+}
+
+MammogramImage upside_down(const MammogramImage& image) {
+  MammogramImage turned = image;
+  for (int row = 0; row < image.rows; ++row)
+    for (int column = 0; column < image.columns; ++column)
+      turned.at(column, row) = image.at(column, image.rows - 1 - row);
+  return turned;
+}
+
 }  // namespace
+
+json doubt_row(const ReadMammogram& read, const MammogramImage& image) {
+  const bool oblique = read.oblique();
+  json row{{"view_doubted", view_doubted(image, read.pixel_mm, oblique)},
+           {"other_view_noticed", view_doubted(image, read.pixel_mm, !oblique)}};
+  if (oblique)
+    row["upside_down_noticed"] = view_doubted(upside_down(image), read.pixel_mm, oblique);
+  return row;
+}
 
 json mammogram_row(const ReadMammogram& read, const MammogramFindings& found) {
   json row{{"outline_worst_mm", nullptr},

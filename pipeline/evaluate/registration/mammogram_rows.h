@@ -20,6 +20,11 @@ nlohmann::json mammogram_row(const ReadMammogram& read, const MammogramFindings&
 nlohmann::json positioning_row(const ReadMammogram& read, std::vector<Eigen::Vector2d> outline,
                                int columns);
 
+/// Whether the view is doubted: of the mammogram as it is (view_doubted), called by the other
+/// view's name (other_view_noticed) and, of an oblique one, upside down (upside_down_noticed); a
+/// refusal doubts, too.
+nlohmann::json doubt_row(const ReadMammogram& read, const MammogramImage& image);
+
 /// How many rows are right, unsure and wrong: skin within 3 mm, nipple and pectoral edge within 5;
 /// and what errors are over their standard deviations.
 nlohmann::json mammogram_counts(const nlohmann::json& rows);

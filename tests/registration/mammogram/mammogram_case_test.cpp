@@ -28,6 +28,7 @@ TEST(MammogramFindings, RealViewsHaveTheirNippleAndMuscle) {
     EXPECT_EQ(found.chest_wall, ImageEdge::left) << name;
     EXPECT_LT((found.nipple - marker).norm(), 3) << name;
     EXPECT_EQ(found.pectoral.has_value(), oblique) << name;
+    EXPECT_EQ(found.view_doubt, "") << name;
     EXPECT_GT(found.outline.size(), 500u) << name;  // 200 mm and more, a point every 0.4
   }
 }

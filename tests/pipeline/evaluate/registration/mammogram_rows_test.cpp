@@ -65,5 +65,32 @@ TEST(PositioningRow, SaysNothingWhereNobodyReadTheMuscleOrTheNipple) {
   EXPECT_TRUE(positioning_row(without, kOutline, 500).empty());
 }
 
+/// 100 by 160 mm in pixels of half a millimetre: breast in a half disc of 60 mm, brighter muscle
+/// above a line of 20 degrees.
+MammogramImage breast_below_muscle(bool muscle) {
+  MammogramImage image{200, 320, std::vector<float>(200 * 320, 0)};
+  for (int row = 0; row < image.rows; ++row)
+    for (int column = 0; column < image.columns; ++column) {
+      const double x = column / 2., y = row / 2.;  // mm
+      const bool breast = std::hypot(x, y - 90) < 60 || (y < 60 && x < 52);
+      const bool above = muscle && x < 0.36 * (100 - y);
+      image.at(column, row) = !breast ? 0 : above ? 0.8f : 0.4f;
+    }
+  return image;
+}
+
+TEST(DoubtRow, SaysWhetherAnotherNameOfTheViewOrItsOtherHangingIsNoticed) {
+  ReadMammogram mlo;
+  mlo.view = "mlo";
+  mlo.pixel_mm = 0.5;
+  const nlohmann::json with = doubt_row(mlo, breast_below_muscle(true)),
+                       without = doubt_row(mlo, breast_below_muscle(false));
+  EXPECT_EQ(with, nlohmann::json({{"view_doubted", false},
+                                  {"other_view_noticed", true},
+                                  {"upside_down_noticed", true}}));
+  EXPECT_EQ(without.at("view_doubted"), true);
+  EXPECT_EQ(without.at("other_view_noticed"), false);
+}
+
 }  // namespace
 }  // namespace mammotwin
