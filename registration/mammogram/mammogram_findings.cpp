@@ -175,7 +175,9 @@ class Reading {
     }
     if (!edge) {
       found_.unsure.push_back("pectoral");
-      return doubt_view("no pectoral edge is seen in this MLO; is it one?");
+      return doubt_view(
+          "no pectoral edge is seen in this MLO; is it one, and does it hang upright? "
+          "views.mlo.pectoral can say the edge");
     }
     found_.pectoral = {upright_.stored_pixel(edge->top), upright_.stored_pixel(edge->end)};
     for (const Eigen::Vector2d& x : edge->points)
