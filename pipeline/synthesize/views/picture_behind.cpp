@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "pipeline/synthesize/implicit.h"
 
@@ -78,7 +79,7 @@ DetectorImage picture_behind(const SimulatedView& simulated, double plates_mm,
                              const std::optional<MuscleEdge>& muscle, double top_v_mm,
                              const Attenuation& attenuation) {
   const DetectorImage& seen = simulated.attenuation;
-  const bool top_is_low = top_v_mm < seen.first.y();
+  const bool top_is_low = top_v_mm < seen.first.y() + seen.spacing_mm * seen.rows / 2;
   std::vector<Row> rows;  // from the top
   for (int j = 0; j < seen.rows; ++j)
     rows.emplace_back(simulated, top_is_low ? j : seen.rows - 1 - j);

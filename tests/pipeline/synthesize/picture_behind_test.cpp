@@ -71,6 +71,15 @@ TEST(PictureBehind, LeavesTissueBeforeAMuscleWhoseLineWouldCoverTheImagesTop) {
   EXPECT_NEAR(picture.at(2, picture.rows - 1), kPlates_mm * kFatPer_mm, 1e-12) << "where they meet";
 }
 
+TEST(PictureBehind, AddsNoRowToABreastThatReachesBeyondTheImagesTop) {
+  const SimulatedView view = fat_between_plates();
+  const MuscleEdge edge{{0, 20}, Eigen::Vector2d(2, 1).normalized()};
+  const DetectorImage picture = picture_behind(view, kPlates_mm, edge, -15);
+  EXPECT_EQ(picture.rows, kSeenRows);
+  EXPECT_EQ(picture.first, view.attenuation.first);
+  EXPECT_GT(picture.at(2, 0), 1.2 * picture.at(2, kSeenRows - 1)) << "muscle is above";
+}
+
 TEST(PictureBehind, IsTheMirrorImageWhereTheTopIsTheOtherEnd) {
   const Eigen::Vector2d squarely = Eigen::Vector2d(2, 1).normalized();
   const SimulatedView view = fat_between_plates();
