@@ -35,8 +35,8 @@ inline constexpr double kOutline_mm = 8;  ///< RMS
 /// against drawn mammograms of the same breast, hung as they should, none left more than 15 mm.
 inline constexpr double kNipple_mm = 20, kNippleDeviations = 4;
 /// Of the pattern of dense tissue, at least: searches against mammograms that are not hers found
-/// 0.58 at most, but for MLOs of two upside down, with nipples 26 to 71 mm off; breasts in place
-/// 0.67 and more.
+/// 0.55 at most, but for one of exchanged views (0.63) and MLOs of two upside down (0.59 to 0.69),
+/// whose view is doubted, too; breasts in place 0.68 and more.
 inline constexpr double kCorrelation = 0.6;
 inline constexpr double kStateDeviations = 2;     ///< of a number's prior
 inline constexpr double kBelievedDeviations = 3;  ///< beside a view that is surely in place
