@@ -51,7 +51,7 @@ json row_of(const ReadMammogram& read, ColourPicture& tile) {
     row["unsure"] = {"outline", "nipple", "pectoral"};
   }
   row["seconds"] = cpu_seconds(begun);
-  row.update(doubt_row(read, image));
+  row.update(noticed_row(read, image));
   tile = findings_picture(image, read.pixel_mm, found, kTileHeight, read.marks());
   return row;
 }

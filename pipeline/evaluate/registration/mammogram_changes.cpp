@@ -59,11 +59,7 @@ ChangedMammogram resampled(const MammogramImage& image, double from_mm, double t
 
 ChangedMammogram mirrored(const MammogramImage& image, double pixel_mm) {
   ChangedMammogram changed = unmoved(image, pixel_mm);
-  for (int row = 0; row < image.rows; ++row) {
-    const auto begin =
-        changed.image.grey.begin() + static_cast<std::ptrdiff_t>(row) * image.columns;
-    std::reverse(begin, begin + image.columns);
-  }
+  changed.image = mirror_image(std::move(changed.image));
   const double last = image.columns - 1;
   changed.changed_from_first = [last](const Point& x) { return Point(last - x.x(), x.y()); };
   return changed;
@@ -183,6 +179,19 @@ bool says(const std::vector<std::string>& unsure, const char* what) {
 }
 
 }  // namespace
+
+MammogramImage mirror_image(MammogramImage image) {
+  for (int row = 0; row < image.rows; ++row) {
+    const auto begin = image.grey.begin() + static_cast<std::ptrdiff_t>(row) * image.columns;
+    std::reverse(begin, begin + image.columns);
+  }
+  return image;
+}
+
+MammogramImage upside_down(MammogramImage image) {
+  std::reverse(image.grey.begin(), image.grey.end());
+  return mirror_image(std::move(image));
+}
 
 std::vector<MammogramChange> mammogram_changes() {
   using Image = const MammogramImage&;

@@ -9,6 +9,9 @@
 
 namespace mammotwin {
 
+MammogramImage mirror_image(MammogramImage image);  ///< columns in the other order
+MammogramImage upside_down(MammogramImage image);   ///< rows in the other order
+
 /// A mammogram after a change that must not matter to what is found in it.
 struct ChangedMammogram {
   MammogramImage image;

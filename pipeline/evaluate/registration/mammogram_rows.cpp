@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "pipeline/evaluate/registration/line_distance.h"
+#include "pipeline/evaluate/registration/mammogram_changes.h"
 
 namespace mammotwin {
 namespace {
@@ -80,7 +81,7 @@ json calibration(const json& rows, const char* figure, const char* sd, const cha
           {"rms", known > 0 ? json(std::sqrt(squares / known)) : json()}};
 }
 
-bool view_doubted(const MammogramImage& image, double pixel_mm, bool oblique) {
+bool doubted(const MammogramImage& image, double pixel_mm, bool oblique) {
   try {
     return !find_breast(image, pixel_mm, oblique).view_doubt.empty();
   } catch (const std::runtime_error&) {
@@ -88,22 +89,12 @@ bool view_doubted(const MammogramImage& image, double pixel_mm, bool oblique) {
   }
 }
 
-MammogramImage upside_down(const MammogramImage& image) {
-  MammogramImage turned = image;
-  for (int row = 0; row < image.rows; ++row)
-    for (int column = 0; column < image.columns; ++column)
-      turned.at(column, row) = image.at(column, image.rows - 1 - row);
-  return turned;
-}
-
 }  // namespace
 
-json doubt_row(const ReadMammogram& read, const MammogramImage& image) {
+json noticed_row(const ReadMammogram& read, const MammogramImage& image) {
   const bool oblique = read.oblique();
-  json row{{"view_doubted", view_doubted(image, read.pixel_mm, oblique)},
-           {"other_view_noticed", view_doubted(image, read.pixel_mm, !oblique)}};
-  if (oblique)
-    row["upside_down_noticed"] = view_doubted(upside_down(image), read.pixel_mm, oblique);
+  json row{{"other_view_noticed", doubted(image, read.pixel_mm, !oblique)}};
+  if (oblique) row["upside_down_noticed"] = doubted(upside_down(image), read.pixel_mm, oblique);
   return row;
 }
 
@@ -115,6 +106,7 @@ json mammogram_row(const ReadMammogram& read, const MammogramFindings& found) {
            {"pectoral_worst_mm", nullptr},
            {"pectoral_sd_mm", nullptr},
            {"unsure", found.unsure},
+           {"view_doubted", !found.view_doubt.empty()},
            {"remarks", found.remarks}};
   if (!read.skin.empty())
     row["outline_worst_mm"] = worst(read.skin, found.outline, false, read.pixel_mm);

@@ -8,8 +8,9 @@
 
 namespace mammotwin {
 
-/// file, view, outline_worst_mm, nipple_mm, nipple_sd_mm, pectoral_worst_mm, pectoral_sd_mm, unsure
-/// and remarks: how far the findings lie from what was read; null where either is missing.
+/// file, view, outline_worst_mm, nipple_mm, nipple_sd_mm, pectoral_worst_mm, pectoral_sd_mm,
+/// unsure, view_doubted and remarks: how far the findings lie from what was read; null where either
+/// is missing.
 nlohmann::json mammogram_row(const ReadMammogram& read, const MammogramFindings& found);
 
 /// How a breast lies in an oblique view, against the image's edge at the chest wall: as read, the
@@ -20,10 +21,9 @@ nlohmann::json mammogram_row(const ReadMammogram& read, const MammogramFindings&
 nlohmann::json positioning_row(const ReadMammogram& read, std::vector<Eigen::Vector2d> outline,
                                int columns);
 
-/// Whether the view is doubted: of the mammogram as it is (view_doubted), called by the other
-/// view's name (other_view_noticed) and, of an oblique one, upside down (upside_down_noticed); a
-/// refusal doubts, too.
-nlohmann::json doubt_row(const ReadMammogram& read, const MammogramImage& image);
+/// Whether the view is doubted when called by the other's name (other_view_noticed) and, of an
+/// oblique one, upside down (upside_down_noticed); a refusal doubts, too.
+nlohmann::json noticed_row(const ReadMammogram& read, const MammogramImage& image);
 
 /// How many rows are right, unsure and wrong: skin within 3 mm, nipple and pectoral edge within 5;
 /// and what errors are over their standard deviations.

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "pipeline/evaluate/registration/mammogram_changes.h"
 #include "pipeline/evaluate/registration/spoilt_case.h"
 #include "pipeline/frame/products.h"
 #include "registration/export/csv.h"
@@ -23,15 +24,6 @@ constexpr const char* kPictures[] = {"cc.png", "mlo.png"};
 std::vector<std::size_t> wrong_views(const std::string& misfit) {
   if (misfit.starts_with("mlo_")) return {1};
   return {0, 1};
-}
-
-MammogramImage flipped(const MammogramImage& image, bool columns) {
-  MammogramImage other = image;
-  for (int row = 0; row < image.rows; ++row)
-    for (int column = 0; column < image.columns; ++column)
-      other.at(column, row) = columns ? image.at(image.columns - 1 - column, row)
-                                      : image.at(column, image.rows - 1 - row);
-  return other;
 }
 
 /// By its halves: the outermost columns may be dark.
@@ -76,7 +68,7 @@ void turn_upside_down(const std::vector<std::size_t>& views, const fs::path& fol
   for (const std::size_t view : views) {
     const fs::path path = folder / kPictures[view];
     const MammogramImage image = read_mammogram_picture(path);
-    write_grey(path, flipped(image, false));
+    write_grey(path, upside_down(image));
     for (std::size_t n = 1; n < marks.size(); ++n) {
       std::string& row = marks[n][5 + 2 * view];
       row = std::to_string(image.rows - 1 - std::stod(row));
@@ -111,10 +103,10 @@ void make_misfit_case(const fs::path& made, const fs::path& another, const std::
     for (const std::size_t view : views) {
       const MammogramImage own = read_mammogram_picture(made / kPictures[view]);
       MammogramImage shown = misfit == "other_breast"
-                                 ? flipped(own, true)
+                                 ? mirror_image(own)
                                  : read_mammogram_picture(another / kPictures[view]);
       if (misfit != "other_breast" && wall_at_left(shown) != wall_at_left(own))
-        shown = flipped(shown, true);
+        shown = mirror_image(shown);
       write_grey(unfinished / kPictures[view], shown);
     }
   }

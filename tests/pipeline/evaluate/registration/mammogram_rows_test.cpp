@@ -79,17 +79,19 @@ MammogramImage breast_below_muscle(bool muscle) {
   return image;
 }
 
-TEST(DoubtRow, SaysWhetherAnotherNameOfTheViewOrItsOtherHangingIsNoticed) {
+TEST(NoticedRow, SaysWhetherAnotherNameOfTheViewOrItsOtherHangingIsNoticed) {
   ReadMammogram mlo;
   mlo.view = "mlo";
   mlo.pixel_mm = 0.5;
-  const nlohmann::json with = doubt_row(mlo, breast_below_muscle(true)),
-                       without = doubt_row(mlo, breast_below_muscle(false));
-  EXPECT_EQ(with, nlohmann::json({{"view_doubted", false},
-                                  {"other_view_noticed", true},
-                                  {"upside_down_noticed", true}}));
-  EXPECT_EQ(without.at("view_doubted"), true);
-  EXPECT_EQ(without.at("other_view_noticed"), false);
+  const MammogramImage with = breast_below_muscle(true), without = breast_below_muscle(false);
+  EXPECT_EQ(noticed_row(mlo, with),
+            nlohmann::json({{"other_view_noticed", true}, {"upside_down_noticed", true}}));
+  EXPECT_EQ(noticed_row(mlo, without).at("other_view_noticed"), false);
+  const auto doubted = [&](const MammogramImage& image) {
+    return mammogram_row(mlo, find_breast(image, mlo.pixel_mm, true)).at("view_doubted");
+  };
+  EXPECT_EQ(doubted(with), false);
+  EXPECT_EQ(doubted(without), true);
 }
 
 }  // namespace
