@@ -36,12 +36,12 @@ override ELEMENTS := $(value ELEMENTS)
 ifeq ($(RESULTS),)
 $(error RESULTS is empty: name the folder that results go to)
 endif
-export P DATA RESULTS FORCE BIN SEED PATIENTS JOBS ONLY ENGINE CONFIG PREFIX CASES SYNTHETIC CHANGES VIEWS SPOIL MISFIT HARD FATTY OTHERS TABLE UNLOAD PRESET PRESS AXE MESHES NUMBERS ELEMENTS PRESSURES
+export P DATA RESULTS FORCE BIN SEED PATIENTS JOBS ONLY ENGINE CONFIG PREFIX CASES SYNTHETIC CHANGES VIEWS SPOIL MISFIT HARD FATTY OTHERS TABLE UNLOAD PRESET PRESS AXE MESHES NUMBERS ELEMENTS PRESSURES EXAMS
 unexport MAKEFLAGS MAKEOVERRIDES
 
 .PHONY: help patient segment fit unload compress register report slicer paraview synthesize exam cohort verify-results \
         evaluate-segmentation evaluate-segmentation-changes evaluate-fitting evaluate-compression evaluate-coil evaluate-unload evaluate-gravity evaluate-registration \
-        evaluate-stability evaluate-refinement evaluate-stabilisation evaluate-other-meshes evaluate-supine-spread evaluate-what-if evaluate-page evaluate-outlines evaluate-mammograms evaluate-mammogram-changes evaluate-tomosynthesis evaluate-real-pairs evaluate-niftysim evaluate-victre calibrate-tissue measured validate bench chain programs configured \
+        evaluate-stability evaluate-refinement evaluate-stabilisation evaluate-other-meshes evaluate-supine-spread evaluate-what-if evaluate-page evaluate-outlines evaluate-mammograms evaluate-mammogram-changes evaluate-tomosynthesis evaluate-real-pairs evaluate-strangers evaluate-niftysim evaluate-victre calibrate-tissue measured validate bench chain programs configured \
         configured_to_test install docs test clean
 .NOTPARALLEL:  # ninja itself uses all cores
 .DEFAULT_GOAL := help
@@ -96,6 +96,8 @@ help:
 	@echo 'make evaluate-tomosynthesis   registers 042 with tomosynthesis of another model: RESULTS/evaluation/tomosynthesis.json'
 	@echo 'make evaluate-real-pairs CASES=folder   patients with lesions marked on mammograms (marks.csv):'
 	@echo '                       RESULTS/evaluation/real_pairs.json'
+	@echo 'make evaluate-strangers   registers real breasts of CASES with real mammograms of other women:'
+	@echo '                       RESULTS/evaluation/strangers.json; ONLY=Exam_02-left; EXAMS=4 of them each'
 	@echo 'make evaluate-what-if  what the sliders of the page say against full solves: RESULTS/evaluation/what_if.json; VIEWS=cc'
 	@echo 'make evaluate-page     opens the pages of RESULTS in Chromium and moves their sliders: RESULTS/evaluation/page.json;'
 	@echo '                       AXE=axe.min.js: checked by axe-core (npm), too'
@@ -204,6 +206,10 @@ evaluate-tomosynthesis: mammotwin-evaluate-tomosynthesis
 
 evaluate-real-pairs: mammotwin-evaluate-real-pairs
 	@"$$BIN/mammotwin-evaluate-real-pairs" "$$CASES" "$$RESULTS/evaluation/real_pairs.json"
+
+evaluate-strangers: mammotwin-evaluate-strangers
+	@"$$BIN/mammotwin-evaluate-strangers" "$$CASES" "$$RESULTS/evaluation/strangers.json" \
+	  $${ONLY:+--only $$ONLY} $${EXAMS:+--exams "$$EXAMS"} $${JOBS:+--jobs "$$JOBS"}
 
 evaluate-what-if: mammotwin-evaluate-what-if
 	@"$$BIN/mammotwin-evaluate-what-if" sample_data/042/patient.toml "$$CASES" "$$RESULTS/evaluation/what_if.json" \
