@@ -16,7 +16,7 @@ inline constexpr const char* kAccuracyWords =
 /// (there).
 inline constexpr const char* kSupineWords =
     "Not calibrated to her: from prone to supine women's nipples move by 93 mm in the median (56 "
-    "to 172), the default tissue's by 103 and neo_hookean_2026's by 15, so a place beside the ribs "
+    "to 172), the default tissue's by 101 and neo_hookean_2026's by 15, so a place beside the ribs "
     "may be off by several centimetres. Seen from the nipple, 90 % is as wide as what landmarks of "
     "32 women did.";
 

@@ -2,9 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <sstream>
+#include <vector>
 
 #include "pipeline/frame/sidecar.h"
 #include "pipeline/report/answer_data.h"
@@ -14,6 +18,7 @@
 #include "tests/file_text.h"
 #include "tests/pipeline/report/report_fake_results.h"
 #include "tests/scratch_file.h"
+#include "tests/where.h"
 
 namespace mammotwin {
 namespace {
@@ -142,6 +147,20 @@ TEST(ReportPage, SaysBesideEveryEllipseHowFarItHasBeenChecked) {
                   "registered, so on a real one within 33 × 12 mm."),
             4u);
   EXPECT_EQ(count(whole_page(), kAccuracyWords), 3u);  // and where there is no ellipse
+}
+
+TEST(ReportPage, SupineWordsAreOfTheTable) {
+  std::ifstream file(MAMMOTWIN_SOURCE_DIR "/docs/measured/data/gravity.json");
+  const nlohmann::json measured = nlohmann::json::parse(file);
+  std::vector<double> ways;
+  for (const nlohmann::json& row : measured["cases"])
+    if (row["nipple_mm"].is_number()) ways.push_back(row["nipple_mm"]);
+  ASSERT_GE(ways.size(), 20u);
+  std::sort(ways.begin(), ways.end());
+  const double median = (ways[(ways.size() - 1) / 2] + ways[ways.size() / 2]) / 2;
+  const std::string said =
+      "the default tissue's by " + std::to_string(std::lround(median)) + " and";
+  EXPECT_NE(std::string(kSupineWords).find(said), std::string::npos) << said;
 }
 
 TEST(ReportPage, SaysTheSameTwice) {
