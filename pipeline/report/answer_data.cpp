@@ -70,7 +70,7 @@ std::string thickness_words(const json* sidecar) {
          ": nobody says how thick the breast became";
 }
 
-json view_entry(const LesionRow& row, const json* sidecar) {
+json view_entry(const LesionRow& row, const PatientResults& results) {
   std::string search, full;
   if (row.picture_ellipse_major_mm) {
     search = "Search within " + axes(*row.picture_ellipse_major_mm, *row.picture_ellipse_minor_mm) +
@@ -84,7 +84,8 @@ json view_entry(const LesionRow& row, const json* sidecar) {
           {"where", view_words(row)},
           {"search", search},
           {"full", full},
-          {"thickness", thickness_words(sidecar)}};
+          {"not_registered", results.not_registered(row.view)},
+          {"thickness", thickness_words(results.sidecar(row.view + ".vtu"))}};
 }
 
 }  // namespace
@@ -95,8 +96,7 @@ json answer_data(const PatientResults& results) {
     if (mri.view != "mri") continue;
     json views = json::array();
     for (const LesionRow& row : results.rows)
-      if (row.lesion == mri.lesion && row.view != "mri")
-        views.push_back(view_entry(row, results.sidecar(row.view + ".vtu")));
+      if (row.lesion == mri.lesion && row.view != "mri") views.push_back(view_entry(row, results));
     lesions.push_back({{"lesion", mri.lesion},
                        {"place", place_words(mri)},
                        {"views", views},

@@ -21,9 +21,10 @@ inline constexpr const char* kSupineWords =
     "32 women did.";
 
 /// The page's first words: a list of lesions, each {"lesion", "place", "views": [{"view", "where",
-/// "search", "full", "thickness"}], "supine"}, in a report's language. `full` is the ellipse on a
-/// mammogram that was not there to be searched, else empty; `thickness` says what was assumed of
-/// the view's, or is empty. Empty without rows of lesions.csv.
+/// "search", "full", "not_registered", "thickness"}], "supine"}, in a report's language. `full` is
+/// the ellipse on a mammogram that was not there to be searched, else empty; `not_registered` why
+/// the search left one that was; `thickness` says what was assumed of the view's, or is empty.
+/// Empty without rows of lesions.csv.
 nlohmann::json answer_data(const PatientResults& results);
 
 }  // namespace mammotwin

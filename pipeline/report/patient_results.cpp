@@ -2,6 +2,8 @@
 
 #include <cctype>
 
+#include "registration/search/search_verdict.h"
+
 namespace mammotwin {
 
 std::string title_of_view(const std::string& name) {
@@ -43,6 +45,18 @@ const nlohmann::json* PatientResults::sidecar(const std::string& product) const 
   for (const StageRecord& stage : stages)
     if (stage.product == product) return &stage.sidecar;
   return nullptr;
+}
+
+std::string PatientResults::not_registered(const std::string& view) const {
+  const nlohmann::json* lesions = sidecar("lesions.csv");
+  if (!lesions || !lesions->contains("quality")) return "";
+  const nlohmann::json search = lesions->at("quality").value("search", nlohmann::json());
+  if (!search.is_object() || !search.contains(view)) return "";
+  const std::string unregistered = name_of(SearchEnd::no_registration);
+  if (search.at(view).value("end", "") != unregistered) return "";
+  const std::string reason = search.at(view).at("reasons").at(0), prefix = unregistered + ": ";
+  const std::size_t at = reason.find(prefix);
+  return at == std::string::npos ? reason : reason.substr(at + prefix.size());
 }
 
 }  // namespace mammotwin

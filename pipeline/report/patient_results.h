@@ -60,6 +60,8 @@ struct PatientResults {
   const ViewResult* view(const std::string& name) const;
   const RealMammogram* mammogram(const std::string& view) const;
   const nlohmann::json* sidecar(const std::string& product) const;
+  /// The first reason why a view's mammogram was not registered; empty where it was, or is none.
+  std::string not_registered(const std::string& view) const;
 };
 
 /// "cc" -> "CC", "mlo" -> "MLO", "mri" -> "MRI".

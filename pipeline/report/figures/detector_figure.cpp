@@ -18,6 +18,7 @@ namespace {
 constexpr double kScale = 2.0;  // [pt/mm]
 constexpr double kMargin_mm = 10;
 constexpr double kPixel_mm = 0.5;
+constexpr double kMostBehind_mm = 25;
 constexpr double kRing_mm = 5;       // where a lesion is but a point
 constexpr double kEllipse_pt = 1.4;  // 2 px at the page's usual size
 constexpr double kOutline_pt = 0.8;
@@ -43,6 +44,18 @@ Eigen::Vector2d baseline_of(const PatientResults& results, const std::string& vi
   return p.baseline_on_detector;
 }
 
+/// Lesions whose place without physics the picture does not reach.
+std::vector<std::string> baseline_outside(const PatientResults& results,
+                                          const ViewProjection& projection,
+                                          const Section& section) {
+  std::vector<std::string> names;
+  for (const Landmark& lesion : results.lesions()) {
+    const auto at = baseline_of(results, projection.view().name, projection.project(lesion));
+    if (!section.window.contains(on_plane(at))) names.push_back(lesion.id);
+  }
+  return names;
+}
+
 /// Lesions that lie behind the edge, where no mammogram shows them.
 std::vector<std::string> behind_edge(const PatientResults& results,
                                      const ViewProjection& projection) {
@@ -52,13 +65,15 @@ std::vector<std::string> behind_edge(const PatientResults& results,
   return names;
 }
 
-/// From behind the edge if a mark lies there or its ring reaches over it.
+/// From behind the edge if a mark lies there or its ring reaches over it; not so far that a place
+/// without physics leaves the breast no room.
 double left_of_window(const PatientResults& results, const ViewProjection& projection) {
   double left = 0;
   for (const Landmark& lesion : results.lesions()) {
     const ProjectedLandmark p = projection.project(lesion);
     const double baseline = baseline_of(results, projection.view().name, p).x();
-    left = std::min({left, p.on_detector.x() - kMargin_mm, baseline - kMargin_mm});
+    left = std::min(
+        {left, p.on_detector.x() - kMargin_mm, std::max(baseline - kMargin_mm, -kMostBehind_mm)});
   }
   return left;
 }
@@ -205,7 +220,7 @@ struct DetectorView {
   DetectorImage simulated;
   Section section;
   std::string name;    ///< "L-CC"
-  std::string hidden;  ///< sentences on lesions behind the detector's edge
+  std::string hidden;  ///< sentences on places that a mammogram or the picture may not show
 };
 
 DetectorView detector_view(const PatientResults& results, const ViewResult& view) {
@@ -217,6 +232,8 @@ DetectorView detector_view(const PatientResults& results, const ViewResult& view
   for (const std::string& lesion : behind_edge(results, projection))
     hidden += " Lesion " + lesion +
               " is predicted behind the detector's edge: a mammogram may not show it.";
+  for (const std::string& lesion : baseline_outside(results, projection, section))
+    hidden += " Without physics lesion " + lesion + " would lie outside the picture.";
   const std::string name =
       (view.view.side == Side::right ? "R-" : "L-") + title_of_view(view.view.name);
   return {std::move(projection), std::move(image), section, name, hidden};
@@ -267,7 +284,11 @@ Figure own_figure(const PatientResults& results, const DetectorView& seen,
                   const std::string& which) {
   Figure figure =
       drawn(results, seen, mammogram_raster(image, real.detector, seen.section, kPixel_mm),
-            "The patient's own " + seen.name + which + " with the predicted places." + seen.hidden,
+            "The patient's own " + seen.name + which +
+                (results.not_registered(real.view).empty()
+                     ? " with the predicted places."
+                     : ", not registered, with the places predicted without it.") +
+                seen.hidden,
             "The patient's " + seen.name + " mammogram" + which + "." +
                 described(results, seen.projection) + seen.hidden);
   if (real.slices.empty()) figure.native = native_mammogram(image, real.detector, seen.section);

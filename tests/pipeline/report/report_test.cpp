@@ -149,6 +149,22 @@ TEST(ReportPage, SaysBesideEveryEllipseHowFarItHasBeenChecked) {
   EXPECT_EQ(count(whole_page(), kAccuracyWords), 3u);  // and where there is no ellipse
 }
 
+TEST(ReportPage, SaysInTheAnswerThatAMammogramIsNotRegistered) {
+  PatientResults results = fake_results(Side::left);
+  EXPECT_EQ(whole_page().find("Not registered with this mammogram"), std::string::npos);
+  for (StageRecord& stage : results.stages)
+    if (stage.product == "lesions.csv")
+      stage.sidecar["quality"]["search"] = {
+          {"cc", {{"end", "ok"}, {"reasons", nlohmann::json::array()}}},
+          {"mlo",
+           {{"end", "no registration"},
+            {"reasons", {"mlo: no registration: the patterns correlate by 0.2 only"}}}}};
+  const std::string page = render_page(page_data(results, "0.1.0"));
+  EXPECT_EQ(count(page, "Not registered with this mammogram: the patterns correlate by 0.2 only."),
+            2u)
+      << "once for each lesion, of MLO alone";
+}
+
 TEST(ReportPage, SupineWordsAreOfTheTable) {
   std::ifstream file(MAMMOTWIN_SOURCE_DIR "/docs/measured/data/gravity.json");
   const nlohmann::json measured = nlohmann::json::parse(file);
