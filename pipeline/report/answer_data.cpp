@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "pipeline/report/word.h"
+#include "pipeline/steps/quality_limits.h"
 
 namespace mammotwin {
 namespace {
@@ -56,6 +57,15 @@ std::string supine_words(const LesionRow& row) {
               : "");
 }
 
+/// "Do not believe it: the model goes 247 mm from prone to supine ..."; empty where it may be.
+std::string supine_doubt(const json* unloaded) {
+  if (!unloaded || !unloaded->contains("quality")) return "";
+  const double move_mm = unloaded->at("quality").value("supine_move_max_mm", 0.0);
+  if (move_mm <= limits::pose_move_mm) return "";
+  return "Do not believe it: the model goes " + whole_mm(move_mm) +
+         " from prone to supine, 95 % of women's nipples 172 mm at most";
+}
+
 /// "Pressed to 56 mm, where the paddle presses with 144 N: nobody says how thick the breast
 /// became"; empty where somebody does.
 std::string thickness_words(const json* sidecar) {
@@ -100,7 +110,8 @@ json answer_data(const PatientResults& results) {
     lesions.push_back({{"lesion", mri.lesion},
                        {"place", place_words(mri)},
                        {"views", views},
-                       {"supine", supine_words(mri)}});
+                       {"supine", supine_words(mri)},
+                       {"supine_doubt", supine_doubt(results.sidecar("unloaded.vtu"))}});
   }
   return lesions;
 }

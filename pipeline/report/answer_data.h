@@ -20,11 +20,11 @@ inline constexpr const char* kSupineWords =
     "may be off by several centimetres. Seen from the nipple, 90 % is as wide as what landmarks of "
     "32 women did.";
 
-/// The page's first words: a list of lesions, each {"lesion", "place", "views": [{"view", "where",
-/// "search", "full", "not_registered", "thickness"}], "supine"}, in a report's language. `full` is
-/// the ellipse on a mammogram that was not there to be searched, else empty; `not_registered` why
-/// the search left one that was; `thickness` says what was assumed of the view's, or is empty.
-/// Empty without rows of lesions.csv.
+/// The page's first words, in a report's language: a list of lesions, each {"lesion", "place",
+/// "views": [{"view", "where", "search", "full", "not_registered", "thickness"}], "supine",
+/// "supine_doubt"}. `full` is the ellipse on a mammogram that was not there to be searched, else
+/// empty; `not_registered` why the search left one that was; `thickness` says what was assumed of
+/// the view's, or is empty. Empty without rows of lesions.csv.
 nlohmann::json answer_data(const PatientResults& results);
 
 }  // namespace mammotwin

@@ -165,6 +165,21 @@ TEST(ReportPage, SaysInTheAnswerThatAMammogramIsNotRegistered) {
       << "once for each lesion, of MLO alone";
 }
 
+TEST(ReportPage, DoubtsASupinePlaceThatNoBreastReaches) {
+  PatientResults results = fake_results(Side::left);
+  for (LesionRow& row : results.rows)
+    if (row.view == "mri") row.supine_depth_mm = 20, row.supine_from_nipple_mm = 50;
+  const auto page_of = [&](double move_mm) {
+    for (StageRecord& stage : results.stages)
+      if (stage.product == "unloaded.vtu") stage.sidecar["quality"]["supine_move_max_mm"] = move_mm;
+    return render_page(page_data(results, "0.1.0"));
+  };
+  EXPECT_EQ(page_of(190).find("not to be believed"), std::string::npos);
+  const std::string page = page_of(247);
+  EXPECT_EQ(count(page, "not to be believed"), 2u);
+  EXPECT_EQ(count(page, "the model goes 247 mm from prone to supine"), 2u);
+}
+
 TEST(ReportPage, SupineWordsAreOfTheTable) {
   std::ifstream file(MAMMOTWIN_SOURCE_DIR "/docs/measured/data/gravity.json");
   const nlohmann::json measured = nlohmann::json::parse(file);
