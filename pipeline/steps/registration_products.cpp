@@ -68,6 +68,7 @@ std::vector<LesionRow> lesion_rows(const std::string& patient, Side side, const 
     for (std::size_t i = 0; i < view.findings.lesions.size(); ++i) {
       rows.push_back(view_row(patient, view.registered.projection.view(), view.findings.lesions[i],
                               view.findings.nipple));
+      rows.back().registration = name_of(view.registered.end);
       if (!view.ellipses.empty()) set_ellipse(view.ellipses[i], rows.back());
     }
   return rows;

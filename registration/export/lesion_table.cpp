@@ -43,6 +43,9 @@ const std::array kLesionColumns = {
     MAMMOTWIN_COLUMN(pixel_column, "in the mammogram, from 0, where its spacing is known"),
     MAMMOTWIN_COLUMN(pixel_row, "the same"),
     MAMMOTWIN_COLUMN(slice, "of a tomosynthesis volume, from 1"),
+    MAMMOTWIN_COLUMN(registration,
+                     "with the view's mammogram: `ok`, `look`, `no registration` (place and "
+                     "ellipse are those without it), `none` without a mammogram"),
     MAMMOTWIN_COLUMN(ellipse_major_mm,
                      "semi-axis of the ellipse that holds the lesion with 90 % probability if the "
                      "model is right"),

@@ -18,6 +18,7 @@ struct LesionRow {
   std::optional<double> mri_l_mm, mri_p_mm, mri_s_mm;
   std::optional<double> depth_mm, lateral_mm, height_mm;
   std::optional<double> detector_u_mm, detector_v_mm, pixel_column, pixel_row, slice;
+  std::string registration;
   std::optional<double> ellipse_major_mm, ellipse_minor_mm, ellipse_angle_deg;
   std::optional<double> picture_ellipse_major_mm, picture_ellipse_minor_mm,
       picture_ellipse_angle_deg;

@@ -30,6 +30,8 @@ std::string line_of(const LesionRow& row) {
   if (row.slice) line += "  slice " + number(row.slice);
   if (row.ellipse_major_mm)
     line += "  90 % ellipse " + number(row.ellipse_major_mm) + " x " + number(row.ellipse_minor_mm);
+  if (row.registration == "look" || row.registration == "no registration")
+    line += "  " + row.registration;
   return line + "\n";
 }
 

@@ -202,6 +202,7 @@ void write_texts(const Seeds& seeds) {
   LesionRow row;
   row.patient = "042", row.lesion = "L1, \"left\"", row.view = "cc", row.side = "left";
   row.depth_mm = 12.5, row.detector_u_mm = 30, row.detector_v_mm = -4;
+  row.registration = "look";
   write_lesion_table(seeds.at("lesion_table", "lesions.csv"), {row});
   const fs::path product = seeds.at("sidecar", "a.vtu");
   std::ofstream(product) << "mesh";

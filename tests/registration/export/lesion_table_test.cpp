@@ -54,12 +54,13 @@ TEST(PredictionsText, KeepsANameWithACommaTogether) {
   mri.view = "mri", view.view = "cc";
   view.depth_mm = 12.34, view.lateral_mm = -5, view.height_mm = 20;
   view.detector_u_mm = 13, view.detector_v_mm = -5.25;
+  view.registration = "no registration";
   const auto path = scratch_file("predictions.csv");
   write_lesion_table(path, {mri, view});
   const std::string text = predictions_text(read_lesion_table(path));
   EXPECT_NE(
       text.find("a, \"b\"   CC   depth 12.3  lateral -5.0  height 20.0  on the detector (13.0, "
-                "-5.2)"),
+                "-5.2)  no registration"),
       std::string::npos)
       << text;
   EXPECT_EQ(predictions_text({mri}), "");
@@ -71,7 +72,7 @@ TEST(LesionTable, HasTheColumnsThatOthersRead) {
   EXPECT_EQ(
       text_of(path),
       "patient,lesion,view,side,volume_ml,mri_l_mm,mri_p_mm,mri_s_mm,depth_mm,lateral_mm,height_mm,"
-      "detector_u_mm,detector_v_mm,pixel_column,pixel_row,slice,ellipse_major_mm,"
+      "detector_u_mm,detector_v_mm,pixel_column,pixel_row,slice,registration,ellipse_major_mm,"
       "ellipse_minor_mm,ellipse_angle_deg,picture_ellipse_major_mm,picture_ellipse_minor_mm,"
       "picture_ellipse_angle_deg,baseline_u_mm,baseline_v_mm,behind_nipple_mm,"
       "lateral_of_nipple_mm,above_nipple_mm,nipple_distance_mm,quadrant,clock,third,"
@@ -91,7 +92,7 @@ TEST(LesionTable, HasADictionaryOfEveryColumn) {
     EXPECT_NE(text.find("| `" + column + "` | "), std::string::npos) << column;
     ++count;
   }
-  EXPECT_EQ(count, 40);
+  EXPECT_EQ(count, 41);
   EXPECT_NE(text.find("| `pixel_row` | pixel |"), std::string::npos);
   EXPECT_NE(text.find("| `ellipse_angle_deg` | deg |"), std::string::npos);
   EXPECT_NE(text.find("| `clock` | text |"), std::string::npos);
@@ -117,7 +118,7 @@ TEST(LesionTable, ComesBackAsItWasWritten) {
 TEST(LesionTable, NamesTheCellThatCannotBeRead) {
   const auto path = scratch_file("bad.csv");
   write_lesion_table(path, {});
-  std::ofstream(path, std::ios::app) << "042,1,cc,left,,twelve" << std::string(34, ',') << "\n";
+  std::ofstream(path, std::ios::app) << "042,1,cc,left,,twelve" << std::string(35, ',') << "\n";
   try {
     read_lesion_table(path);
     FAIL();
