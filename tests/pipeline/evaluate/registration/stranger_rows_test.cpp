@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
+#include "tests/scratch_file.h"
+
 namespace mammotwin {
 namespace {
 
@@ -27,6 +31,18 @@ TEST(StrangersExams, AreOfTheBreastsEdgeAndOfEqualPixels) {
   ASSERT_EQ(right.size(), 1u);
   EXPECT_EQ(right[0].cc.file, "c2");
   EXPECT_EQ(right[0].mlo.file, "m1");
+}
+
+TEST(StrangerRows, SayWhyABreastCouldNotBePressed) {
+  RealBreast breast;
+  breast.name = "nobody", breast.image = "/nowhere/labels.nii.gz";
+  std::vector<nlohmann::json> rows;
+  add_stranger_rows(breast, {StrangersExam{}}, scratch_file("nobody"),
+                    [&](const nlohmann::json& row) { rows.push_back(row); });
+  ASSERT_EQ(rows.size(), 1u) << "no exam is tried";
+  EXPECT_EQ(rows[0].at("name"), "nobody");
+  const std::string reason = rows[0].at("reason");
+  EXPECT_NE(reason.find("/nowhere/labels.nii.gz"), std::string::npos) << reason;
 }
 
 }  // namespace
