@@ -14,7 +14,7 @@ const double kNinety = semi_axis_in_sd(0.9);
 // Independent pieces of pattern are kPatternPiece_mm wide: that is pi l^2 for this autocorrelation.
 const double kPatternLength_mm = kPatternPiece_mm / std::sqrt(M_PI);
 
-constexpr double kInPlace = 0.97;
+constexpr double kInPlace = 0.95;
 const double kExplained = std::sqrt(2 * std::log(20));  // sds that hold 95 % in the plane
 
 double root_beyond(double squared, double expected) {

@@ -21,9 +21,9 @@ struct ModelDiscrepancy {
   double nipple_mm = 0;
   /// Errors of sd e each way smear a pattern whose autocorrelation is exp(-d^2 / (2 l^2)) to a
   /// correlation c0 / (1 + e^2 / l^2), c0 being that of the same breast in place: e = l sqrt(c0 / c
-  /// - 1). 0.97: chosen on drawn patients with even numbers, of another tissue, so that the
-  /// ellipses of both kinds hold about the marks that they should (docs/theory.md); of them the
-  /// best correlate by 0.96. Without a pattern to compare, kUncorrectedSd_mm.
+  /// - 1), none above c0. 0.95: chosen on drawn patients with even numbers, of another tissue, so
+  /// that the ellipses of both kinds hold about the marks that they should (docs/theory.md); of
+  /// them the best correlate by 0.96. Without a pattern to compare, kUncorrectedSd_mm.
   double pattern_mm = 0;
   /// How much further the views, each searched alone, put tissue from where both put it than their
   /// covariances say.

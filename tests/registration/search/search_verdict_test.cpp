@@ -246,10 +246,10 @@ TEST(ModelDiscrepancy, GrowsAsThePatternFades) {
   MatchFigures left = good();
   left.pattern_correlation = 0.98;
   EXPECT_EQ(model_discrepancy(left).pattern_mm, 0);
-  left.pattern_correlation = 0.97 / 1.25;
+  left.pattern_correlation = 0.95 / 1.25;
   EXPECT_NEAR(model_discrepancy(left).pattern_mm, 15 / std::sqrt(M_PI) / 2, 1e-9);
   left.pattern_correlation = -0.3;
-  EXPECT_NEAR(model_discrepancy(left).pattern_mm, 15 / std::sqrt(M_PI) * std::sqrt(0.97 / 0.6 - 1),
+  EXPECT_NEAR(model_discrepancy(left).pattern_mm, 15 / std::sqrt(M_PI) * std::sqrt(0.95 / 0.6 - 1),
               1e-9);
 }
 
