@@ -21,7 +21,7 @@ inline constexpr std::array<WhatIf, 4> kWhatIf = {
 struct WhatIfError {
   double best_mm, worst_mm;
 };
-inline constexpr WhatIfError kWhatIfMedian{0.3, 0.8}, kWhatIfP95{0.7, 1.6};
+inline constexpr WhatIfError kWhatIfMedian{0.3, 0.7}, kWhatIfP95{0.6, 1.7};
 inline constexpr int kWhatIfViews = 8;
 
 /// The ranges as a state; 0 for numbers that are not varied.

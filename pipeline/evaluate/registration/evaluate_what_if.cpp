@@ -39,7 +39,8 @@ bool is_run(const Arguments& args, const std::string& name, const std::string& v
 std::vector<nlohmann::json> rows_to_keep(const Arguments& args) {
   std::vector<nlohmann::json> kept;
   if (!fs::exists(args.table)) return kept;
-  for (const nlohmann::json& row : nlohmann::json::parse(std::ifstream(args.table)).at("cases"))
+  const nlohmann::json table = nlohmann::json::parse(std::ifstream(args.table));
+  for (const nlohmann::json& row : table.at("cases"))
     if (!is_run(args, row.at("name"), row.at("view"))) kept.push_back(row);
   return kept;
 }
