@@ -52,11 +52,12 @@ std::string PatientResults::not_registered(const std::string& view) const {
   if (!lesions || !lesions->contains("quality")) return "";
   const nlohmann::json search = lesions->at("quality").value("search", nlohmann::json());
   if (!search.is_object() || !search.contains(view)) return "";
-  const std::string unregistered = name_of(SearchEnd::no_registration);
-  if (search.at(view).value("end", "") != unregistered) return "";
-  const std::string reason = search.at(view).at("reasons").at(0), prefix = unregistered + ": ";
-  const std::size_t at = reason.find(prefix);
-  return at == std::string::npos ? reason : reason.substr(at + prefix.size());
+  const std::string end = name_of(SearchEnd::no_registration), prefix = end + ": ";
+  if (search.at(view).value("end", "") != end) return "";
+  for (const std::string& reason : search.at(view).value("reasons", std::vector<std::string>()))
+    if (const std::size_t at = reason.find(prefix); at != std::string::npos)
+      return reason.substr(at + prefix.size());
+  return "see the remarks";
 }
 
 }  // namespace mammotwin

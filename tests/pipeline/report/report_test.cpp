@@ -158,7 +158,9 @@ TEST(ReportPage, SaysInTheAnswerThatAMammogramIsNotRegistered) {
           {"cc", {{"end", "ok"}, {"reasons", nlohmann::json::array()}}},
           {"mlo",
            {{"end", "no registration"},
-            {"reasons", {"mlo: no registration: the patterns correlate by 0.2 only"}}}}};
+            {"reasons",
+             {"mlo: registered by outline alone",
+              "mlo: no registration: the patterns correlate by 0.2 only"}}}}};
   const std::string page = render_page(page_data(results, "0.1.0"));
   EXPECT_EQ(count(page, "Not registered with this mammogram: the patterns correlate by 0.2 only."),
             2u)
