@@ -95,6 +95,7 @@ json view_entry(const LesionRow& row, const PatientResults& results) {
           {"search", search},
           {"full", full},
           {"not_registered", results.not_registered(row.view)},
+          {"in_doubt", results.registered_in_doubt(row.view)},
           {"thickness", thickness_words(results.sidecar(row.view + ".vtu"))}};
 }
 

@@ -21,10 +21,11 @@ inline constexpr const char* kSupineWords =
     "32 women did.";
 
 /// The page's first words, in a report's language: a list of lesions, each {"lesion", "place",
-/// "views": [{"view", "where", "search", "full", "not_registered", "thickness"}], "supine",
-/// "supine_doubt"}. `full` is the ellipse on a mammogram that was not there to be searched, else
-/// empty; `not_registered` why the search left one that was; `thickness` says what was assumed of
-/// the view's, or is empty. Empty without rows of lesions.csv.
+/// "views": [{"view", "where", "search", "full", "not_registered", "in_doubt", "thickness"}],
+/// "supine", "supine_doubt"}. `full` is the ellipse on a mammogram that was not there to be
+/// searched, else empty; `not_registered` why the search left one that was, `in_doubt` why to look
+/// at one that it took; `thickness` says what was assumed of the view's, or is empty. Empty without
+/// rows of lesions.csv.
 nlohmann::json answer_data(const PatientResults& results);
 
 }  // namespace mammotwin

@@ -5,6 +5,24 @@
 #include "registration/search/search_verdict.h"
 
 namespace mammotwin {
+namespace {
+
+/// Of a view whose search ended so, what follows `prefix` in the first of its reasons that has it;
+/// empty where it ended otherwise.
+std::string first_reason(const PatientResults& results, const std::string& view, SearchEnd end,
+                         const std::string& prefix) {
+  const nlohmann::json* lesions = results.sidecar("lesions.csv");
+  if (!lesions || !lesions->contains("quality")) return "";
+  const nlohmann::json search = lesions->at("quality").value("search", nlohmann::json());
+  if (!search.is_object() || !search.contains(view)) return "";
+  if (search.at(view).value("end", "") != name_of(end)) return "";
+  for (const std::string& reason : search.at(view).value("reasons", std::vector<std::string>()))
+    if (const std::size_t at = reason.find(prefix); at != std::string::npos)
+      return reason.substr(at + prefix.size());
+  return "see the remarks";
+}
+
+}  // namespace
 
 std::string title_of_view(const std::string& name) {
   std::string title = name;
@@ -48,16 +66,12 @@ const nlohmann::json* PatientResults::sidecar(const std::string& product) const 
 }
 
 std::string PatientResults::not_registered(const std::string& view) const {
-  const nlohmann::json* lesions = sidecar("lesions.csv");
-  if (!lesions || !lesions->contains("quality")) return "";
-  const nlohmann::json search = lesions->at("quality").value("search", nlohmann::json());
-  if (!search.is_object() || !search.contains(view)) return "";
-  const std::string end = name_of(SearchEnd::no_registration), prefix = end + ": ";
-  if (search.at(view).value("end", "") != end) return "";
-  for (const std::string& reason : search.at(view).value("reasons", std::vector<std::string>()))
-    if (const std::size_t at = reason.find(prefix); at != std::string::npos)
-      return reason.substr(at + prefix.size());
-  return "see the remarks";
+  const std::string end = name_of(SearchEnd::no_registration);
+  return first_reason(*this, view, SearchEnd::no_registration, end + ": ");
+}
+
+std::string PatientResults::registered_in_doubt(const std::string& view) const {
+  return first_reason(*this, view, SearchEnd::look, view + ": ");
 }
 
 }  // namespace mammotwin

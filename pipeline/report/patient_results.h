@@ -62,6 +62,8 @@ struct PatientResults {
   const nlohmann::json* sidecar(const std::string& product) const;
   /// The first reason why a view's mammogram was not registered; empty where it was, or is none.
   std::string not_registered(const std::string& view) const;
+  /// The first reason why a view that was registered is to be looked at, else empty.
+  std::string registered_in_doubt(const std::string& view) const;
 };
 
 /// "cc" -> "CC", "mlo" -> "MLO", "mri" -> "MRI".

@@ -149,13 +149,13 @@ TEST(ReportPage, SaysBesideEveryEllipseHowFarItHasBeenChecked) {
   EXPECT_EQ(count(whole_page(), kAccuracyWords), 3u);  // and where there is no ellipse
 }
 
-TEST(ReportPage, SaysInTheAnswerThatAMammogramIsNotRegistered) {
+TEST(ReportPage, SaysInTheAnswerThatAMammogramIsNotRegisteredOrInDoubt) {
   PatientResults results = fake_results(Side::left);
   EXPECT_EQ(whole_page().find("Not registered with this mammogram"), std::string::npos);
   for (StageRecord& stage : results.stages)
     if (stage.product == "lesions.csv")
       stage.sidecar["quality"]["search"] = {
-          {"cc", {{"end", "ok"}, {"reasons", nlohmann::json::array()}}},
+          {"cc", {{"end", "look"}, {"reasons", {"cc: by outline alone; nothing else says so"}}}},
           {"mlo",
            {{"end", "no registration"},
             {"reasons",
@@ -165,6 +165,7 @@ TEST(ReportPage, SaysInTheAnswerThatAMammogramIsNotRegistered) {
   EXPECT_EQ(count(page, "Not registered with this mammogram: the patterns correlate by 0.2 only."),
             2u)
       << "once for each lesion, of MLO alone";
+  EXPECT_EQ(count(page, "Registered in doubt: by outline alone; nothing else says so."), 2u);
 }
 
 TEST(ReportPage, DoubtsASupinePlaceThatNoBreastReaches) {
