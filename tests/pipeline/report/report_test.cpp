@@ -165,7 +165,7 @@ TEST(ReportPage, SaysInTheAnswerThatAMammogramIsNotRegisteredOrInDoubt) {
   EXPECT_EQ(count(page, "Not registered with this mammogram: the patterns correlate by 0.2 only."),
             2u)
       << "once for each lesion, of MLO alone";
-  EXPECT_EQ(count(page, "Registered in doubt: by outline alone; nothing else says so."), 2u);
+  EXPECT_EQ(count(page, "In doubt: by outline alone; nothing else says so."), 2u);
 }
 
 TEST(ReportPage, DoubtsASupinePlaceThatNoBreastReaches) {
