@@ -120,7 +120,7 @@ help:
 	@echo 'make test              all tests'
 	@echo 'make clean             removes build/ (results stay)'
 	@echo
-	@echo 'KEEP=1                 of evaluate-compression, -stability and -gravity: rows of other breasts stay, so that'
+	@echo 'KEEP=1                 of evaluate-compression, -stability, -gravity and -strangers: rows of other breasts stay, so that'
 	@echo '                       a table can be made in parts (FIRST=40 SYNTHETIC=20: drawn breasts 40 to 59)'
 	@echo 'DATA=folder            of patient folders (default sample_data)'
 	@echo 'RESULTS=folder         where results go (default results)'
@@ -209,7 +209,7 @@ evaluate-real-pairs: mammotwin-evaluate-real-pairs
 
 evaluate-strangers: mammotwin-evaluate-strangers
 	@"$$BIN/mammotwin-evaluate-strangers" "$$CASES" "$$RESULTS/evaluation/strangers.json" \
-	  $${ONLY:+--only $$ONLY} $${EXAMS:+--exams "$$EXAMS"} $${JOBS:+--jobs "$$JOBS"}
+	  $${ONLY:+--only $$ONLY} $${EXAMS:+--exams "$$EXAMS"} $${JOBS:+--jobs "$$JOBS"} $${KEEP:+--keep}
 
 evaluate-what-if: mammotwin-evaluate-what-if
 	@"$$BIN/mammotwin-evaluate-what-if" sample_data/042/patient.toml "$$CASES" "$$RESULTS/evaluation/what_if.json" \

@@ -100,7 +100,7 @@ void add_stranger_rows(const RealBreast& breast, const std::vector<StrangersExam
   BreastToPress pressed;
   try {
     pressed = pressed_in(breast, folder);
-  } catch (const std::runtime_error& error) {
+  } catch (const std::exception& error) {
     return failed(error, about);
   }
   for (std::size_t n = 0; n < exams.size(); ++n) {
@@ -113,7 +113,7 @@ void add_stranger_rows(const RealBreast& breast, const std::vector<StrangersExam
         row.update(view_row(*mammogram, said));
         add(row);
       }
-    } catch (const std::runtime_error& error) {
+    } catch (const std::exception& error) {
       failed(error, row);
     }
   }
